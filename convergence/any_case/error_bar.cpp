@@ -1,5 +1,7 @@
 #include "convergence/any_case/error_bar.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -61,8 +63,11 @@ std::string why_not_asymptotic(const std::vector<double>& orders, double formal)
     if (std::abs(last - formal) <= same_order) return "";
     return "three levels give one order, and it is not the method's own";
   }
-  if (std::abs(last - orders[orders.size() - 2]) <= same_order) return "";
-  return "the order still changes from level to level";
+  if (!(std::abs(last - orders[orders.size() - 2]) <= same_order))
+    return "the order still changes from level to level";
+  if (formal - last > far_below_formal)
+    return fmt::format("settled at order {:.2g}, not at the formal {:g}", last, formal);
+  return "";
 }
 
 /// The bar of a ladder that has an order. A difference smaller than the highest order that is

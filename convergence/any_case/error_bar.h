@@ -43,14 +43,18 @@ constexpr double same_order = 0.2;
 /// Observed order below which differences are said not to fall [1].
 constexpr double least_order = 0.5;
 
+/// An order that has settled further than this below the formal one is of another error than the
+/// method's: of a kink, a limit, or a point that holds a membrane [1].
+constexpr double far_below_formal = 0.5;
+
 /// So many floors are the least difference that an order is read from: a floor then changes the
 /// order of a ratio of 2 by 0.3 at most [1].
 constexpr double floors_for_order = 10;
 
 /// Reads a ladder of n >= 3 levels. Orders are
 ///   p_k = log(d_k / d_(k+1)) / log ratio,  d_k = f_(k+1) - f_k,  none where d changes sign.
-/// The range is asymptotic if the last two orders agree within same_order and are at least
-/// least_order; with three levels, if the only one agrees with the formal order. The error
+/// The range is asymptotic if the last two orders agree within same_order and the last one is not
+/// far_below_formal; with three levels, if the only one agrees with the formal order. The error
 /// bar is the grid convergence index (Roache 1994; Celik et al., J. Fluids Eng. 130 (2008)
 /// 078001, their eq. 7),
 ///   safety * d / (ratio^p - 1),  p = min(p_last, highest),

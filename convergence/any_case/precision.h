@@ -36,7 +36,7 @@ PrecisionPlan precision_plan(const Case& input_case, std::vector<std::string> me
 using TrialRuns = std::map<std::string, std::map<int, TrialRun>>;
 
 /// One method's best estimate of the positions: its finest run, or Richardson's extrapolation of
-/// its last two where their order has settled.
+/// its last two where their order is asymptotic.
 struct Opinion {
   std::string method;
   int parts = 0;

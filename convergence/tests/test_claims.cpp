@@ -70,13 +70,23 @@ TEST_CASE("every claim names the paragraph and the first words of the paper's se
   }
 }
 
-TEST_CASE(
-    "a claim is confirmed when all that it needs holds and nothing limits or contradicts it") {
-  CHECK(with(holds, holds, fails, fails) == Ruling::confirmed);
+TEST_CASE("a claim is confirmed when all its findings hold and all support it") {
+  const std::vector<Decider> deciders = {{"support", Role::supports}, {"another", Role::supports}};
+  CHECK(ruling(deciders, {finding("support", holds), finding("another", holds)}) ==
+        Ruling::confirmed);
 }
 
-TEST_CASE("a limit that holds makes a confirmed claim conditional") {
-  CHECK(with(holds, holds, holds, fails) == Ruling::conditional);
+TEST_CASE("a limit that holds makes a claim conditional; one that fails does not confirm it") {
+  const std::vector<Decider> deciders = {{"support", Role::supports}, {"limit", Role::limits}};
+  CHECK(ruling(deciders, {finding("support", holds), finding("limit", holds)}) ==
+        Ruling::conditional);
+  CHECK(ruling(deciders, {finding("support", holds), finding("limit", fails)}) ==
+        Ruling::undecided);
+}
+
+TEST_CASE("a contradiction that fails leaves a claim undecided: it does not confirm it") {
+  for (const Outcome limit : {holds, fails})
+    CHECK(with(holds, holds, limit, fails) == Ruling::undecided);
 }
 
 TEST_CASE("a contradiction that holds refutes, whatever else holds or fails") {
@@ -103,17 +113,16 @@ TEST_CASE("a finding that says nothing, in any role, leaves a claim undecided") 
   }
   CHECK(ruling(all_roles, {finding("support", holds), finding("another", holds),
                            finding("limit", fails)}) == Ruling::undecided);
+  const std::vector<Decider> conditional = {{"support", Role::supports}, {"limit", Role::limits}};
+  CHECK(ruling(conditional, {finding("support", holds)}) == Ruling::undecided);
 }
 
-TEST_CASE(
-    "a finding that failed without a number has said nothing: it cannot clear a claim of a "
-    "contradiction") {
+TEST_CASE("a finding without a number has said nothing: the rest does not refute either") {
   const std::vector<Decider> deciders = {{"support", Role::supports},
                                          {"contra", Role::contradicts}};
-  CHECK(ruling(deciders, {finding("support", holds), finding("contra", fails, not_a_number)}) ==
+  CHECK(ruling(deciders, {finding("support", fails, not_a_number), finding("contra", holds)}) ==
         Ruling::undecided);
-  CHECK(ruling(deciders, {finding("support", holds), finding("contra", fails)}) ==
-        Ruling::confirmed);
+  CHECK(ruling(deciders, {finding("support", fails), finding("contra", holds)}) == Ruling::refuted);
 }
 
 TEST_CASE("without support nothing is confirmed") {

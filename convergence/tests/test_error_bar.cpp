@@ -123,6 +123,25 @@ TEST_CASE("without agreement of orders the bar is wide and of first order at mos
   CHECK(bar.half_width == Approx(3 * 0.25));
 }
 
+TEST_CASE("an order that settles far below the method's is not asymptotic") {
+  // of a membrane held at points: 0.75, 0.72 where 2 is the formal order
+  const ErrorBar held = error_bar({{}, {1, std::pow(2, -0.75), std::pow(2, -1.47)}, 2, 2, 0});
+  CHECK(held.reading == Reading::not_asymptotic);
+  CHECK(held.reason == "settled at order 0.72, not at the formal 2");
+  CHECK(held.order == Approx(0.72));
+  CHECK(held.safety == 3);
+  // the order fell by 0.03 and is taken to fall once more
+  CHECK(held.half_width == Approx(3 * std::pow(2, -1.47) / (std::pow(2, 0.69) - 1)));
+  for (const double formal : {1.0, 1.2})
+    CHECK(error_bar({{}, {1, std::pow(2, -0.75), std::pow(2, -1.47)}, 2, formal, 0}).reading ==
+          Reading::asymptotic);
+  // half an order below is near enough, as is any order above
+  CHECK(bar_of(ladder_of([](double h) { return std::pow(h, 1.51); }, 4), 2).reading ==
+        Reading::asymptotic);
+  CHECK(bar_of(ladder_of([](double h) { return std::pow(h, 1.49); }, 4), 2).reading ==
+        Reading::not_asymptotic);
+}
+
 TEST_CASE("three levels are asymptotic only with the method's own order") {
   CHECK(error_bar({{}, {1, 0.25}, 2, 2, 0}).reading == Reading::asymptotic);
   const ErrorBar first = error_bar({{}, {1, 0.5}, 2, 2, 0});

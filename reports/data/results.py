@@ -43,6 +43,9 @@ class Finding:
     better: str        # "higher" | "lower" for "bench", else ""
     faults: list[str]
     evidence: list[Column]
+    basis: str = ""      # of the bound: "reasoned" | "empirical"; "" in files that do not hold it, as the next two
+    scope: str = ""      # "specific" | "generic" | "structural"
+    certainty: str = ""  # "estimated" | "counted" | "within bound" | "computed" | "timed once" | "structural"
 
 
 @dataclass
@@ -307,7 +310,7 @@ def case_entry_of_file(path: Path) -> CaseEntry | None:
 def _finding(name: str, group: h5py.Group) -> Finding:
     attributes = attributes_of(group)
     texts = {key: text_of(attributes, key) for key in
-             ("kind", "study", "claim", "source", "unit", "why_bound", "outcome", "note", "better")}
+             ("kind", "study", "claim", "source", "unit", "why_bound", "outcome", "note", "better", "basis", "scope", "certainty")}
     numbers = {key: number_of(attributes, key) for key in ("measured", "bound", "uncertainty", "seconds")}
     return Finding(name=name, **texts, **numbers, faults=texts_of(attributes, "faults"),
                    evidence=columns_of(group.get("evidence")))

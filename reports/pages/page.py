@@ -4,7 +4,7 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import isnan, log10
 from pathlib import Path
 from typing import Any
@@ -17,12 +17,16 @@ from data.results import Case, CaseEntry, Column, Fault, Finding, Run, Study
 from pages import ledger
 from pages.answers import cheapest_of
 from pages.compare import Comparison
+from pages.conclusions import Results
 from pages.figure_words import figure_keys, figure_notes, order_table
 from pages.hard_cases import STUDIES as HARD_STUDIES, CaseFindings, is_of_case
 from pages.kill_matrix import Mutation, kill_tables
 from pages.ledger import ClaimView
 from pages.needs import Needs
-from pages.trust import Coverage, Tolerances, Variants
+from pages.sentences import Piece, html_of
+from pages.summary import Judged, Summary, since_last, summary_of
+from pages.summary_markdown import count_words
+from pages.trust import Coverage, Kinds, Tolerances, Variants
 from pictures.case_pictures import PictureRow, length_text
 from plots.map_plots import map_notes
 from plots.plot_style import Plot
@@ -35,7 +39,8 @@ WHOLE_TABLE, WHOLE_STUDY_TABLE = 12, 60   # rows; longer tables show FIRST_ROWS 
 FIRST_ROWS, LAST_ROWS = 7, 3
 FIRST_STUDIES = ("work-precision", "stability-oscillator", "stability-sheet", "variable-step-stability")
 MOST_OPEN = 5                       # findings that do not plainly hold, on the first screen
-STYLES = ("pages/style.css", "viewer/view.css", "pages/opening.css", "pages/print.css")
+STYLES = ("pages/style.css", "viewer/view.css", "pages/opening.css", "pages/print.css", "pages/summary.css")
+MOST_WORDS = 450                    # of the page of verdict: two minutes
 MARGIN_DECADES = (-4.0, 1.0)        # log10(measured / bound) at the ends of the margin bar
 
 
@@ -76,6 +81,7 @@ class Page:
     bench_provenance: dict[str, Any]
     faults: list[Fault]
     tolerances: Tolerances
+    kinds: Kinds
     case_findings: list[CaseFindings] = field(default_factory=list)
     hard_findings: list[CaseFindings] = field(default_factory=list)   # of cases/hard
     coverage: Coverage | None = None
@@ -109,8 +115,8 @@ class Page:
         return self.checks + of_studies + self.other_findings + of_cases + self.rates
 
 
-def render(page: Page) -> str:
-    """The whole report as one HTML text."""
+def render(page: Page, since: list[Piece] | None = None) -> str:
+    """The whole report as one HTML text; `since` says what changed from the run before."""
     environment = new_environment()
     environment.globals.update(
         keys=figure_keys, notes=figure_notes, map_notes=map_notes, orders=order_table, table=select_rows, groups=group_by_prefix,
@@ -123,7 +129,20 @@ def render(page: Page) -> str:
         program=program_of(page),
         of_case={finding.name: case for case in page.case_findings + page.hard_findings
                  for finding in case.findings}.get)
-    return environment.get_template("page.html.j2").render(page=page, said=page.provenance)
+    return environment.get_template("page.html.j2").render(page=page, said=page.provenance,
+                                                           summary=summary_of_page(page, since, environment))
+
+
+def summary_of_page(page: Page, since: list[Piece] | None, environment: Environment) -> Summary:
+    """The page of verdict, with anchors as in the environment's other templates."""
+    findings = [finding for finding in page.all_findings() if finding.kind != "bench"]
+    studies = [view.study for view in page.studies]
+    judged = Judged(
+        provenance=page.provenance, findings=findings, studies=len(studies), faults=page.faults,
+        tolerances=page.tolerances, results=Results(findings, studies, page.claims, environment.globals["anchor"]),
+        since=since if since is not None else since_last(None, None, str), alone=page.alone)
+    whole = summary_of(judged)
+    return whole if count_words(whole) <= MOST_WORDS else summary_of(replace(judged, is_brief=True))
 
 
 def program_of(page: Page) -> str:
@@ -154,7 +173,7 @@ def new_environment() -> Environment:
     environment = Environment(loader=FileSystemLoader(TEMPLATES), autoescape=True, undefined=StrictUndefined,
                               trim_blocks=True, lstrip_blocks=True)
     environment.filters.update(number=quantities.number_html, known=quantities.known_html, unit=quantities.unit_text,
-                               seconds=quantities.seconds_html, bar_length=length_text)
+                               seconds=quantities.seconds_html, bar_length=length_text, sentence=html_of)
     environment.globals.update(
         quantity=quantities.quantity_html, ratio=quantities.ratio_of, isnan=isnan, anchor=Anchors().of,
         outcome_class=outcome_class, counts=count_outcomes, style=Markup(_text_of(*STYLES)), script=Markup(_text_of("pages/filter.js")))

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import json
+from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
 from math import isfinite
@@ -10,6 +11,7 @@ from pathlib import Path
 from data.results import Finding
 from data.unreadable import reading
 
+JUDGED = ("holds", "fails", "inconclusive")
 TIGHTEST = 10     # findings shown unasked
 
 
@@ -79,9 +81,32 @@ class Variants:
         return sum(len(run.alarms) for run in self.runs)
 
 
+@dataclass
+class Kinds:
+    """How many of the judged findings bear each label that the program gave."""
+    scopes: list[tuple[str, int]]
+    certainties: list[tuple[str, int]]
+    empirical: list[Finding]   # bounds that were measured
+    judged: int
+
+    def empirical_percent(self) -> float:
+        return 100 * len(self.empirical) / self.judged if self.judged else 0.0
+
+
+def kinds_of(findings: Iterable[Finding]) -> Kinds:
+    """Labels of all findings that were judged against a bound; those of old files have none."""
+    judged = [finding for finding in findings if finding.outcome in JUDGED]
+    return Kinds(_counts(finding.scope for finding in judged), _counts(finding.certainty for finding in judged),
+                 [finding for finding in judged if finding.basis == "empirical"], len(judged))
+
+
+def _counts(labels: Iterable[str]) -> list[tuple[str, int]]:
+    return [(label, count) for label, count in Counter(labels).most_common() if label]
+
+
 def tolerances_of(findings: Iterable[Finding]) -> Tolerances:
     """All findings that were judged against a bound."""
-    judged = [finding for finding in findings if finding.outcome in ("holds", "fails", "inconclusive")]
+    judged = [finding for finding in findings if finding.outcome in JUDGED]
     ranked = [Tolerance(finding, used) for finding in judged if isfinite(used := used_share(finding))]
     ranked.sort(key=lambda entry: -entry.used)
     others = [finding for finding in judged if finding.bound <= 0]

@@ -24,7 +24,7 @@ from data.results import load_case, load_run  # noqa: E402
 from data.unreadable import Unreadable  # noqa: E402
 from make_report import make_report, read_folder  # noqa: E402
 from pages.page import Anchors  # noqa: E402
-from pages.trust import tolerances_of  # noqa: E402
+from pages.trust import kinds_of, tolerances_of  # noqa: E402
 from tests.made_up_run import HOSTILE, NAMES, TEXT, put, put_case, put_finding, put_run, put_study  # noqa: E402
 
 
@@ -280,6 +280,21 @@ class PartsMissing(unittest.TestCase):
         self.assertTrue(all(entry.finding.outcome != "measured" for entry in ranked))
         self.assertNotIn(NAMES[1], [entry.finding.name for entry in ranked])  # NaN has no margin
 
+    def test_labels_are_counted_and_empirical_bounds_listed(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            root = Path(folder)
+            with h5py.File(root / "run.h5", "w") as file:
+                put_finding(file, 0, "case.a.runs-to-its-end", "check", scope="generic", certainty="counted", basis="reasoned")
+                put_finding(file, 1, "b.c", "check", scope="specific", certainty="computed", basis="empirical", why_bound="empirical: seen")
+                put_finding(file, 2, "d.e", "bench", outcome="measured", scope="specific", certainty="timed once", basis="empirical")
+                put_finding(file, 3, "f.g", "check", scope="specific", certainty="computed", basis="reasoned")
+            kinds = kinds_of(load_run(root / "run.h5").findings)
+        self.assertEqual(kinds.judged, 3)
+        self.assertEqual(kinds.scopes, [("specific", 2), ("generic", 1)])
+        self.assertEqual(kinds.certainties, [("computed", 2), ("counted", 1)])
+        self.assertEqual([finding.name for finding in kinds.empirical], ["b.c"])
+        self.assertAlmostEqual(kinds.empirical_percent(), 100 / 3)
+
     def put_outcomes(self) -> None:
         """Outcomes as scripts/faults and scripts/mutate write them."""
         said = [dict(name=NAMES[0], outcome="fails", measured=3.0, bound=0.5, margin=6.0),
@@ -376,8 +391,8 @@ class PartsMissing(unittest.TestCase):
 
 
 def load_tests(loader: unittest.TestLoader, tests: unittest.TestSuite, _: str | None) -> unittest.TestSuite:
-    """This file's tests, and those of the page, of runs compared, of what scenes need, of the pieces, and of what other programs get."""
-    tests.addTests(loader.loadTestsFromNames([f"tests.test_{name}" for name in ("page", "compare", "history", "needs", "pieces", "results")]))
+    """This file's tests, and those of the page, of runs compared, of what scenes need, of the pieces, of the page of verdict, and of what other programs get."""
+    tests.addTests(loader.loadTestsFromNames([f"tests.test_{name}" for name in ("page", "compare", "history", "needs", "pieces", "results", "summary")]))
     return tests
 
 

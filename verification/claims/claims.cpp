@@ -71,30 +71,33 @@ std::string_view name_of(Ruling ruling) {
 // A finding is held, failed (with numbers), or silent: missing from the run, inconclusive, not
 // applicable, or stopped by an error. The first row that fits decides.
 //
-//       | silent      | contradicts      | supports              | limits           | ruling      |
-//   |---|-------------|------------------|-----------------------|------------------|-------------|
-//   | 1 | one or more | any              | any                   | any              | undecided   |
-//   | 2 | none        | one or more held | any                   | any              | refuted     |
-//   | 3 | none        | none held        | one or more failed,   | any              | undecided   |
-//   |   |             |                  |   or there is none    |                  |             |
-//   | 4 | none        | none held        | all held              | one or more held | conditional |
-//   | 5 | none        | none held        | all held              | none held        | confirmed   |
+//       | silent      | contradicts      | any role    | supports  | limits    | ruling      |
+//   |---|-------------|------------------|-------------|-----------|-----------|-------------|
+//   | 1 | one or more | any              | any         | any       | any       | undecided   |
+//   | 2 | none        | one or more held | any         | any       | any       | refuted     |
+//   | 3 | none        | none held        | some failed | any       | any       | undecided   |
+//   | 4 | none        | there is none    | all held    | none      | any       | undecided   |
+//   | 5 | none        | there is none    | all held    | some held | some held | conditional |
+//   | 6 | none        | there is none    | all held    | some held | none      | confirmed   |
 //
 //   1: on part of the evidence nothing is ruled
 //   2: what a part refutes, the rest cannot save
-//   3: what the claim needs is not there; is the paper or the program wrong? no finding says
-//   5: contradictions and limits were sought, not found
+//   3: what the claim needs is not there, or what was recorded against it: is the paper or the
+//      program wrong? no finding says
 //
-// So a claim is refuted only by something found, never by something that is not found: a broken
-// program can lose a ruling, not make one.
+// So every ruling rests on findings that hold. A broken program can lose a ruling, not make one: a
+// limit or a contradiction that fails does not better a claim.
 Ruling ruling(const std::vector<Decider>& deciders, const std::vector<Record>& records) {
   const auto count = [&](Role role, Answer answer) {
     return count_of(deciders, records, role, answer);
   };
-  for (const Role role : {Role::supports, Role::limits, Role::contradicts})
-    if (count(role, Answer::silent) > 0) return Ruling::undecided;
+  const auto count_all = [&](Answer answer) {
+    return count(Role::supports, answer) + count(Role::limits, answer) +
+           count(Role::contradicts, answer);
+  };
+  if (count_all(Answer::silent) > 0) return Ruling::undecided;
   if (count(Role::contradicts, Answer::held) > 0) return Ruling::refuted;
-  if (count(Role::supports, Answer::failed) > 0) return Ruling::undecided;
+  if (count_all(Answer::failed) > 0) return Ruling::undecided;
   if (count(Role::supports, Answer::held) == 0) return Ruling::undecided;
   return count(Role::limits, Answer::held) > 0 ? Ruling::conditional : Ruling::confirmed;
 }

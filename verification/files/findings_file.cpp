@@ -1,6 +1,7 @@
 #include "verification/files/findings_file.h"
 
 #include "verification/files/hdf5_file.h"
+#include "verification/finding_kinds.h"
 
 namespace foldproof {
 
@@ -19,6 +20,9 @@ void write_record(const Hdf5& parent, const Record& record, int order) {
   here.attribute("uncertainty", verdict.uncertainty);
   here.attribute("unit", verdict.unit);
   here.attribute("why_bound", verdict.why_bound);
+  here.attribute("basis", std::string(has_empirical_bound(record) ? "empirical" : "reasoned"));
+  here.attribute("scope", std::string(name_of(scope_of(record))));
+  here.attribute("certainty", std::string(name_of(certainty_of(record))));
   here.attribute("outcome", std::string(outcome_text(record)));
   here.attribute("note", record.finding.note);
   here.attribute("seconds", record.seconds);

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "verification/files/atomic_file.h"
+#include "verification/finding_kinds.h"
 
 namespace foldproof {
 
@@ -27,6 +28,9 @@ nlohmann::json to_json(const Record& record) {
           {"bound", number(verdict.bound)},
           {"unit", verdict.unit},
           {"why_bound", verdict.why_bound},
+          {"basis", has_empirical_bound(record) ? "empirical" : "reasoned"},
+          {"scope", name_of(scope_of(record))},
+          {"certainty", name_of(certainty_of(record))},
           {"outcome", outcome_text(record)},
           {"note", record.finding.note},
           {"seconds", record.seconds},

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <set>
+#include <vector>
 
 #include "reference/dynamics/simulate.h"
 #include "reference/mesh/shapes.h"
@@ -37,14 +38,25 @@ double seconds_of(const std::function<void()>& run) {
   return processor_seconds() - start;
 }
 
-/// The least times of `repeats` runs of two things [s], taken in turns: what slows the machine
+/// Two times [s], and by what part of it the next shortest time of each was longer.
+struct LeastSeconds {
+  std::array<double, 2> seconds, spread;
+};
+
+/// The least times of `repeats` runs of two things, taken in turns: what slows the machine
 /// down slows both.
-std::array<double, 2> least_seconds(const std::function<void()>& one,
-                                    const std::function<void()>& other, int repeats) {
-  std::array<double, 2> least{INFINITY, INFINITY};
+LeastSeconds least_seconds(const std::function<void()>& one, const std::function<void()>& other,
+                           int repeats) {
+  std::array<std::vector<double>, 2> times;
   for (int k = 0; k < repeats; ++k) {
-    least[0] = std::min(least[0], seconds_of(one));
-    least[1] = std::min(least[1], seconds_of(other));
+    times[0].push_back(seconds_of(one));
+    times[1].push_back(seconds_of(other));
+  }
+  LeastSeconds least;
+  for (size_t k : {0, 1}) {
+    std::ranges::sort(times[k]);
+    least.seconds[k] = times[k][0];
+    least.spread[k] = times[k][1] / times[k][0] - 1;
   }
   return least;
 }
@@ -54,7 +66,7 @@ Finding time_finding(const Subject&) {
   Table times{{"particles", "1"},
               {"product with cached terms", "s"},
               {"product with terms computed anew", "s"}};
-  Worst worst;
+  Worst worst, uncertainty;
   for (int cells : {20, 40, 80}) {
     const Scene scene = waved_sheet(cells);
     const System system = build_system(scene);
@@ -62,18 +74,21 @@ Finding time_finding(const Subject&) {
     Work work;
     PerParticle3 f = PerParticle3::Zero(3, s.x.cols());
     const DampingOperator damping = damping_at(system.forces, s, work);
-    const auto [with, without] =
+    const LeastSeconds least =
         least_seconds([&] { damping.add_product(s.v, f); },
                       [&] { damping_at(system.forces, s, work).add_product(s.v, f); }, repeats);
+    const auto [with, without] = least.seconds;
     times.row(s.x.cols(), with, without);
     worst.observe(with / without);
+    uncertainty.observe(with / without * (least.spread[0] + least.spread[1]));
   }
-  return {{worst.value(), 0.5, 0, "1",
+  return {{worst.value(), 0.5, uncertainty.value(), "1",
            "half: less would make the cache not worth its memory from the second product of a "
            "solve on"},
           times,
           "the least times of 40 runs of each in turns, in processor time; a ratio, so that the "
-          "machine's speed and load matter little"};
+          "machine's speed and load matter little; the uncertainty is by how much the second "
+          "shortest time of each was longer"};
 }
 
 /// The 3 x 3 blocks of D on and above its diagonal that springs and hinges fill.

@@ -1,0 +1,56 @@
+// Labels of findings: derived from names, units and bounds, never from outcomes.
+#include <catch2/catch.hpp>
+#include <limits>
+#include <string>
+
+#include "verification/finding_kinds.h"
+
+using namespace foldproof;
+
+namespace {
+
+Record record_of(const std::string& name, const Verdict& verdict) {
+  return {name, "check", "", "A sentence.", "nowhere", {verdict, {}, ""}, {}, "", 0, {}};
+}
+
+Certainty certainty_with(const Verdict& verdict) {
+  return certainty_of(record_of("group.name", verdict));
+}
+
+}  // namespace
+
+TEST_CASE("what every case says is generic, what its own says is specific") {
+  const Verdict none{0, 0, 0, "pairs", ""};
+  for (const char* end : {"runs-to-its-end", "is-reproducible", "never-crosses-itself"})
+    CHECK(scope_of(record_of(std::string("case.robe.") + end, none)) == FindingScope::generic);
+  CHECK(scope_of(record_of("case.robe.stays-outside", none)) == FindingScope::specific);
+  CHECK(scope_of(record_of("group.is-reproducible", none)) == FindingScope::specific);
+  CHECK(scope_of(record_of("case.hinge.never-crosses-itself", none)) == FindingScope::structural);
+  CHECK(certainty_of(record_of("dynamics.solves-are-counted", none)) == Certainty::structural);
+}
+
+TEST_CASE("an uncertainty of zero says why it is zero") {
+  CHECK(certainty_with({3, 4, 0, "pairs", ""}) == Certainty::counted);
+  CHECK(certainty_with({0, 0, 0, "1", ""}) == Certainty::counted);
+  CHECK(certainty_with({1, 0, 0, "1", ""}) == Certainty::counted);  // it fails, and is as exact
+  CHECK(certainty_with({1.5, 4, 0, "particles short of 60", ""}) == Certainty::computed);
+  CHECK(certainty_with({1.5, 16, 0, "epsilon sum |F_i|", ""}) == Certainty::within_bound);
+  CHECK(certainty_with({0.9, 2, 0, "tolerances", ""}) == Certainty::within_bound);
+  CHECK(certainty_with({0.9, 3, 0, "standard errors", ""}) == Certainty::within_bound);
+  CHECK(certainty_with({0.02, 0.1, 0, "1", ""}) == Certainty::computed);
+  CHECK(certainty_with({0, 0.1, 0, "1", ""}) == Certainty::computed);
+  CHECK(certainty_with({0.02, 0.1, 1e-9, "1", ""}) == Certainty::estimated);
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  CHECK(certainty_with({none, none, none, "1", ""}) == Certainty::estimated);
+}
+
+TEST_CASE("a timing without a spread is told as one") {
+  const std::string name = "level-set-cache.loading-is-cheap";
+  CHECK(certainty_of(record_of(name, {0.09, 0.1, 0, "1", ""})) == Certainty::timed_once);
+  CHECK(certainty_of(record_of(name, {0.09, 0.1, 1e-3, "1", ""})) == Certainty::estimated);
+}
+
+TEST_CASE("a bound that was measured says so first") {
+  CHECK(has_empirical_bound(record_of("a.b", {0, 1, 0, "1", "empirical: measured 0.3"})));
+  CHECK_FALSE(has_empirical_bound(record_of("a.b", {0, 1, 0, "1", "derived: not empirical"})));
+}
