@@ -387,6 +387,7 @@ void add_pages(CLI::App& app, Options& options) {
       ->expected(1, 2);
   add_switch(report, "--summary", options.summary,
              "The verdict on one page instead: DIR/summary.html, .md and .pdf");
+  add_switch(report, "--site", options.site, "A folder of pages instead: DIR/report/index.html");
   add_switch(report, "--pdf", options.pdf, "Also DIR/report.pdf, printed by chromium");
   add_switch(report, "--papers", options.papers,
              "Figures and pictures also as PDF and PNG files, in DIR/figures");
