@@ -35,7 +35,7 @@ class Bullet(unittest.TestCase):
         self.assertEqual(smoke, {"holds"})
         applicable = [outcome for outcome in outcomes.values() if outcome in ("holds", "fails")]
         self.assertGreaterEqual(len(applicable), 0.6 * len(outcomes))
-        if judged["provenance"]["subject_version"] == RECORDED:
+        if run("dpkg-query", "-W", "-f", "${Version}", "libbullet-dev").stdout.startswith(f"{RECORDED}+"):
             self.assertEqual({name for name, outcome in outcomes.items() if outcome == "fails"}, failing)
 
     def test_the_adapters_keep_to_the_protocol(self) -> None:
