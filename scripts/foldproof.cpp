@@ -385,6 +385,9 @@ void add_pages(CLI::App& app, Options& options) {
   add_input(report, "DIR", options.names,
             "Folder with run.h5 or case files; two of them are compared")
       ->expected(1, 2);
+  add_switch(report, "--summary", options.summary,
+             "The verdict on one page instead: DIR/summary.html, .md and .pdf");
+  add_switch(report, "--site", options.site, "A folder of pages instead: DIR/report/index.html");
   add_switch(report, "--pdf", options.pdf, "Also DIR/report.pdf, printed by chromium");
   add_switch(report, "--papers", options.papers,
              "Figures and pictures also as PDF and PNG files, in DIR/figures");
@@ -542,6 +545,7 @@ void add_judge(CLI::App& app, Options& options) {
       ->check(some_text("a command"))
       ->required();
   judge->add_option("--name", options.name, "Name in the report (default: the solver's own)")
+      ->type_name("NAME")
       ->check(some_text("a name"));
   add_solver_options(judge, options);
   add_out_if_typed(judge, options,

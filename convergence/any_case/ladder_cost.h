@@ -1,4 +1,4 @@
-// What the levels of a ladder cost: of those that ran, and of those to come.
+// Costs of a ladder's levels: measured of those that ran, forecast of the others.
 #pragma once
 
 #include <limits>

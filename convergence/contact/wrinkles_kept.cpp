@@ -76,7 +76,7 @@ const std::string deviation_column = "deviation of depths that were inside",
                   share_column = "share of it that is left",
                   wavelength_column = "dominant wavelength";
 
-/// What became of the wrinkles, of points that began inside, over tau.
+/// Share of the wrinkles left, of points that began inside, over tau.
 Table measure_kept(const SunkCloth& cloth, const std::string& map,
                    const std::vector<double>& reaches) {
   Table kept{{"tau", "m"}, {deviation_column, "m"}, {share_column, "1"}, {wavelength_column, "m"}};

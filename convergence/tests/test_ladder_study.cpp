@@ -1,4 +1,4 @@
-// What `foldproof converge` hands to reports.
+// The study that `foldproof converge` writes for reports.
 #include <catch2/catch.hpp>
 
 #include "convergence/any_case/ladder_study.h"

@@ -73,15 +73,14 @@ json to_json(const QuantityOverLevels& q) {
 }  // namespace
 
 void print(const LadderAnswer& answer) {
+  const bool in_space = is_in_space(answer);
   print_head(answer);
-  fmt::print("\n{:<24} {:<10} {:<16} {:>12} {:>10} {:>10} {:>10}  {}\n", "quantity", "unit",
-             "order by pair", "limit", "+-", "as it is", is_in_space(answer) ? "steps" : "",
-             "reading");
+  fmt::print("\n{:<24} {:<10} {:<16} {:>12} {:>10} {:>10}{}  {}\n", "quantity", "unit",
+             "order by pair", "limit", "+-", "as it is", in_space ? "      steps" : "", "reading");
   for (const QuantityOverLevels& q : answer.quantities)
-    fmt::print("{:<24} {:<10} {:<16} {:>12} {:>10.2g} {:>10.2g} {:>10}  {}\n", q.name, q.unit,
+    fmt::print("{:<24} {:<10} {:<16} {:>12} {:>10.2g} {:>10.2g}{}  {}\n", q.name, q.unit,
                orders_in_words(q.bar), number(q.bar.limit), q.bar.half_width, q.first_error,
-               std::isnan(q.step_error) ? "" : fmt::format("{:.2g}", q.step_error),
-               reading_in_words(q.bar));
+               in_space ? fmt::format(" {:>10.2g}", q.step_error) : "", reading_in_words(q.bar));
   print_notes(answer);
 }
 

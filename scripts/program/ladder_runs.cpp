@@ -18,7 +18,7 @@ namespace {
 
 constexpr double seconds_worth_a_line = 20;
 
-/// What programs may still take without swapping, in bytes; no limit where no one says.
+/// Memory available without swapping [bytes]; no limit if the system does not tell.
 double available_memory() {
   std::ifstream file("/proc/meminfo");
   std::string name, rest;
@@ -92,7 +92,7 @@ void announce(const std::vector<LevelCost>& costs, size_t levels, int threads) {
                          duration_text(seconds), bytes / 1e9));
 }
 
-/// What the meshes cost, by runs of the two coarsest ones.
+/// Costs of all meshes, forecast from runs of the two coarsest ones.
 std::vector<LevelCost> probed_costs(const SpaceLadder& ladder, LadderRunner& runner,
                                     ProgressLine& line, double whole) {
   for (int k = 0; k < 2; ++k) {

@@ -19,7 +19,7 @@ struct TimedMesh {
   std::vector<Triangle> triangles;
 };
 
-/// What a frame's vertices have to do with the run's particles.
+/// How a frame's vertices are matched to the run's particles.
 enum class Matching {
   particles,  // as many, and the same triangles: vertex i is particle i
   surface     // another mesh of the cloth: nearest points of the surfaces are compared

@@ -1,4 +1,4 @@
-// What `foldproof compare` measures, on cloth whose distances, folds and depths are known.
+// Measures of `foldproof compare` on cloth of known distances, folds and depths.
 #include <catch2/catch.hpp>
 #include <cmath>
 

@@ -40,7 +40,7 @@ constexpr const char* report =
     R"(Needs the Debian packages python3-h5py, python3-matplotlib and python3-jinja2; --pdf also chromium.
 
 Examples:
-  foldproof report results --papers
+  foldproof report results --summary                   one page: what was tested, what holds
   foldproof report results mine                        what differs: mine/compare.html
 
 Exit codes:
@@ -249,9 +249,9 @@ predictable. Orders and bars are asked up to there only. Beyond it, --ensemble s
 over time of height, energies, contacts and fold angles, with their spread.
 
 The folder keeps every run: what was cut off goes on, and a second call runs only what is missing.
-The first two levels, run alone, show what the others cost; those that the memory or --hours does not
-allow are refused, and the levels that ran answer. Seconds are the processor's, of a run's own thread.
-DIR/converge.h5 is for `foldproof report DIR`.
+The two coarsest levels, run alone, show what the others cost; those that the memory or --hours
+does not allow are refused, and the levels that ran answer. Seconds are the processor's, of a run's
+own thread. DIR/converge.h5 is for `foldproof report DIR`.
 
 Examples:
   foldproof converge drape_sphere --ensemble 8 --method BDF2,C
@@ -282,9 +282,9 @@ Exit codes:
 
 constexpr const char* compare =
     R"(Frames with the run's vertices and triangles are compared vertex by vertex; other meshes by the
-nearest points of both surfaces. For each frame: distances, energies of stretching and bending by the
-run's forces, shares of fold angles, self-crossing pairs, and the depth in the run's objects. Between
-two frames of the run its cloth is interpolated from positions and velocities.
+nearest points of both surfaces. For each frame: distances, energies of stretching and bending by
+the run's forces, shares of fold angles, self-crossing pairs, and the depth in the run's objects.
+Between two frames of the run its cloth is interpolated from positions and velocities.
 
 Examples:
   foldproof compare results/grab.h5 captured --rate 60 --start 0.5

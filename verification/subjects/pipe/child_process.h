@@ -8,7 +8,7 @@
 
 namespace foldproof {
 
-/// What a solver may take before it is ended.
+/// Resources that a solver may use before it is ended.
 struct ProcessLimits {
   double seconds = 60;               // clock time without a word, per call [s]
   long processor_seconds = 3600;     // of the whole life [s]

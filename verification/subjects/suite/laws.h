@@ -25,7 +25,7 @@ std::vector<Law> symmetry_laws();  // translation, rotation, mirror, numbering
 std::vector<Law> repeat_laws();    // determinism, state, order, precision
 std::vector<Law> force_laws();     // level 2: sums, weight, energy
 
-/// What came of a trial.
+/// The outcome of a trial.
 struct Judgement {
   Declaration declaration;  // unset if the solver never started
   std::vector<std::pair<std::string, std::string>> mapping;
