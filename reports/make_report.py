@@ -169,7 +169,7 @@ def make_report(folder: Path, out: Path, figures: Path, for_papers: bool = False
 
 
 def make_page(folder: Path, figures: Path, for_papers: bool, shipped: Path) -> Page:
-    """All that the report of a folder shows, drawn."""
+    """The report of a folder, with its pictures and plots."""
     run, bench = read_folder(folder)
     beside = {"coverage": load_coverage(folder / "coverage.json"), "variants": load_variants(folder / "variants.json"),
               "mutation": load_mutation(folder / "mutation.json"), "unended": note_on_unfinished_run(folder / "verdicts.json"),

@@ -197,14 +197,8 @@ void add_ablate(CLI::App& app, Options& options) {
   add_json(ablate, options);
 }
 
-void add_converge(CLI::App& app, Options& options) {
-  CLI::App* converge = add_command(
-      app, options,
-      {"converge",
-       "How large are the errors of a case's step and mesh? Orders, limits and error bars",
-       help::converge},
-      ::foldproof::converge);
-  add_input(converge, "CASE", options.file, case_words);
+/// Options of the ladder: its direction, levels, methods and limits.
+void add_ladder(CLI::App* converge, Options& options) {
   converge
       ->add_option("--in", options.in,
                    "Refine time (the steps), space (the mesh), or both, one after the other")
@@ -236,6 +230,10 @@ void add_converge(CLI::App& app, Options& options) {
                    "Refuse levels that would make the whole call take longer than this [h]")
       ->type_name("H")
       ->check(positive_number());
+}
+
+/// Options of the disturbed runs.
+void add_twins(CLI::App* converge, Options& options) {
   converge
       ->add_option(
           "--fraction", options.fraction,
@@ -250,6 +248,18 @@ void add_converge(CLI::App& app, Options& options) {
       ->type_name("N")
       ->check(whole_number(0, 1000))
       ->capture_default_str();
+}
+
+void add_converge(CLI::App& app, Options& options) {
+  CLI::App* converge = add_command(
+      app, options,
+      {"converge",
+       "How large are the errors of a case's step and mesh? Orders, limits and error bars",
+       help::converge},
+      ::foldproof::converge);
+  add_input(converge, "CASE", options.file, case_words);
+  add_ladder(converge, options);
+  add_twins(converge, options);
   add_overrides(converge, options);
   add_folder(converge, options,
              "Folder whose store/ keeps every run; a second call runs only missing ones")
