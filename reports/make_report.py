@@ -40,7 +40,7 @@ from pages.ledger import claim_views  # noqa: E402
 from pages.needs import load_needs  # noqa: E402
 from pages.page import CaseView, Page, StudyView, faults_of, findings_by_section, render, render_comparison, render_site  # noqa: E402
 from pages.printed import print_page  # noqa: E402
-from pages.summary import since_last  # noqa: E402
+from pages.summary import REFERENCE, since_last  # noqa: E402
 from pages.summary_page import render_summary  # noqa: E402
 from pages.trust import kinds_of, load_coverage, load_variants, tolerances_of, note_on_unfinished_run  # noqa: E402
 from pictures.case_pictures import make_pictures  # noqa: E402
@@ -173,7 +173,7 @@ def make_page(folder: Path, figures: Path, for_papers: bool, shipped: Path) -> P
     run, bench = read_folder(folder)
     beside = {"coverage": load_coverage(folder / "coverage.json"), "variants": load_variants(folder / "variants.json"),
               "mutation": load_mutation(folder / "mutation.json"), "unended": note_on_unfinished_run(folder / "verdicts.json"),
-              "needs": load_needs(folder / "ablation.json", shipped if run.path else None)}
+              "needs": load_needs(folder / "ablation.json", shipped if run.path and run.provenance.get("subject", REFERENCE) == REFERENCE else None)}
     figures.mkdir(parents=True, exist_ok=True)
     return replace(draw(run, bench, figures, for_papers), **beside)
 
