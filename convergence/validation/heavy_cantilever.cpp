@@ -87,13 +87,13 @@ StudyResult run_heavy_cantilever(const Subject& subject, Tier tier, const Progre
   StudyResult result;
   Figure shapes{"shapes",
                 "A clamped strip under its own weight",
-                {"reach over L", "1", Scale::linear},
-                {"height over L", "1", Scale::linear},
+                {"reach", "L", Scale::linear},
+                {"height", "L", Scale::linear},
                 nan,
                 "Every fourth row of the finest mesh beside the elastica.",
                 {}};
   for (const Weight& weight : weights) {
-    const StripTest test{weight.name, "", {weight.gamma, 0, {}, 0}, 1};
+    const StripTest test{weight.name, "", "", {weight.gamma, 0, {}, 0}, 1};
     const StripLadder levels = strip_ladder(subject, test, panels_for(weight, tier));
     result.findings.push_back(tip_agrees(weight, levels));
     result.findings.push_back(shape_agrees(weight, levels));

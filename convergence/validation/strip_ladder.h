@@ -14,6 +14,7 @@ namespace foldproof {
 /// at `measured_at` (arc length over L) is above or below the first end, over L.
 struct StripTest {
   std::string name, words;
+  std::string kind;  // tests of a kind share a figure
   oracles::HeavyStrip strip;
   double measured_at;  // 1: the last end
 };

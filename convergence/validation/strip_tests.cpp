@@ -17,12 +17,12 @@ constexpr double resolution = 0.01;  // of the measured length [1]
 std::vector<StripTest> strip_tests() {
   const double down = -pi / 2, up = pi / 2;
   return {
-      {"heart-loop", "heart loop", {60, up, {{up - 3 * pi, 0, 0}}}, 0.5},
-      {"pear-loop", "pear loop", {200, down, {{down - pi, 0, 0}}}, 0.5},
-      {"hanging-ring", "hanging ring", {120, 0, {{-2 * pi, 0, 0}}}, 0.5},
-      {"standing-ring", "standing ring", {90, 0, {{2 * pi, 0, 0}}}, 0.5},
-      {"hanging-wrinkle", "hanging wrinkle", {150, 0, {{0, 0.8, 0}}, -1}, 0.5},
-      {"standing-wrinkle", "standing wrinkle", {80, 0, {{0, 0.8, 0}}, 1}, 0.5},
+      {"heart-loop", "heart loop", "loops", {60, up, {{up - 3 * pi, 0, 0}}}, 0.5},
+      {"pear-loop", "pear loop", "loops", {200, down, {{down - pi, 0, 0}}}, 0.5},
+      {"hanging-ring", "hanging ring", "rings", {120, 0, {{-2 * pi, 0, 0}}}, 0.5},
+      {"standing-ring", "standing ring", "rings", {90, 0, {{2 * pi, 0, 0}}}, 0.5},
+      {"hanging-wrinkle", "hanging wrinkle", "wrinkles", {150, 0, {{0, 0.8, 0}}, -1}, 0.5},
+      {"standing-wrinkle", "standing wrinkle", "wrinkles", {80, 0, {{0, 0.8, 0}}, 1}, 0.5},
   };
 }
 
@@ -69,41 +69,43 @@ NamedFinding order_of(const StripTest& test, const StripLadder& levels) {
           {verdict, std::move(evidence), ""}};
 }
 
-/// Heights over arc length: loops have several heights at a place across.
 void show(const StripTest& test, const StripLadder& levels, Figure& figure) {
   Curve elastica{test.words + ", elastica", {}, {}, nan, {}};
-  const std::vector<oracles::StripPoint>& curve = levels.elastica.points;
-  for (std::size_t i = 0; i < curve.size(); ++i)
-    elastica.point(double(i) / double(curve.size() - 1), curve[i].up);
+  for (const oracles::StripPoint& point : levels.elastica.points)
+    elastica.point(point.across, point.up);
   Curve simulated{test.words + ", simulated", {}, {}, nan, {}};
-  const double spacing = levels.levels.numbers(levels.levels.columns()[0].name).back();
   for (std::size_t i = 0; i + 1 < levels.points.size(); i += 4)
-    simulated.point((double(i) + 0.5) * spacing, levels.points[i].up);
+    simulated.point(levels.points[i].across, levels.points[i].up);
   figure.curves.push_back(elastica);
   figure.curves.push_back(simulated);
+}
+
+Figure shapes_of(const std::string& kind) {
+  return {
+      kind,
+      "Strips as a laboratory bends them: " + kind,
+      {"across from the first clamp", "L", Scale::linear},
+      {"height over the first clamp", "L", Scale::linear},
+      nan,
+      "Every fourth row of the finest mesh beside the elastica, to scale; L is the strip's length.",
+      {}};
 }
 
 StudyResult run_strip_tests(const Subject& subject, Tier tier, const Progress& progress) {
   const std::vector<int> panels =
       tier == Tier::full ? std::vector{16, 32, 64, 128} : std::vector{16, 32, 64};
   StudyResult result;
-  Figure shapes{"shapes",
-                "Strips as a laboratory bends them",
-                {"arc length from the clamp, over L", "1", Scale::linear},
-                {"height over L", "1", Scale::linear},
-                nan,
-                "Every fourth row of the finest mesh beside the elastica.",
-                {}};
   const std::vector<StripTest> tests = strip_tests();
   for (std::size_t i = 0; i < tests.size(); ++i) {
     const StripLadder levels = strip_ladder(subject, tests[i], panels);
     result.findings.push_back(height_agrees(tests[i], levels));
     result.findings.push_back(shape_agrees(tests[i], levels));
     result.findings.push_back(order_of(tests[i], levels));
-    show(tests[i], levels, shapes);
+    if (result.figures.empty() || result.figures.back().name != tests[i].kind)
+      result.figures.push_back(shapes_of(tests[i].kind));
+    show(tests[i], levels, result.figures.back());
     progress(double(i + 1) / double(tests.size()));
   }
-  result.figures.push_back(std::move(shapes));
   return result;
 }
 
