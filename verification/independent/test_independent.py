@@ -61,6 +61,14 @@ class IndependentTest(unittest.TestCase):
         for scheme in "ABC":
             self.agrees("led", {"time.integrator": scheme})
 
+    def test_bending_by_its_other_weights_and_rest_angles(self) -> None:
+        for key, value in (("weighting", "current"), ("damping_factor", "edge_squared_over_area"),
+                           ("rest_angle", "flat")):
+            self.agrees("flying", {f"bending.{key}": value})
+
+    def test_springs_of_scaled_rest_lengths(self) -> None:
+        self.agrees("springs", {"stretch.rest_length_scale": 0.93})
+
 
 if __name__ == "__main__":
     if OTHER:
