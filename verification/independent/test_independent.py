@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Tests that `foldproof simulate` and the program beside this file, which share no code, agree case by case.
+"""Tests that `foldproof simulate` and the program beside this file agree case by case.
 
 test_independent.py [--program FILE] [IndependentTest.test_...]      --program: another than build/foldproof
 """
