@@ -6,6 +6,7 @@
     reports/make_report.py results --out page.html --figures paper
     reports/make_report.py results --pdf                -> results/report.pdf too
     reports/make_report.py results --summary            -> results/summary.html, summary.md, summary.pdf: one page
+    reports/make_report.py results --site               -> results/report/index.html and its pages
     reports/make_report.py results mine                 -> mine/compare.html: what differs
     reports/make_report.py results mine --summary       -> mine/summary.*, with what changed since results
 """
@@ -24,7 +25,7 @@ from typing import Any
 
 sys.dont_write_bytecode = True
 
-from data.command_line import OneLineParser, require_modules, require_program  # noqa: E402
+from data.command_line import OneLineParser, refuse, require_modules, require_program  # noqa: E402
 
 require_modules("make_report", "numpy", "h5py", "matplotlib", "jinja2")
 from data.history import row_of  # noqa: E402
@@ -37,9 +38,9 @@ from pages.hard_cases import findings_by_case  # noqa: E402
 from pages.kill_matrix import load_mutation  # noqa: E402
 from pages.ledger import claim_views  # noqa: E402
 from pages.needs import load_needs  # noqa: E402
-from pages.page import CaseView, Page, StudyView, faults_of, findings_by_section, render, render_comparison  # noqa: E402
+from pages.page import CaseView, Page, StudyView, faults_of, findings_by_section, render, render_comparison, render_site  # noqa: E402
 from pages.printed import print_page  # noqa: E402
-from pages.summary import since_last  # noqa: E402
+from pages.summary import REFERENCE, since_last  # noqa: E402
 from pages.summary_page import render_summary  # noqa: E402
 from pages.trust import kinds_of, load_coverage, load_variants, tolerances_of, note_on_unfinished_run  # noqa: E402
 from pictures.case_pictures import make_pictures  # noqa: E402
@@ -62,12 +63,16 @@ Job = tuple[Callable[..., Any], tuple[Any, ...]]
 def main() -> int:
     """Returns 0 when the page is written, 2 when there is nothing to report on, or no browser to print with."""
     said = arguments()
+    if said.site and (said.other or said.pdf or said.out or said.summary):
+        refuse("make_report", "--site takes one folder, and neither --pdf, --out nor --summary; leave those out")
     if said.pdf:
         require_program("make_report", PACKAGE)
     try:
         if said.summary:
             outs = make_summary(said.other or said.dir, said.dir if said.other else None)
             return show_paths(outs)
+        if said.site:
+            return show_paths([make_site(said.dir, said.figures or said.dir / "figures", said.papers)])
         if said.other:
             out = compare_runs(said.dir, said.other, said.out)
         else:
@@ -104,6 +109,8 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--summary", action="store_true",
                         help="the verdict on one page instead: summary.html, summary.md and, where chromium is, "
                              "summary.pdf; of two runs that of OTHER, with what changed since DIR")
+    parser.add_argument("--site", action="store_true",
+                        help="a folder of pages instead, DIR/report/: index.html, a page for each topic, study and case")
     parser.add_argument("--pdf", action="store_true",
                         help="print the page too, beside it, as PDF; needs Debian's package chromium")
     return parser.parse_args()
@@ -138,19 +145,37 @@ def make_summary(folder: Path, earlier: Path | None) -> list[Path]:
     return outs
 
 
+def make_site(folder: Path, figures: Path, for_papers: bool = False, shipped: Path = SHIPPED_CASES) -> Path:
+    """As make_report, as the pages of the folder report/ in that folder, in place of those of an earlier report. Returns
+    its index."""
+    pages = render_site(make_page(folder, figures, for_papers, shipped))
+    out = folder / "report"
+    out.mkdir(parents=True, exist_ok=True)
+    for old in set(out.glob("*.html")) - {out / name for name in pages}:
+        old.unlink()
+    for name, text in pages.items():
+        write_whole(out / name, text.encode("utf-8"))
+    return out / "index.html"
+
+
 def make_report(folder: Path, out: Path, figures: Path, for_papers: bool = False, shipped: Path = SHIPPED_CASES) -> Path:
     """Reads the folder, draws, and writes the page; what is recorded of the cases in the folder `shipped` stands in the
     report of a run of the verification. Throws FileNotFoundError if the folder holds no results, Unreadable if a file
     in it is damaged."""
+    page = make_page(folder, figures, for_papers, shipped)
+    out.parent.mkdir(parents=True, exist_ok=True)
+    write_whole(out, render(page).encode("utf-8"))
+    return out
+
+
+def make_page(folder: Path, figures: Path, for_papers: bool, shipped: Path) -> Page:
+    """The report of a folder, with its pictures and plots."""
     run, bench = read_folder(folder)
     beside = {"coverage": load_coverage(folder / "coverage.json"), "variants": load_variants(folder / "variants.json"),
               "mutation": load_mutation(folder / "mutation.json"), "unended": note_on_unfinished_run(folder / "verdicts.json"),
-              "needs": load_needs(folder / "ablation.json", shipped if run.path else None)}
+              "needs": load_needs(folder / "ablation.json", shipped if run.path and run.provenance.get("subject", REFERENCE) == REFERENCE else None)}
     figures.mkdir(parents=True, exist_ok=True)
-    out.parent.mkdir(parents=True, exist_ok=True)
-    page = replace(draw(run, bench, figures, for_papers), **beside)
-    write_whole(out, render(page).encode("utf-8"))
-    return out
+    return replace(draw(run, bench, figures, for_papers), **beside)
 
 
 def read_folder(folder: Path) -> tuple[Run, Run | None]:

@@ -10,7 +10,7 @@ from pages.answers import cheapest_of
 from pages.ledger import ClaimView, count_rulings
 from pages.sentences import Conclusion, Number, Piece, Quoted, in_words
 
-MOST_REFUTED = 4           # claims that are told in full
+MOST_REFUTED = 4           # claims that are quoted
 
 
 class Results:

@@ -5,7 +5,7 @@ import re
 from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
-from math import isnan, log10
+from math import isnan
 from pathlib import Path
 from typing import Any
 
@@ -23,7 +23,9 @@ from pages.hard_cases import STUDIES as HARD_STUDIES, CaseFindings, is_of_case
 from pages.kill_matrix import Mutation, kill_tables
 from pages.ledger import ClaimView
 from pages.needs import Needs
+from pages.said import bound_html, measured_html, rule_html
 from pages.sentences import Piece, html_of
+from pages.site import Cuts, split
 from pages.summary import Judged, Summary, since_last, summary_of
 from pages.summary_markdown import count_words
 from pages.trust import Coverage, Kinds, Tolerances, Variants
@@ -39,9 +41,10 @@ WHOLE_TABLE, WHOLE_STUDY_TABLE = 12, 60   # rows; longer tables show FIRST_ROWS 
 FIRST_ROWS, LAST_ROWS = 7, 3
 FIRST_STUDIES = ("work-precision", "stability-oscillator", "stability-sheet", "variable-step-stability")
 MOST_OPEN = 5                       # findings that do not plainly hold, on the first screen
-STYLES = ("pages/style.css", "viewer/view.css", "pages/opening.css", "pages/print.css", "pages/summary.css")
+STYLES = ("pages/style.css", "viewer/view.css", "pages/opening.css", "pages/print.css", "pages/summary.css",
+          "pages/site.css")
 MOST_WORDS = 450                    # of the page of verdict: two minutes
-MARGIN_DECADES = (-4.0, 1.0)        # log10(measured / bound) at the ends of the margin bar
+BAR_END = 1.25                      # measured / bound at the end of the margin bar
 
 
 @dataclass
@@ -115,9 +118,17 @@ class Page:
         return self.checks + of_studies + self.other_findings + of_cases + self.rates
 
 
-def render(page: Page, since: list[Piece] | None = None) -> str:
-    """The whole report as one HTML text; `since` says what changed from the run before."""
+def render_site(page: Page) -> dict[str, str]:
+    """The whole report as pages: file names and HTML texts."""
+    cuts = Cuts(is_site=True)
+    return split(render(page, cuts=cuts), cuts, _viewer())
+
+
+def render(page: Page, since: list[Piece] | None = None, cuts: Cuts | None = None) -> str:
+    """The whole report as one HTML text; `since` says what changed from the run before, `cuts` take note of the pages
+    into which the text can be cut."""
     environment = new_environment()
+    environment.globals.update(cuts=cuts or Cuts(is_site=False))
     environment.globals.update(
         keys=figure_keys, notes=figure_notes, map_notes=map_notes, orders=order_table, table=select_rows, groups=group_by_prefix,
         margin=margin_percent, plain=all_hold, whole_study_table=WHOLE_STUDY_TABLE, whole_table=WHOLE_TABLE,
@@ -173,7 +184,8 @@ def new_environment() -> Environment:
     environment = Environment(loader=FileSystemLoader(TEMPLATES), autoescape=True, undefined=StrictUndefined,
                               trim_blocks=True, lstrip_blocks=True)
     environment.filters.update(number=quantities.number_html, known=quantities.known_html, unit=quantities.unit_text,
-                               seconds=quantities.seconds_html, bar_length=length_text, sentence=html_of)
+                               seconds=quantities.seconds_html, bar_length=length_text, sentence=html_of, measured=measured_html, bound=bound_html,
+                               rule=rule_html)
     environment.globals.update(
         quantity=quantities.quantity_html, ratio=quantities.ratio_of, isnan=isnan, anchor=Anchors().of,
         outcome_class=outcome_class, counts=count_outcomes, style=Markup(_text_of(*STYLES)), script=Markup(_text_of("pages/filter.js")))
@@ -248,12 +260,10 @@ def group_by_prefix(findings: Iterable[Finding]) -> list[tuple[str, list[Finding
 
 
 def margin_percent(finding: Finding) -> float | None:
-    """Length of the margin bar in percent, on a logarithmic scale; None where measured/bound says nothing."""
+    """Length of the margin bar in percent: measured / bound, on a scale from zero to BAR_END; None where that says
+    nothing."""
     ratio = quantities.ratio_of(finding.measured, finding.bound)
-    if isnan(ratio):
-        return None
-    low, high = MARGIN_DECADES
-    return 100.0 * min(max((log10(max(ratio, 1e-300)) - low) / (high - low), 0.0), 1.0)
+    return None if isnan(ratio) else 100.0 * min(ratio / BAR_END, 1.0)
 
 
 @dataclass

@@ -119,8 +119,8 @@ def _scope(judged: Judged) -> list[Piece]:
     if judged.provenance.get("subject") == REFERENCE:
         return ["Tells whether the program does what the paper describes, and where the method errs; not whether real "
                 "cloth moves so, nor whether your solver is right: ask ", Quoted("foldproof judge", "command", is_name=True), "."]
-    return ["Tells whether this solver gives the paper's forces, steps and contacts where it offers them; not whether "
-            "real cloth moves so."]
+    return ["Tells whether this solver meets laws that any cloth solver must meet, where its adapter offers what they "
+            "need; not whether real cloth moves so."]
 
 
 def _limits(judged: Judged) -> list[list[Piece]]:
@@ -135,10 +135,10 @@ def _limits(judged: Judged) -> list[list[Piece]]:
         last, particles = ([float(row[key]) for row in ends] for key in ("end", "particles"))
         limits.append(["Integrators were priced on at most ", Number(max(last), "s", source), " and ",
                        Number(max(particles), "1", source), " particles; others may rank them differently."])
-    if judged.provenance.get("tier") == "quick":
-        limits.append(["The longest cases and finest meshes need ",
-                       Quoted("verify --tier full", "command", is_name=True), "."])
     if judged.provenance.get("subject") == REFERENCE:
+        if judged.provenance.get("tier") == "quick":
+            limits.append(["The longest cases and finest meshes need ",
+                           Quoted("verify --tier full", "command", is_name=True), "."])
         limits.append(["Not modelled: air drag, several fabrics in one case."])
     return limits
 
