@@ -5,7 +5,10 @@
     reports/make_report.py results --papers           -> its figures as PDF and PNG too, and the pictures of cases
     reports/make_report.py results --out page.html --figures paper
     reports/make_report.py results --pdf                -> results/report.pdf too
+    reports/make_report.py results --summary            -> results/summary.html, summary.md, summary.pdf: one page
+    reports/make_report.py results --site               -> results/report/index.html and its pages
     reports/make_report.py results mine                 -> mine/compare.html: what differs
+    reports/make_report.py results mine --summary       -> mine/summary.*, with what changed since results
 """
 from __future__ import annotations
 
@@ -22,9 +25,10 @@ from typing import Any
 
 sys.dont_write_bytecode = True
 
-from data.command_line import OneLineParser, require_modules, require_program  # noqa: E402
+from data.command_line import OneLineParser, refuse, require_modules, require_program  # noqa: E402
 
 require_modules("make_report", "numpy", "h5py", "matplotlib", "jinja2")
+from data.history import row_of  # noqa: E402
 from data.results import Case, CaseEntry, Run, Study, case_entry_of_file, load_case, load_run  # noqa: E402
 from data.unreadable import Unreadable, one_line  # noqa: E402
 from data.whole_file import write_whole  # noqa: E402
@@ -34,8 +38,10 @@ from pages.hard_cases import findings_by_case  # noqa: E402
 from pages.kill_matrix import load_mutation  # noqa: E402
 from pages.ledger import claim_views  # noqa: E402
 from pages.needs import load_needs  # noqa: E402
-from pages.page import CaseView, Page, StudyView, faults_of, findings_by_section, render, render_comparison  # noqa: E402
+from pages.page import CaseView, Page, StudyView, faults_of, findings_by_section, render, render_comparison, render_site  # noqa: E402
 from pages.printed import print_page  # noqa: E402
+from pages.summary import REFERENCE, since_last  # noqa: E402
+from pages.summary_page import render_summary  # noqa: E402
 from pages.trust import kinds_of, load_coverage, load_variants, tolerances_of, note_on_unfinished_run  # noqa: E402
 from pictures.case_pictures import make_pictures  # noqa: E402
 from plots.angle_spectrum import plot_angle_spectrum  # noqa: E402
@@ -57,9 +63,16 @@ Job = tuple[Callable[..., Any], tuple[Any, ...]]
 def main() -> int:
     """Returns 0 when the page is written, 2 when there is nothing to report on, or no browser to print with."""
     said = arguments()
+    if said.site and (said.other or said.pdf or said.out or said.summary):
+        refuse("make_report", "--site takes one folder, and neither --pdf, --out nor --summary; leave those out")
     if said.pdf:
         require_program("make_report", PACKAGE)
     try:
+        if said.summary:
+            outs = make_summary(said.other or said.dir, said.dir if said.other else None)
+            return show_paths(outs)
+        if said.site:
+            return show_paths([make_site(said.dir, said.figures or said.dir / "figures", said.papers)])
         if said.other:
             out = compare_runs(said.dir, said.other, said.out)
         else:
@@ -70,7 +83,13 @@ def main() -> int:
     except (OSError, Unreadable, NoBrowser, BrokenProcessPool) as error:
         print(f"make_report: the report could not be made: {error}", file=sys.stderr)
         return 2
-    sys.stdout.buffer.write(os.fsencode(out) + b"\n")  # a path may hold bytes that are no text
+    return show_paths([out])
+
+
+def show_paths(outs: list[Path]) -> int:
+    """Prints what was written; a path may hold bytes that are no text."""
+    for out in outs:
+        sys.stdout.buffer.write(os.fsencode(out) + b"\n")
     return 0
 
 
@@ -87,6 +106,11 @@ def arguments() -> argparse.Namespace:
                         help="folder for the figures (default: DIR/figures)")
     parser.add_argument("--papers", action="store_true",
                         help="figures as PDF and PNG files (200 dpi) too, and the pictures of cases as files")
+    parser.add_argument("--summary", action="store_true",
+                        help="the verdict on one page instead: summary.html, summary.md and, where chromium is, "
+                             "summary.pdf; of two runs that of OTHER, with what changed since DIR")
+    parser.add_argument("--site", action="store_true",
+                        help="a folder of pages instead, DIR/report/: index.html, a page for each topic, study and case")
     parser.add_argument("--pdf", action="store_true",
                         help="print the page too, beside it, as PDF; needs Debian's package chromium")
     return parser.parse_args()
@@ -101,19 +125,57 @@ def compare_runs(first: Path, other: Path, out: Path | None) -> Path:
     return out
 
 
+def make_summary(folder: Path, earlier: Path | None) -> list[Path]:
+    """Writes the page of verdict beside the run, and says what changed since an earlier one. Without Chromium there
+    is no PDF, which a line on the error output says. Throws as make_report does."""
+    run, bench = read_folder(folder)
+    page = gather(run, bench, [CaseView(entry, f"case-{file_name(entry.name)}") for entry in run.cases],
+                  [StudyView(study, f"study-{file_name(study.name)}", [], [], []) for study in run.studies])
+    since = since_last(row_of(earlier), row_of(folder), str) if earlier else None
+    html, markdown = render_summary(page, since)
+    outs = [folder / "summary.html", folder / "summary.md", folder / "summary.pdf"]
+    write_whole(outs[0], html.encode("utf-8"))
+    write_whole(outs[1], markdown.encode("utf-8"))
+    try:
+        print_page(outs[0], outs[2])
+    except NoBrowser as why:
+        outs[2].unlink(missing_ok=True)   # of an earlier run
+        print(f"make_report: summary.pdf was not written: {why}", file=sys.stderr)
+        del outs[2]
+    return outs
+
+
+def make_site(folder: Path, figures: Path, for_papers: bool = False, shipped: Path = SHIPPED_CASES) -> Path:
+    """As make_report, as the pages of the folder report/ in that folder, in place of those of an earlier report. Returns
+    its index."""
+    pages = render_site(make_page(folder, figures, for_papers, shipped))
+    out = folder / "report"
+    out.mkdir(parents=True, exist_ok=True)
+    for old in set(out.glob("*.html")) - {out / name for name in pages}:
+        old.unlink()
+    for name, text in pages.items():
+        write_whole(out / name, text.encode("utf-8"))
+    return out / "index.html"
+
+
 def make_report(folder: Path, out: Path, figures: Path, for_papers: bool = False, shipped: Path = SHIPPED_CASES) -> Path:
     """Reads the folder, draws, and writes the page; what is recorded of the cases in the folder `shipped` stands in the
     report of a run of the verification. Throws FileNotFoundError if the folder holds no results, Unreadable if a file
     in it is damaged."""
+    page = make_page(folder, figures, for_papers, shipped)
+    out.parent.mkdir(parents=True, exist_ok=True)
+    write_whole(out, render(page).encode("utf-8"))
+    return out
+
+
+def make_page(folder: Path, figures: Path, for_papers: bool, shipped: Path) -> Page:
+    """The report of a folder, with its pictures and plots."""
     run, bench = read_folder(folder)
     beside = {"coverage": load_coverage(folder / "coverage.json"), "variants": load_variants(folder / "variants.json"),
               "mutation": load_mutation(folder / "mutation.json"), "unended": note_on_unfinished_run(folder / "verdicts.json"),
-              "needs": load_needs(folder / "ablation.json", shipped if run.path else None)}
+              "needs": load_needs(folder / "ablation.json", shipped if run.path and run.provenance.get("subject", REFERENCE) == REFERENCE else None)}
     figures.mkdir(parents=True, exist_ok=True)
-    out.parent.mkdir(parents=True, exist_ok=True)
-    page = replace(draw(run, bench, figures, for_papers), **beside)
-    write_whole(out, render(page).encode("utf-8"))
-    return out
+    return replace(draw(run, bench, figures, for_papers), **beside)
 
 
 def read_folder(folder: Path) -> tuple[Run, Run | None]:
@@ -156,7 +218,11 @@ def draw(run: Run, bench: Run | None, figures: Path, for_papers: bool) -> Page:
     jobs: list[Job] = [(draw_case, (entry, figures, VIEWS // len(run.cases))) for entry in run.cases]
     jobs += [(draw_study, (study, figures)) for study in run.studies + bench_studies]
     drawn = run_jobs(jobs, for_papers)
-    cases, studies = drawn[:len(run.cases)], drawn[len(run.cases):]
+    return gather(run, bench, drawn[:len(run.cases)], drawn[len(run.cases):])
+
+
+def gather(run: Run, bench: Run | None, cases: list[CaseView], studies: list[StudyView]) -> Page:
+    """The page of a run whose cases and studies were drawn, those of the speed measurements last."""
     everything = run.findings + (bench.findings if bench else [])
     for view in studies:
         view.findings = [finding for finding in everything

@@ -103,16 +103,15 @@ void add_threads(CLI::App* command, Options& options) {
 /// How checks, studies and cases are run, and on which samples.
 void add_running(CLI::App* command, Options& options) {
   command
-      ->add_option(
-          "--seed", options.seed_shift,
-          "Shifts the seeds of all random samples, 0 to 1000000000; the project is judged by 0")
+      ->add_option("--seed", options.seed_shift,
+                   "Shift the seeds of all random samples, 0 to 1000000000; official results use 0")
       ->type_name("N")
       ->check(whole_number(0, 1'000'000'000))
       ->capture_default_str();
   add_threads(command, options);
   command
       ->add_option("--order", options.running.order,
-                   "Shuffle the jobs, each number in another way (default: the longest first)")
+                   "Shuffle the jobs, with N as the seed (default: the longest first)")
       ->type_name("N")
       ->check(whole_number(0, 1'000'000'000));
 }
@@ -149,7 +148,7 @@ void add_simulate(CLI::App& app, Options& options) {
   add_overrides(simulate, options);
   CLI::Option* resume = add_switch(
       simulate, "--resume", options.resumes,
-      "Go on from the last checkpoint of an interrupted run; the results are the same to the bit");
+      "Resume from the last checkpoint of an interrupted run; the results are the same to the bit");
   add_switch(simulate, "--restart", options.restarts,
              "Start over; deletes checkpoints of an interrupted run")
       ->excludes(resume);
@@ -160,13 +159,13 @@ void add_simulate(CLI::App& app, Options& options) {
 
 void add_runs(CLI::App& app, Options& options) {
   add_simulate(app, options);
-  CLI::App* everything =
-      add_command(app, options,
-                  {"verify", "Run all checks, studies and cases; rule the claims, write the report",
-                   help::verify},
-                  verify);
+  CLI::App* everything = add_command(
+      app, options,
+      {"verify", "Run all checks, studies and cases; give rulings on claims, write the report",
+       help::verify},
+      verify);
   add_switch(everything, "--no-report", options.no_report, "Write the results only");
-  add_switch(everything, "--no-bench", options.no_bench, "Measure no speeds");
+  add_switch(everything, "--no-bench", options.no_bench, "Do not measure speed");
   add_running(everything, options);
   add_tier(everything, options);
   CLI::App* speed = add_command(
@@ -198,17 +197,11 @@ void add_ablate(CLI::App& app, Options& options) {
   add_json(ablate, options);
 }
 
-void add_converge(CLI::App& app, Options& options) {
-  CLI::App* converge = add_command(
-      app, options,
-      {"converge",
-       "How large are the errors of a case's step and mesh? Orders, limits and error bars",
-       help::converge},
-      ::foldproof::converge);
-  add_input(converge, "CASE", options.file, case_words);
+/// Options of the ladder: its direction, levels, methods and limits.
+void add_ladder(CLI::App* converge, Options& options) {
   converge
       ->add_option("--in", options.in,
-                   "What is refined: time (the steps), space (the mesh), or both, one by one")
+                   "Refine time (the steps), space (the mesh), or both, one after the other")
       ->type_name("WHAT")
       ->check(one_of({"time", "space", "both"}))
       ->capture_default_str();
@@ -226,20 +219,25 @@ void add_converge(CLI::App& app, Options& options) {
       ->delimiter(',')
       ->allow_extra_args(false);
   converge->add_flag("--refine-objects", options.refines_objects,
-                     "In space: level sets of objects get cells as much smaller, too");
+                     "In space: also refine the level sets of objects, by the same factor");
   converge
       ->add_option("--until", options.until,
-                   "Ask only the beginning of the run, up to this time [s]")
+                   "Use only the beginning of the run, up to this time [s]")
       ->type_name("TIME")
       ->check(positive_number());
   converge
       ->add_option("--hours", options.hours,
-                   "Refuse levels with which the ladder would take longer than this [h]")
+                   "Refuse levels that would make the whole call take longer than this [h]")
       ->type_name("H")
       ->check(positive_number());
+}
+
+/// Options of the disturbed runs.
+void add_twins(CLI::App* converge, Options& options) {
   converge
-      ->add_option("--fraction", options.fraction,
-                   "Twin runs have parted when this share of the motion lies between them")
+      ->add_option(
+          "--fraction", options.fraction,
+          "Positions count as unpredictable once disturbed runs differ by this share of the motion")
       ->type_name("SHARE")
       ->check(share())
       ->capture_default_str();
@@ -250,6 +248,18 @@ void add_converge(CLI::App& app, Options& options) {
       ->type_name("N")
       ->check(whole_number(0, 1000))
       ->capture_default_str();
+}
+
+void add_converge(CLI::App& app, Options& options) {
+  CLI::App* converge = add_command(
+      app, options,
+      {"converge",
+       "How large are the errors of a case's step and mesh? Orders, limits and error bars",
+       help::converge},
+      ::foldproof::converge);
+  add_input(converge, "CASE", options.file, case_words);
+  add_ladder(converge, options);
+  add_twins(converge, options);
   add_overrides(converge, options);
   add_folder(converge, options,
              "Folder whose store/ keeps every run; a second call runs only missing ones")
@@ -267,21 +277,21 @@ void add_precision(CLI::App& app, Options& options) {
                    help::precision},
                   ::foldproof::precision);
   add_input(precision, "CASE", options.file, case_words);
-  precision->add_option("--methods", options.methods, "Integrators, as A,C,RK4 (default: all)")
+  precision->add_option("--methods", options.methods, "Integrators, such as A,C,RK4 (default: all)")
       ->type_name("METHODS")
       ->check(some_text("integrators, or all"))
       ->delimiter(',')
       ->allow_extra_args(false);
   precision
       ->add_option("--errors", options.errors,
-                   "Errors over the motion whose price is wanted (default: 1e-2,1e-3)")
+                   "Wanted errors, as shares of the motion (default: 1e-2,1e-3)")
       ->type_name("ERRORS")
       ->check(positive_number())
       ->delimiter(',')
       ->allow_extra_args(false);
   precision
       ->add_option("--until", options.until,
-                   "Ask only the beginning of the run, up to this time [s]")
+                   "Use only the beginning of the run, up to this time [s]")
       ->type_name("TIME")
       ->check(positive_number());
   precision
@@ -308,17 +318,18 @@ CLI::Option* add_length(CLI::App* command, const std::string& name, double& valu
 void add_project(CLI::App& app, Options& options) {
   CLI::App* project = add_command(
       app, options,
-      {"project", "Bring the cloth of a stored run out of its objects; writes NAME_projected.h5",
+      {"project", "Move the cloth of a stored run out of its objects; writes NAME_projected.h5",
        help::project},
       project_run);
-  add_input(project, "RUN.h5", options.file, "What `foldproof simulate` wrote");
+  add_input(project, "RUN.h5", options.file, "Run stored by `foldproof simulate`");
   project->add_option("--map", options.map, "Map of depth: plain, power or blend")
       ->type_name("MAP")
       ->check(one_of({"plain", "power", "blend"}))
       ->required();
-  add_length(project, "--tau", options.reach, "Points up to so far outside are moved [m]")
+  add_length(project, "--tau", options.reach, "Move also points outside, up to this distance [m]")
       ->required();
-  add_length(project, "--eps", options.eps, "How far out the deepest points come to lie [m]")
+  add_length(project, "--eps", options.eps,
+             "Final distance of the deepest points outside the object [m]")
       ->capture_default_str();
   add_length(project, "--deepest", options.deepest,
              "Depths [m] beyond this are treated alike (default: the deepest in the run)");
@@ -341,7 +352,7 @@ void add_film(CLI::App& app, Options& options) {
   CLI::App* film = add_command(
       app, options, {"film", "Make a film of a stored run (MP4 and GIF, by ffmpeg)", help::film},
       make_film);
-  add_input(film, "RUN.h5", options.file, "What `foldproof simulate` wrote");
+  add_input(film, "RUN.h5", options.file, "Run stored by `foldproof simulate`");
   film->add_option("--field", options.field,
                    "Colour the cloth by strain [1], angle [rad], phi [m] or speed [m/s] (default: "
                    "by its sides)")
@@ -367,7 +378,7 @@ void add_history(CLI::App& app, Options& options) {
       ->check(some_text("a file or folder"));
   history
       ->add_option("--log", options.log,
-                   "JSON lines, one a run: the runs given are appended, all in it are shown")
+                   "Log in JSON lines, one a run: append the given runs, then show all of them")
       ->type_name("FILE")
       ->check(some_text("a file"));
   add_out_if_typed(history, options, "Also write a page to this file");
@@ -379,15 +390,18 @@ void add_history(CLI::App& app, Options& options) {
 void add_pages(CLI::App& app, Options& options) {
   CLI::App* report = add_command(
       app, options,
-      {"report", "Make DIR/report.html from stored results; of two folders, say what differs",
-       help::report},
+      {"report", "Make DIR/report.html from stored results, or compare two folders", help::report},
       make_report);
   add_input(report, "DIR", options.names,
             "Folder with run.h5 or case files; two of them are compared")
       ->expected(1, 2);
-  add_switch(report, "--pdf", options.pdf, "Also DIR/report.pdf, printed by chromium");
+  add_switch(report, "--summary", options.summary,
+             "Write the one-page verdict instead: DIR/summary.html, .md and .pdf");
+  add_switch(report, "--site", options.site,
+             "Write a folder of pages instead: DIR/report/index.html");
+  add_switch(report, "--pdf", options.pdf, "Also write DIR/report.pdf, printed by chromium");
   add_switch(report, "--papers", options.papers,
-             "Figures and pictures also as PDF and PNG files, in DIR/figures");
+             "Also write figures and pictures as PDF and PNG files, in DIR/figures");
   add_history(app, options);
   add_film(app, options);
   CLI::App* files =
@@ -395,7 +409,7 @@ void add_pages(CLI::App& app, Options& options) {
                   {"export", "Write the frames of a stored run as files for other programs",
                    help::export_frames},
                   export_frames);
-  add_input(files, "RUN.h5", options.file, "What `foldproof simulate` wrote");
+  add_input(files, "RUN.h5", options.file, "Run stored by `foldproof simulate`");
   files->add_option("--format", options.kind, "obj, ply or xdmf")
       ->type_name("FORMAT")
       ->check(one_of({"obj", "ply", "xdmf"}))
@@ -406,8 +420,7 @@ void add_pages(CLI::App& app, Options& options) {
 void add_golden(CLI::App& app, Options& options) {
   CLI::App* golden = add_command(
       app, options,
-      {"golden",
-       "Print inputs and outputs of a formula, right to the last digit, for unit tests of yours",
+      {"golden", "Print inputs and correctly rounded outputs of a formula, for your unit tests",
        help::golden},
       print_golden_values);
   golden
@@ -419,7 +432,8 @@ void add_golden(CLI::App& app, Options& options) {
       ->type_name("N")
       ->check(whole_number(1, 1'000'000'000))
       ->capture_default_str();
-  golden->add_option("--seed", options.seed, "The same rows for the same number")
+  golden
+      ->add_option("--seed", options.seed, "Seed of the inputs; the same seed gives the same rows")
       ->type_name("N")
       ->check(whole_number(0, 4'294'967'295))
       ->capture_default_str();
@@ -441,20 +455,20 @@ void add_evaluate(CLI::App& app, Options& options) {
                    "CSV, 12 columns: rest positions [m], for rest weighting")
       ->type_name("FILE")
       ->check(some_text("a file"));
-  CLI::App* queries = add_command(
-      *evaluate, options,
-      {"crossings",
-       "Moving features that meet, or not: the reference and the exact judge against a file's word",
-       help::evaluate_crossings},
-      evaluate_queries);
+  CLI::App* queries =
+      add_command(*evaluate, options,
+                  {"crossings",
+                   "Do moving features meet? Compare the reference and the exact judge with a file",
+                   help::evaluate_crossings},
+                  evaluate_queries);
   add_input(queries, "FILE,--ccd-data", options.file,
-            "CSV, 7 columns, 8 rows a query, or a folder of such files")
+            "CSV file with 7 columns and 8 rows a query, or a folder of such files")
       ->type_name("FILE");
   queries
       ->add_option("--kind", options.kind, "vertex-face or edge-edge (default: as the path says)")
       ->type_name("KIND")
       ->check(one_of({"vertex-face", "edge-edge"}));
-  add_length(queries, "--keep", options.keep, "Distance that the reference is to keep [m]")
+  add_length(queries, "--keep", options.keep, "Clearance that the reference should keep [m]")
       ->capture_default_str();
 }
 
@@ -464,7 +478,7 @@ void add_compare(CLI::App& app, Options& options) {
       {"compare", "How far are frames of another program, or a captured cloth, from a stored run?",
        help::compare},
       compare_frames);
-  add_input(compare, "RUN.h5", options.file, "What `foldproof simulate` wrote");
+  add_input(compare, "RUN.h5", options.file, "Run stored by `foldproof simulate`");
   add_input(compare, "FRAMES", options.frames, "Folder of OBJ or PLY files, one a frame [m]");
   CLI::Option* times = compare->add_option("--times", options.times,
                                            "Times of the frames [s], one a line (default: "
@@ -497,11 +511,11 @@ void add_readers(CLI::App& app, Options& options) {
   add_folder(claims, options, "Folder of the finished run")->capture_default_str();
   add_json(claims, options);
   add_pages(app, options);
-  CLI::App* mesh =
-      add_command(app, options, {"inspect", "Is a mesh good for a body?", help::inspect}, inspect);
+  CLI::App* mesh = add_command(
+      app, options, {"inspect", "Can a mesh serve as a body? Is it a solid?", help::inspect},
+      inspect);
   add_input(mesh, "MESH.obj", options.file, "An OBJ file");
-  mesh->add_option("--cells", options.cells,
-                   "Cells of the grid that is looked at, along the longest side")
+  mesh->add_option("--cells", options.cells, "Grid cells along the longest side")
       ->type_name("N")
       ->check(whole_number(4, 1000))
       ->capture_default_str();
@@ -520,7 +534,8 @@ void add_readers(CLI::App& app, Options& options) {
 
 /// How long another solver may stay silent, and its settings.
 void add_solver_options(CLI::App* command, Options& options) {
-  command->add_option("--seconds", options.patience, "Limit of silence during a call [s]")
+  command
+      ->add_option("--seconds", options.patience, "Longest time without output during a call [s]")
       ->type_name("S")
       ->check(positive_number())
       ->capture_default_str();
@@ -535,7 +550,7 @@ void add_solver_options(CLI::App* command, Options& options) {
 void add_judge(CLI::App& app, Options& options) {
   CLI::App* judge = add_command(
       app, options,
-      {"judge", "Put another solver on trial: laws that any cloth solver must meet", help::judge},
+      {"judge", "Test another solver against laws that any cloth solver must meet", help::judge},
       judge_another_solver);
   judge->add_option("--solver", options.solver, "Command that starts the solver's adapter")
       ->type_name("CMD")
@@ -549,7 +564,9 @@ void add_judge(CLI::App& app, Options& options) {
                    "Also write run.h5, verdicts.json and junit.xml into this folder");
   add_json(judge, options);
   CLI::App* subject =
-      add_command(app, options, {"subject", "Does an adapter keep to the protocol?", help::subject},
+      add_command(app, options,
+                  {"subject", "Test whether a solver's adapter keeps to the protocol of `judge`",
+                   help::subject},
                   check_subject);
   subject->add_option("--check", options.solver, "Command that starts the adapter")
       ->type_name("CMD")

@@ -20,7 +20,8 @@ ROOT = Path(__file__).resolve().parent.parent
 BUILD = ROOT / "build"
 PROGRAM = BUILD / "foldproof"
 TESTS = BUILD / "tests"
-PROGRAM_TESTS = ROOT / "scripts/tests/test_program.py"
+PYTHON_TESTS = {"ProgramTest": ROOT / "scripts/tests/test_program.py",  # test class: its file; each takes --program FILE
+                "IndependentTest": ROOT / "verification/independent/test_independent.py"}
 APART_FOLDER = BUILD / "faults" / "apart"
 CLOCK = 240  # s: how long a mutant may run
 
@@ -98,13 +99,20 @@ def sources_of(unit: Unit) -> list[Path]:
     return [Path(path).resolve() for path in listed]
 
 
+def files_of_independent() -> list[Path]:
+    """The independent program, its test and its cases."""
+    files = PYTHON_TESTS["IndependentTest"].parent.rglob("*.*")
+    return sorted(path for path in files if path.suffix in (".py", ".toml", ".obj"))
+
+
 def key_of(plan: Plan) -> str:
     """Changes with whatever can change an answer of the unedited programs, or of a test of them: their code, but not
-    the commit's name in it, the cases, the claims, and the script that tests the program."""
+    the commit's name in it, the cases, the claims, and the scripts that test the program."""
     objects = [BUILD / unit.object for unit in plan.units if not any(path.name == "build_facts.h" for path in unit.made_from)]
     key = hashlib.sha256()
     read = sorted((ROOT / "cases").rglob("*.*")) + sorted((ROOT / "verification/claims").glob("*.toml"))
-    for path in objects + read + [PROGRAM_TESTS]:
+    read += [PYTHON_TESTS["ProgramTest"]] + files_of_independent()
+    for path in objects + read:
         key.update(path.read_bytes())
     return key.hexdigest()
 

@@ -68,7 +68,7 @@ struct LadderAnswer {
   double cost(size_t k) const { return work[k] * particles[k]; }
 };
 
-/// An answer with all that runs say of themselves, and no quantity.
+/// An answer with the steps, costs and stops of the runs, without quantities yet.
 LadderAnswer answer_about(const Scene& scene, const std::string& in,
                           const std::vector<LevelRun>& runs);
 

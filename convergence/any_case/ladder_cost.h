@@ -12,14 +12,13 @@ namespace foldproof {
 struct LevelCost {
   double work = 0;     // operator applications times particles [1]
   double seconds = 0;  // of the processor, for one thread [s]
-  // what the run keeps in memory: positions of all frames and ends of steps, twice while it is
-  // written [bytes]
+  // memory for positions of all frames and ends of all steps, doubled for writing them [bytes]
   double bytes = 0;
 };
 
 LevelCost cost_of(const Level& level, const LevelRun& run);
 
-/// The costs of all `levels`: those measured, of which there are two or more, then those to come.
+/// The costs of all `levels`: the measured ones (two or more), then forecasts of the others.
 /// Work and bytes grow from level to level by the factor of the last two measured ones (bytes never
 /// fall), seconds as work does.
 std::vector<LevelCost> foreseen_costs(const std::vector<LevelCost>& measured, int levels);

@@ -64,7 +64,7 @@ TEST_CASE("a study of a ladder has its differences, its bars and its costs") {
   CHECK(positions.y == std::vector<double>{16, 4, 1});
   CHECK(positions.pair_orders == std::vector<double>{2, 2});
   CHECK(study.figures[0].slope == 2);
-  REQUIRE(study.figures[1].curves.size() == 1);  // what does not change has no place on a log axis
+  REQUIRE(study.figures[1].curves.size() == 1);  // a constant cannot be drawn on a log axis
   CHECK(study.figures[1].curves[0].y.at(0) == Approx(16.0 / 30));
   const Table& quantities = study.tables.at(0);
   CHECK(quantities.texts("quantity") ==

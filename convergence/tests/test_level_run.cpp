@@ -2,7 +2,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <set>
 
 #include "convergence/any_case/converge.h"
@@ -40,9 +39,7 @@ what = "lowest"
 
 LadderPlan trial(const std::vector<std::string>& overrides = {}) {
   const ScratchFolder folder;
-  const std::string path = folder.file("trial.toml");
-  std::ofstream(path) << sheet;
-  LadderPlan plan{read_case(path, overrides), 4, {}};
+  LadderPlan plan{read_case(folder.write("trial.toml", sheet), overrides), 4, {}};
   plan.measurements = measurements_of(plan.input_case);
   return plan;
 }
@@ -83,7 +80,7 @@ TEST_CASE("a finer level takes the steps of the coarser, each divided") {
   CHECK(first.values[0] == first.x.back().row(1).minCoeff());
 }
 
-TEST_CASE("the key of a level changes with all that its run depends on") {
+TEST_CASE("the key of a level changes with everything that its run depends on") {
   std::set<std::string> keys = {key_after([](Level&) {})};
   size_t different = 1;
   const auto changes = [&](const std::function<void(Level&)>& change) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "reference/fast/out_of_reach.h"
+
 namespace foldproof {
 
 void ObjectCollision::correct(const Span& span, const State& s, PerParticle3& v, Work& work) const {
@@ -12,7 +14,7 @@ void ObjectCollision::correct(const Span& span, const State& s, PerParticle3& v,
   for (const CollisionPoint& point : points) {
     const Vector3 p = point.mean(s.x), before = point.mean(v);
     const Vector3 place = ahead ? Vector3(p + (span.end - span.start) * before) : p;
-    if (around.out_of_reach(place, before, std::max(tau, span.step))) continue;
+    if (out_of_reach(around, place, before, std::max(tau, span.step))) continue;
     const Vector3 after = response.velocity(around.at(place), {p, before, span, tau});
     ++work.object_queries;
     if (after == before) continue;

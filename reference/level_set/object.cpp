@@ -5,16 +5,6 @@
 
 namespace foldproof {
 
-namespace {
-
-// phi changes by no more than this per distance: a distance by 1. Each slope of its trilinear
-// interpolant along an axis is a mean of differences along edges of the cell, at most 1, so that
-// all three make sqrt(3) at most. Nodes that miss the distance by e (they hang, or marching missed)
-// add 2 e/width to a slope: 2 is enough for e = 0.077 widths.
-constexpr double steepest = 2;
-
-}  // namespace
-
 RigidOverSpan RigidObject::over(const Span& span) const {
   const Pose pose = pose_at(motion, span.start);
   const Pose now = after(pose, place);
@@ -87,17 +77,9 @@ std::span<ObjectPoint> ObjectsOverSpan::at(const Vector3& p) {
   return answers_;
 }
 
-bool ObjectsOverSpan::out_of_reach(const Vector3& p, const Vector3& v, double time) const {
-  const double moved = steepest * (p - queried_point_).norm();  // NaN before the first question
-  for (const ObjectPoint& answer : answers_) {    // in whatever order it was put since
-    const double clearance = answer.phi - moved;  // m, at least
-    if (!(clearance > 0) || std::isinf(clearance)) return false;
-    const auto& body = bodies_[std::size_t(answer.part)];
-    const double squared_speed =
-        std::visit([&](const auto& over) { return over.squared_relative_speed(p, v); }, body);
-    if (!(clearance * clearance > time * time * squared_speed)) return false;
-  }
-  return true;
+double ObjectsOverSpan::squared_relative_speed(int part, const Vector3& p, const Vector3& v) const {
+  return std::visit([&](const auto& over) { return over.squared_relative_speed(p, v); },
+                    bodies_[std::size_t(part)]);
 }
 
 Nearest nearest_objects(std::span<const Object> objects, const Vector3& p, const Span& span) {

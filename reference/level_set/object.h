@@ -106,15 +106,17 @@ class ObjectsOverSpan {
   /// Each object's answer at p, in order; overwritten by the next call.
   std::span<ObjectPoint> at(const Vector3& p);
 
-  /// True if the last answers prove, without a query, that a point at p with velocity v [m/s]
-  /// cannot reach any object within `time` [s].
-  bool out_of_reach(const Vector3& p, const Vector3& v, double time) const;
+  /// The last answers, in the order that a caller left them in, and their point: NaN before any.
+  std::span<const ObjectPoint> answers() const { return answers_; }
+  const Vector3& queried_point() const { return queried_point_; }
+
+  /// Of object `part` at p against velocity v [m^2/s^2]; infinite if unknown without a query.
+  double squared_relative_speed(int part, const Vector3& p, const Vector3& v) const;
 
  private:
   std::vector<std::variant<RigidOverSpan, DeformingOverSpan>> bodies_;
   std::vector<double> friction_;
   std::vector<ObjectPoint> answers_;
-  // the point of the answers
   Vector3 queried_point_ = Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
 };
 

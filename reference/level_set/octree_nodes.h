@@ -2,10 +2,10 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <vector>
 
-#include "reference/fast/set_bits.h"
 #include "reference/level_set/octree.h"
 
 namespace foldproof {
@@ -32,7 +32,7 @@ OctreePlace child_place(const OctreePlace& place, int c);
 
 /// The index of a branch's child c among all branches; c must be a branch.
 inline int inner_child(const OctreeBranch& branch, int c) {
-  return branch.children + set_bits[branch.inner & ((1u << c) - 1)];
+  return branch.children + std::popcount(branch.inner & ((1u << c) - 1));
 }
 
 /// The first corner of child c among the nodes of its branch; the others follow at `corner_steps`.

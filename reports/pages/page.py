@@ -4,8 +4,8 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Iterable
-from dataclasses import dataclass, field
-from math import isnan, log10
+from dataclasses import dataclass, field, replace
+from math import isnan
 from pathlib import Path
 from typing import Any
 
@@ -17,11 +17,17 @@ from data.results import Case, CaseEntry, Column, Fault, Finding, Run, Study
 from pages import ledger
 from pages.answers import cheapest_of
 from pages.compare import Comparison
+from pages.conclusions import Results
 from pages.figure_words import figure_keys, figure_notes, order_table
 from pages.hard_cases import STUDIES as HARD_STUDIES, CaseFindings, is_of_case
 from pages.kill_matrix import Mutation, kill_tables
 from pages.ledger import ClaimView
 from pages.needs import Needs
+from pages.said import bound_html, measured_html, rule_html
+from pages.sentences import Piece, html_of
+from pages.site import Cuts, split
+from pages.summary import Judged, Summary, since_last, summary_of
+from pages.summary_markdown import count_words
 from pages.trust import Coverage, Kinds, Tolerances, Variants
 from pictures.case_pictures import PictureRow, length_text
 from plots.map_plots import map_notes
@@ -35,8 +41,10 @@ WHOLE_TABLE, WHOLE_STUDY_TABLE = 12, 60   # rows; longer tables show FIRST_ROWS 
 FIRST_ROWS, LAST_ROWS = 7, 3
 FIRST_STUDIES = ("work-precision", "stability-oscillator", "stability-sheet", "variable-step-stability")
 MOST_OPEN = 5                       # findings that do not plainly hold, on the first screen
-STYLES = ("pages/style.css", "viewer/view.css", "pages/opening.css", "pages/print.css")
-MARGIN_DECADES = (-4.0, 1.0)        # log10(measured / bound) at the ends of the margin bar
+STYLES = ("pages/style.css", "viewer/view.css", "pages/opening.css", "pages/print.css", "pages/summary.css",
+          "pages/site.css")
+MOST_WORDS = 450                    # of the page of verdict: two minutes
+BAR_END = 1.25                      # measured / bound at the end of the margin bar
 
 
 @dataclass
@@ -110,9 +118,17 @@ class Page:
         return self.checks + of_studies + self.other_findings + of_cases + self.rates
 
 
-def render(page: Page) -> str:
-    """The whole report as one HTML text."""
+def render_site(page: Page) -> dict[str, str]:
+    """The whole report as pages: file names and HTML texts."""
+    cuts = Cuts(is_site=True)
+    return split(render(page, cuts=cuts), cuts, _viewer())
+
+
+def render(page: Page, since: list[Piece] | None = None, cuts: Cuts | None = None) -> str:
+    """The whole report as one HTML text; `since` says what changed from the run before, `cuts` take note of the pages
+    into which the text can be cut."""
     environment = new_environment()
+    environment.globals.update(cuts=cuts or Cuts(is_site=False))
     environment.globals.update(
         keys=figure_keys, notes=figure_notes, map_notes=map_notes, orders=order_table, table=select_rows, groups=group_by_prefix,
         margin=margin_percent, plain=all_hold, whole_study_table=WHOLE_STUDY_TABLE, whole_table=WHOLE_TABLE,
@@ -124,7 +140,20 @@ def render(page: Page) -> str:
         program=program_of(page),
         of_case={finding.name: case for case in page.case_findings + page.hard_findings
                  for finding in case.findings}.get)
-    return environment.get_template("page.html.j2").render(page=page, said=page.provenance)
+    return environment.get_template("page.html.j2").render(page=page, said=page.provenance,
+                                                           summary=summary_of_page(page, since, environment))
+
+
+def summary_of_page(page: Page, since: list[Piece] | None, environment: Environment) -> Summary:
+    """The page of verdict, with anchors as in the environment's other templates."""
+    findings = [finding for finding in page.all_findings() if finding.kind != "bench"]
+    studies = [view.study for view in page.studies]
+    judged = Judged(
+        provenance=page.provenance, findings=findings, studies=len(studies), faults=page.faults,
+        tolerances=page.tolerances, results=Results(findings, studies, page.claims, environment.globals["anchor"]),
+        since=since if since is not None else since_last(None, None, str), alone=page.alone)
+    whole = summary_of(judged)
+    return whole if count_words(whole) <= MOST_WORDS else summary_of(replace(judged, is_brief=True))
 
 
 def program_of(page: Page) -> str:
@@ -155,7 +184,8 @@ def new_environment() -> Environment:
     environment = Environment(loader=FileSystemLoader(TEMPLATES), autoescape=True, undefined=StrictUndefined,
                               trim_blocks=True, lstrip_blocks=True)
     environment.filters.update(number=quantities.number_html, known=quantities.known_html, unit=quantities.unit_text,
-                               seconds=quantities.seconds_html, bar_length=length_text)
+                               seconds=quantities.seconds_html, bar_length=length_text, sentence=html_of, measured=measured_html, bound=bound_html,
+                               rule=rule_html)
     environment.globals.update(
         quantity=quantities.quantity_html, ratio=quantities.ratio_of, isnan=isnan, anchor=Anchors().of,
         outcome_class=outcome_class, counts=count_outcomes, style=Markup(_text_of(*STYLES)), script=Markup(_text_of("pages/filter.js")))
@@ -230,12 +260,10 @@ def group_by_prefix(findings: Iterable[Finding]) -> list[tuple[str, list[Finding
 
 
 def margin_percent(finding: Finding) -> float | None:
-    """Length of the margin bar in percent, on a logarithmic scale; None where measured/bound says nothing."""
+    """Length of the margin bar in percent: measured / bound, on a scale from zero to BAR_END; None where that says
+    nothing."""
     ratio = quantities.ratio_of(finding.measured, finding.bound)
-    if isnan(ratio):
-        return None
-    low, high = MARGIN_DECADES
-    return 100.0 * min(max((log10(max(ratio, 1e-300)) - low) / (high - low), 0.0), 1.0)
+    return None if isnan(ratio) else 100.0 * min(ratio / BAR_END, 1.0)
 
 
 @dataclass

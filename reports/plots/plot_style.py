@@ -23,7 +23,8 @@ from data.whole_file import write_whole
 from plots.svg_in_page import page_svg
 
 INK, MUTED, GRID, BAND, PAPER = "#24292e", "#68707a", "#e4e6e9", "#eceef1", "#fefefe"
-COLOURS = ("#1562a8", "#c4501b", "#0b8268", "#8b3f94", "#a8780a", "#3597bf", "#bf4a7b", "#5b6068")
+COLOURS = ("#1562a8", "#c4501b", "#0b8268", "#8b3f94", "#a8780a", "#3597bf", "#bf4a7b", "#5b6068",
+           "#5a7312", "#7d4a20", "#4b45c6")
 MARKERS = ("o", "s", "^", "D", "v", "P", "X", "<", ">", "h", "*", "p")
 _VARIABLES = {INK: "--plot-ink", MUTED: "--plot-muted", GRID: "--plot-grid", BAND: "--plot-band",
               PAPER: "--paper",

@@ -67,10 +67,10 @@ def _gap(axes: Axes, pens: list[Pen]) -> float:
 def _places(axes: Axes, curves: list[Points], slope: float, gap: float) -> list[Triangle]:
     """Triangles that keep the gap from the curves, below and above them, all along the axes."""
     (left, right), (bottom, top) = np.log10(axes.get_xlim()), np.log10(axes.get_ylim())
-    width = 0.15 * (right - left)
+    width = 0.22 * (right - left)
     rise = slope * width
-    if abs(rise) > 0.35 * (top - bottom):
-        width, rise = width * 0.35 * (top - bottom) / abs(rise), np.sign(rise) * 0.35 * (top - bottom)
+    if abs(rise) > 0.4 * (top - bottom):
+        width, rise = width * 0.4 * (top - bottom) / abs(rise), np.sign(rise) * 0.4 * (top - bottom)
     first = left + (0.04 if slope > 0 else 0.08) * (right - left)
     places = []
     for start in np.linspace(first, right - width - 0.05 * (right - left), 12):
@@ -121,11 +121,11 @@ def _draw(axes: Axes, place: Triangle, slope: float, gap: float) -> None:
     x0, x1 = 10 ** place.start, 10 ** (place.start + place.width)
     y0, y1 = 10 ** place.base, 10 ** (place.base + place.rise)
     corner = (x1, y0) if corner_right else (x0, y1)
-    axes.fill([x0, x1, corner[0]], [y0, y1, corner[1]], facecolor="none", edgecolor=INK, linewidth=0.8,
+    axes.fill([x0, x1, corner[0]], [y0, y1, corner[1]], facecolor="none", edgecolor=INK, linewidth=1.2,
               zorder=5, joinstyle="round")
     axes.annotate(number_text(slope), (corner[0], 10 ** (place.base + place.rise / 2)),
                   xytext=(4 if corner_right else -4, 0), textcoords="offset points",
-                  ha="left" if corner_right else "right", va="center", fontsize=7.5)
+                  ha="left" if corner_right else "right", va="center", fontsize=9.0)
     below = (slope > 0) == corner_right
     axes.annotate("1", (10 ** (place.start + place.width / 2), corner[1]), xytext=(0, -3 if below else 3),
-                  textcoords="offset points", ha="center", va="top" if below else "bottom", fontsize=7.5)
+                  textcoords="offset points", ha="center", va="top" if below else "bottom", fontsize=9.0)

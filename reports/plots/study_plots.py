@@ -43,6 +43,9 @@ def plot_study_figure(figure: StudyFigure, name: str, folder: Path) -> Plot:
     for layer, (curve, pen) in enumerate(zip(figure.curves, pens)):
         _draw_curve(axes, figure, curve, pen, layer)
     _set_limits(axes, figure, shown)
+    if is_geometry(figure):
+        axes.set_aspect("equal", adjustable="datalim")
+        axes.apply_aspect()
     if figure.x_scale == figure.y_scale == "log":
         draw_common_slope(axes, shown, pens, figure.slope)
         draw_own_slopes(axes, shown, pens, [curve.slope for curve in figure.curves])
@@ -50,6 +53,11 @@ def plot_study_figure(figure: StudyFigure, name: str, folder: Path) -> Plot:
     draw_strip(axes, figure.curves, pens)
     _label_curves(axes, figure.curves, pens, shown)
     return finish(canvas, name, folder, figure.title)
+
+
+def is_geometry(figure: StudyFigure) -> bool:
+    """Whether a figure shows shapes: lengths over lengths, each on a linear axis."""
+    return figure.x_unit == figure.y_unit == "m" and figure.x_scale == figure.y_scale == "linear"
 
 
 def points_left_out(figure: StudyFigure) -> int:
@@ -104,11 +112,17 @@ def _look(curves: list[Curve], index: int) -> tuple[str, str]:
 
 
 def _look_in_turn(curves: list[Curve], index: int) -> tuple[str, str]:
-    label, methods_shown = curves[index].label, any(curve.label in METHODS for curve in curves)
-    if methods_shown and label not in METHODS:
+    methods = [method_of(curve.label) for curve in curves]
+    if any(methods) and not methods[index]:
         return INK, MARKERS[-1]
-    turn = METHODS.index(label) if methods_shown else index
+    turn = METHODS.index(methods[index]) if methods[index] else index
     return COLOURS[turn % len(COLOURS)], MARKERS[turn % len(MARKERS)]
+
+
+def method_of(label: str) -> str:
+    """The method that a label names: "RK2", "scheme A", "RK2, grows"; "" if it names none."""
+    name = label.split(",")[0].removeprefix("scheme ")
+    return name if name in METHODS else ""
 
 
 def _is_drawable(curve: Curve, figure: StudyFigure) -> np.ndarray:

@@ -10,6 +10,8 @@ import unittest
 from pathlib import Path
 from typing import Any
 
+import h5py
+
 sys.dont_write_bytecode = True
 
 from data.case_digest import case_digest, case_files  # noqa: E402
@@ -65,6 +67,14 @@ class NeedsShown(unittest.TestCase):
         outcomes = told(case, commit)
         digest = case_digest(f"{case}.toml", lambda name: (self.shipped / name).read_bytes())
         (self.shipped / "needs.json").write_text(json.dumps({"schema": 1, "cases": [row | {"program": outcomes["program"], "digest": digest} for row in outcomes["cases"]]}))
+
+    def test_a_solver_on_trial_has_no_needs_of_shipped_cases(self) -> None:
+        put_run(self.root)
+        self.record("fold", "abcdef0123456789")
+        self.assertIn("Only what a scene needs", self.made())
+        with h5py.File(self.root / "run.h5", "a") as file:
+            file.attrs["subject"] = "toy springs"
+        self.assertNotIn("Only what a scene needs", self.made())
 
     def test_parts_are_shown_where_they_were_looked_for(self) -> None:
         put_run(self.root)

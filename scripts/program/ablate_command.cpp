@@ -20,6 +20,7 @@
 #include "scripts/program/command_line/input_files.h"
 #include "scripts/program/json_text.h"
 #include "scripts/program/command_line/out_folder.h"
+#include "scripts/program/program_json.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
 #include "scripts/program/run_case.h"
@@ -204,20 +205,10 @@ nlohmann::json to_json(const Ablation& one, const std::vector<std::string>& over
 
 /// All cases whose runs are over.
 nlohmann::json to_json(const std::vector<Ablation>& all, const Options& options) {
-  const Provenance p = provenance(options.command);
   nlohmann::json cases = nlohmann::json::array();
   for (const Ablation& one : all)
     if (one.runs_left == 0) cases.push_back(to_json(one, options.overrides));
-  return {{"schema", 1},
-          {"program",
-           {{"version", p.version},
-            {"commit", p.commit},
-            {"tree", p.tree},
-            {"identity", program_identity()},
-            {"cpu", p.cpu},
-            {"date", p.date},
-            {"command", p.command}}},
-          {"cases", std::move(cases)}};
+  return {{"schema", 1}, {"program", program_json(options.command)}, {"cases", std::move(cases)}};
 }
 
 /// The new results, followed by the file's results for other cases if the same program wrote it.

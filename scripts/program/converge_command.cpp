@@ -16,6 +16,7 @@
 #include "scripts/program/json_text.h"
 #include "scripts/program/ladder_runs.h"
 #include "scripts/program/predictability_runs.h"
+#include "scripts/program/program_json.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/run_case.h"
 #include "verification/files/atomic_file.h"
@@ -93,12 +94,22 @@ nlohmann::json to_json(const Told& told) {
   return all;
 }
 
-/// One ladder as an object; several as a list, "ladders".
-nlohmann::json to_json(const std::vector<Told>& all) {
-  if (all.size() == 1) return to_json(all.front());
-  nlohmann::json ladders = nlohmann::json::array();
-  for (const Told& told : all) ladders.push_back(to_json(told));
-  return {{"ladders", ladders}};
+/// One ladder as an object; several as a list, "ladders". Beside them the program, and how the
+/// case was asked.
+nlohmann::json to_json(const std::vector<Told>& all, const Options& options) {
+  nlohmann::json answer;
+  if (all.size() == 1) {
+    answer = to_json(all.front());
+  } else {
+    answer["ladders"] = nlohmann::json::array();
+    for (const Told& told : all) answer["ladders"].push_back(to_json(told));
+  }
+  const double end = read_case(case_file(options.file), options.overrides).scene.schedule.end;
+  answer["end"] = end;
+  answer["asked_end"] = options.until > 0 ? std::min(options.until, end) : end;
+  answer["overrides"] = options.overrides;
+  answer["program"] = program_json(options.command);
+  return answer;
 }
 
 int report(const std::vector<Told>& all, const Options& options) {
@@ -110,7 +121,7 @@ int report(const std::vector<Told>& all, const Options& options) {
     if (told.twins) print(*told.twins);
     if (&told != &all.back()) fmt::print("\n");
   }
-  if (options.json) fmt::print("{}\n", json_text(to_json(all)));
+  if (options.json) fmt::print("{}\n", json_text(to_json(all, options)));
   return is_conclusive ? all_hold : some_fail;
 }
 

@@ -99,7 +99,7 @@ json to_json(const LadderAnswer& answer) {
   if (is_in_space(answer)) {
     answer_json["refined_by"] = answer.refined_by;
     answer_json["formal_order"] = 2;
-    answer_json["overrides"] = answer.overrides;
+    answer_json["level_overrides"] = answer.overrides;
   }
   for (const QuantityOverLevels& q : answer.quantities)
     answer_json["quantities"].push_back(to_json(q));

@@ -48,7 +48,7 @@ struct Options {
   std::string solver, name;  // of judge, subject: command; of judge: name in the report
   double patience = 60;      // of judge, subject: limit of silence [s]
   bool json = false, quick = false, no_report = false, no_bench = false, resumes = false,
-       restarts = false, pdf = false, papers = false;
+       restarts = false, pdf = false, papers = false, summary = false, site = false;
   int (*run)(const Options&) = nullptr;  // the command; returns the exit code
 };
 

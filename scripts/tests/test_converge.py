@@ -54,6 +54,8 @@ class ConvergeTest(FileTest):
         done = self.converge(*arguments, "--json")
         self.assertIn(done.returncode, (0, 1), done.stderr)
         said = json.loads(done.stdout)
+        program = said.pop("program")  # with the date
+        self.assertEqual(set(program), {"version", "commit", "tree", "identity", "cpu", "date", "command"})
         return said["ladders"][0] if "ladders" in said else said
 
     def lines(self, kind: str) -> list[dict[str, Any]]:
@@ -152,6 +154,27 @@ class ConvergeTest(FileTest):
             subprocess.run(["rm", "-r", str(entry)], check=True)
         (out / "store").write_text("a file")
         self.assert_rejected(self.converge(sheet), "store: results are kept in a folder, and this is none")
+
+
+class OrdersTest(FileTest):
+    """Shipped cases without contact have the formal order of each method, by their last three of five levels."""
+
+    FORMAL = {"A": 2, "B": 2, "C": 2, "BDF2": 2, "backward-euler": 1}
+    ENDS = {"hinge": "0.3", "rest_fold": "0.05", "hanging_sheet": "0.05"}  # s: all runs take half a minute
+
+    def test_positions_of_three_cases_have_the_order_of_each_method(self) -> None:
+        for case, end in self.ENDS.items():
+            # solves end a long way below the finest differences
+            done = run("converge", case, "--levels", "5", "--method", ",".join(self.FORMAL), "--until", end, "--set", "solver.tolerance=1e-12",
+                       "--json", "--out", str(self.path / case))
+            self.assertEqual(done.returncode, 0, done.stderr)
+            ladders = json.loads(done.stdout)["ladders"]
+            self.assertEqual([ladder["method"] for ladder in ladders], list(self.FORMAL))
+            for ladder in ladders:
+                with self.subTest(case=case, method=ladder["method"]):
+                    positions = ladder["quantities"][0]
+                    self.assertEqual((positions["name"], positions["reading"]), ("positions", "asymptotic"))
+                    self.assertAlmostEqual(positions["order"], self.FORMAL[ladder["method"]], delta=0.1)
 
 
 if __name__ == "__main__":

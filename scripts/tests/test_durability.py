@@ -71,8 +71,9 @@ class Kills(FileTest):
             return False
         except subprocess.TimeoutExpired:
             process.kill()
-            self.assertEqual(process.wait(), -9)
-            return True
+            code = process.wait()
+            self.assertIn(code, (-9, 0, 1))  # it may have come to its end in the moment before the signal
+            return code == -9
 
     def require_whole_files(self, case: KilledCase, out: Path) -> int:
         """Every file that does not say it is partial is whole. Returns the number of checkpoints."""

@@ -248,7 +248,7 @@ step = 0.001
         self.assertIn("refined by middles of edges, since shape 'hinge' has no finer one", done.stdout, done.stderr)
         told = json.loads(run(*asked, "--json", folder=self.path).stdout)
         self.assertEqual(told["particles"], [4, 9, 25])
-        self.assertEqual(told["overrides"], [[], ["cloth.refine=1"], ["cloth.refine=2"]])
+        self.assertEqual(told["level_overrides"], [[], ["cloth.refine=1"], ["cloth.refine=2"]])
         both = json.loads(run(*asked[:3], "both", *asked[4:], "--method", "C,BDF2", "--json", folder=self.path).stdout)
         self.assertEqual([(ladder["in"], ladder["method"]) for ladder in both["ladders"]],
                          [("time", "C"), ("space", "C"), ("time", "BDF2"), ("space", "BDF2")])

@@ -3,6 +3,7 @@
 #include <cstdlib>
 
 #include <cerrno>
+#include <fstream>
 #include <system_error>
 
 namespace foldproof {
@@ -12,6 +13,11 @@ ScratchFolder::ScratchFolder() {
   if (mkdtemp(pattern.data()) == nullptr)
     throw std::system_error(errno, std::generic_category(), pattern);
   path_ = pattern;
+}
+
+std::string ScratchFolder::write(const std::string& name, const std::string& text) const {
+  std::ofstream(file(name)) << text;
+  return file(name);
 }
 
 ScratchFolder::~ScratchFolder() {

@@ -16,6 +16,9 @@ class ScratchFolder {
 
   std::string file(const std::string& name) const { return (path_ / name).string(); }
 
+  /// Writes the text to the file of this name; returns its path.
+  std::string write(const std::string& name, const std::string& text) const;
+
  private:
   std::filesystem::path path_;
 };

@@ -12,7 +12,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-constexpr const char* sheet = R"([cloth]
+const std::string sheet = R"([cloth]
 shape = "sheet"
 width = 0.3
 height = 0.2
@@ -27,12 +27,9 @@ end = 0.05
 frames_per_second = 100
 )";
 
-/// The case of the sheet followed by `more`, read from a file trial.toml.
 Case trial(const std::string& more) {
   const ScratchFolder folder;
-  const std::string path = folder.file("trial.toml");
-  std::ofstream(path) << sheet << more;
-  return read_case(path);
+  return read_case(folder.write("trial.toml", sheet + more));
 }
 
 std::vector<Record> judge_trial(const Case& input_case) {

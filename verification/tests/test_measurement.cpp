@@ -2,7 +2,6 @@
 // answer of a line of arithmetic; regions, instants, and refusals.
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <fstream>
 
 #include "verification/cases/expectations.h"
 #include "verification/specimens/scratch_folder.h"
@@ -18,7 +17,7 @@ constexpr double density = 0.2, mass = density * area;              // kg/m^2, k
 constexpr double g = 9.5;                                           // m/s^2
 
 /// Particles 0 .. 11, four in a row along x, rows along y; the object's inside is x < -0.05.
-constexpr const char* sheet = R"([cloth]
+const std::string sheet = R"([cloth]
 shape = "sheet"
 width = 0.3
 height = 0.2
@@ -40,9 +39,7 @@ move = [-0.05, 0, 0]
 
 Case trial(const std::string& quantities) {
   const ScratchFolder folder;
-  const std::string path = folder.file("trial.toml");
-  std::ofstream(path) << sheet << quantities;
-  return read_case(path);
+  return read_case(folder.write("trial.toml", sheet + quantities));
 }
 
 /// `what` at the end, if all frames have these positions and velocities.

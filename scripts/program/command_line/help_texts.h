@@ -21,26 +21,26 @@ Exit codes:
 constexpr const char* list =
     R"(Examples:
   foldproof list
-  foldproof list --json                                with claims and findings of cases
+  foldproof list --json                                also claims and the findings of cases
 
 Exit codes:
-  0    shown
+  0    listed
   2    bad input)";
 
 constexpr const char* claims =
     R"(Examples:
   foldproof claims                                     all claims and their rulings
-  foldproof claims B10                                 one of them: why, and what decides it
+  foldproof claims B10                                 one claim: its ruling, and the findings
 
 Exit codes:
-  0    shown, whatever the rulings
+  0    shown; the rulings do not matter
   2    bad input; there is no finished run, or no such claim)";
 
 constexpr const char* report =
     R"(Needs the Debian packages python3-h5py, python3-matplotlib and python3-jinja2; --pdf also chromium.
 
 Examples:
-  foldproof report results --papers
+  foldproof report results --summary                   one page: what was tested, what holds
   foldproof report results mine                        what differs: mine/compare.html
 
 Exit codes:
@@ -55,8 +55,8 @@ Examples:
   foldproof history results --log history.jsonl        append this run to a log, then show it
 
 Exit codes:
-  0    nothing got worse in the newest run
-  1    something did: it held before, and holds no longer
+  0    every finding that held before still holds in the newest run
+  1    a finding that held before no longer holds
   2    bad input, or a package is missing)";
 
 constexpr const char* film =
@@ -88,14 +88,14 @@ constexpr const char* inspect =
   foldproof inspect cases/limb.obj --cells 100 --json
 
 Exit codes:
-  0    it is a solid, and rays agree on what is inside
-  1    it is no solid, or rays do not agree
+  0    the mesh is a solid, and ray casting agrees on what is inside
+  1    the mesh is not a solid, or ray casting disagrees
   2    bad input)";
 
 constexpr const char* judge =
     R"(CMD starts an adapter that speaks the protocol of verification/subjects/PROTOCOL.md, in a process of
-its own. Smoke laws come first: if one fails, suspect the adapter. A crash, a hang or nonsense of
-the solver fails the law that met it, with its last words; the next law goes on.
+its own. Simple laws (smoke) come first: if one fails, suspect the adapter. If the solver crashes,
+hangs or answers nonsense, the current law fails and shows its last output; the next law then runs.
 
 Examples:
   foldproof judge --solver "python3 verification/subjects/adapters/toy_solver.py"
@@ -107,14 +107,14 @@ Exit codes:
   2    bad input)";
 
 constexpr const char* subject =
-    R"(Asks each operation of the declared level once, on a small sheet.
+    R"(Calls each operation of the declared level once, on a small sheet.
 
 Examples:
   foldproof subject --check "python3 verification/subjects/adapters/toy_solver.py"
 
 Exit codes:
   0    the adapter keeps to the protocol
-  1    it breaks it; the first breach is named
+  1    the adapter breaks the protocol; the message names the first violation
   2    bad input)";
 
 constexpr const char* crossings =
@@ -128,9 +128,9 @@ Exit codes:
   2    bad input)";
 
 constexpr const char* golden =
-    R"(Prints a heading, then rows of numbers in 17 digits; vectors are three columns, NAME_x, NAME_y,
-NAME_z. With --json also what each column is, its unit, and the formula. All outputs were computed
-with 50 digits and rounded once. verification/GOLDEN.md has examples in Python and C++.
+    R"(Prints a heading, then rows of numbers to 17 digits; a vector has three columns, NAME_x, NAME_y and
+NAME_z. --json adds the formula, and each column's meaning and unit. All outputs are computed with
+50 digits and rounded once. verification/GOLDEN.md has examples in Python and C++.
 
 Examples:
   foldproof golden friction --count 100
@@ -151,11 +151,11 @@ Exit codes:
   2    bad input)";
 
 constexpr const char* evaluate_bending =
-    R"(Prints the bending forces of single hinges, to compare another code with. Each row of FILE has 27
+    R"(Prints the bending forces of single hinges, for comparison with your code. Each row of FILE has 27
 comma-separated numbers: x1 x2 x3 x4 (12 position components [m]), v1 v2 v3 v4 (12 velocity
 components [m/s]), ke [J], kd [N s], theta0 [rad]. Output: 12 elastic and 12 damping force
-components [N] in 17 digits. The weight |E|^2/(|N1|+|N2|) is taken at the current positions, or,
-with --rest, at the rest positions: rows of 12 numbers.
+components [N] to 17 digits. The weight |E|^2/(|N1|+|N2|) is computed at the current positions, or
+with --rest at the rest positions, in rows of 12 numbers.
 
 Examples:
   foldproof evaluate bending cases/hinges.csv
@@ -165,10 +165,10 @@ Exit codes:
   2    bad input; the line is named)";
 
 constexpr const char* evaluate_crossings =
-    R"(A row of FILE is a point: numerator and denominator of x, y and z, and 1 if the query meets, else 0,
-all whole numbers. Eight rows are a query: four points at the start of a motion in straight lines,
-the same four at its end. vertex-face: the vertex, then the triangle's corners. edge-edge: the ends
-of the first edge, then of the second.
+    R"(A row of FILE is a point, in integers: numerator and denominator of x, y and z, then 1 if the
+features of this query meet, else 0. Eight rows are a query: four points at the start of a motion
+along straight lines, then the same four at its end. vertex-face: the vertex, then the triangle's
+corners. edge-edge: the ends of the first edge, then of the second.
 
 Examples:
   foldproof evaluate crossings queries.csv --kind vertex-face
@@ -176,20 +176,20 @@ Examples:
 
 Exit codes:
   0    the reference misses no meeting, and the exact judge agrees with the file
-  1    it misses one, or the exact judge does not agree
+  1    the reference misses a meeting, or the exact judge disagrees with the file
   2    bad input; the line is named)";
 
 constexpr const char* simulate =
-    R"(A checkpoint is written at every frame and removed at the end. An interrupted run says how to resume
-it; the same command without --resume or --restart then stops and deletes nothing.
+    R"(A checkpoint is written at every frame and removed at the end. An interrupted run prints how to
+resume it. The same command without --resume or --restart then stops, and deletes nothing.
 
 Examples:
   foldproof simulate hanging_sheet --set bending.stiffness=1e-3 --out mine
   foldproof simulate any_mesh --set cloth.mesh=cases/skirt.obj --out mine
 
 Exit codes:
-  0    it came to its end, and what the case expects holds
-  1    an expectation does not hold, or it stopped early and says why
+  0    the run reached its end time, and every expectation of the case holds
+  1    an expectation fails, or the run stopped early and prints why
   2    bad input, checkpoints of an interrupted run, or a file that cannot be written
   130  interrupted by Ctrl-C (143: by SIGTERM))";
 
@@ -199,7 +199,7 @@ constexpr const char* verify =
   foldproof verify --tier full --out full              hours
 
 Exit codes:
-  0    everything holds, and every claim is ruled as recorded
+  0    everything holds, and the ruling on every claim is as recorded
   1    something fails or is inconclusive
   2    bad input, or a file that cannot be written)";
 
@@ -208,18 +208,20 @@ constexpr const char* bench =
   foldproof bench --quick
 
 Exit codes:
-  0    measured, whatever the numbers
+  0    measured; the numbers do not matter
   2    bad input, or a file that cannot be written)";
 
 constexpr const char* ablate =
-    R"(Runs the case as it is, with half the step, and with triangles of half the size: by how much that
-moves its particles is its own error. Then once without each part that it names, and once with each
-that it does not name and that needs no numbers from its author: self-collision, strain limits,
-points between particles. A part is needed, or missing, if without it particles move by more than
-the scene's own error, the run comes to no end, an expectation of the case fails or has no meaning,
-the cloth crosses itself, or lies deeper in an object by more than that error. The table [ablation]
-of a case file may say why a part is there, or left out, all the same; name a coarser mesh instead
-of a finer one that would take hours; and ask of the beginning of a long run only.
+    R"(Runs the case as it is, with half the step, and with triangles of half the size. The distance by
+which this moves its particles is the scene's own error. Then it removes one part at a time, and
+adds, one at a time, the missing parts that need no parameters: self-collision, strain limits,
+points between particles. A part is needed, or missing, if one of these happens without it:
+- particles move by more than the scene's own error;
+- the run does not reach its end, or an expectation of the case fails or loses its meaning;
+- the cloth crosses itself, or lies deeper in an object by more than the scene's own error.
+The table [ablation] of a case file can justify a part that is not needed, or the lack of one that
+is. It can name a coarser mesh where a finer one would take hours, and limit ablate to the beginning
+of a long run.
 
 Examples:
   foldproof ablate hinge
@@ -228,48 +230,53 @@ Examples:
 Exit codes:
   0    every part is needed, none is missing
   1    a part (marked !) is not needed or missing, and the case does not say why, or says so
-       needlessly; or the scene itself comes to no end, or fails what it expects
+       needlessly; or the unchanged scene does not reach its end, or fails an expectation
   2    bad input, or a file that cannot be written)";
 
 constexpr const char* converge =
-    R"(Runs the case as it is and refined, and says for each quantity: the order by which differences
-between levels fall, Richardson's limit, and the grid convergence index as error bar (safety 1.25
-where the order has settled at the method's, else 3). Quantities are those of the case's
-[[quantity]] tables; without any: positions, energies, heights, and what its [expect] asks.
+    R"(Runs the case as it is, then refined level by level. Prints for each quantity the order at which
+differences between levels fall, Richardson's limit, and the grid convergence index as error bar
+(safety factor 1.25 where the order has settled at the method's, else 3). Quantities are those of
+the case's [[quantity]] tables; without any: positions, energies, heights, quantities in [expect].
 
---in time    every step is halved, and halved again.
---in space   every edge is: shapes by their numbers, other meshes by the middles of edges. Boxes
-             hold regions, lists of particles hold points. Positions are those of the case's own
-             particles. All meshes take the steps that the finest one needs; one more run, with
-             half of them, tells their own error.
+--in time    halves every step at each level.
+--in space   halves every edge at each level: shapes by their counts, such as columns and rows;
+             other meshes are split at the middles of edges. Positions are compared at the case's
+             own particles. In [[hold]], a box holds a region, a list of particles holds points.
+             All meshes take the steps that the finest one needs; one more run, with half the
+             step, measures their error.
 
 Two more runs start disturbed: by 1e-12 of the cloth's extent, and by the size of the step's error.
-Where they part from the undisturbed run by --fraction of its motion, positions stop being
-predictable. Orders and bars are asked up to there only. Beyond it, --ensemble such runs give means
-over time of height, energies, contacts and fold angles, with their spread.
+When they differ from the undisturbed run by --fraction of its motion, positions are no longer
+predictable. Orders and error bars use only the time before that. For the time after it, --ensemble
+disturbed runs give means over time of height, energies, contacts and fold angles, and their spread.
 
-The folder keeps every run: what was cut off goes on, and a second call runs only what is missing.
-The two coarsest levels, run alone, show what the others cost; those that the memory or --hours
-does not allow are refused, and the levels that ran answer. Seconds are the processor's, of a run's
-own thread. DIR/converge.h5 is for `foldproof report DIR`.
+The folder keeps every run: an interrupted call resumes; a second call runs only what is missing.
+The two coarsest levels run alone first and show what the others will cost. A level that exceeds the
+memory or --hours is refused; the other levels still give a result. Seconds are processor time of a
+run's own thread. DIR/converge.h5 is for `foldproof report DIR`.
 
 Examples:
   foldproof converge drape_sphere --ensemble 8 --method BDF2,C
   foldproof converge hanging_sheet --in space --set cloth.columns=6 --set cloth.rows=6 --until 0.3
 
 Exit codes:
-  0    the positions have an order, or an error bar all the same
+  0    the positions have an order, or at least an error bar
   1    the order of the positions is inconclusive
   2    bad input, or a file that cannot be written)";
 
 constexpr const char* precision =
-    R"(Runs the case with every integrator and with constant steps, halved from run to run. Prints for each
-wanted error the cheapest method and its step, and what the others cost over it, in applications of
-force operators. Error: the distance from the truth (root mean square over the free particles, by
-mass, in the worst frame) over the motion, the largest such distance from the start. Truth: two
-methods of different families, each extrapolated where its order has settled; an error that is not
-ten times as large as their distance gets no price. Prices are interpolated between the two runs
-that bracket the error. Methods whose prices are closer than the steps tried are tied.
+    R"(Runs the case with every integrator, at constant steps that are halved from run to run. Prints for
+each wanted error the cheapest method and its step, and the price of each other method as a multiple
+of the cheapest. A price counts applications of force operators.
+
+error   distance from the truth, divided by the motion. The distance is the root mean square over
+        the free particles, weighted by mass, in the worst frame; the motion is the largest such
+        distance from the start.
+truth   two methods of different families, each extrapolated where its order has settled. An error
+        less than ten times their distance gets no price.
+price   interpolated between the two runs that bracket the error. Methods are tied if their prices
+        are closer than the steps tried.
 
 Examples:
   foldproof precision hinge --until 0.2
@@ -281,31 +288,33 @@ Exit codes:
   2    bad input, or a file that cannot be written)";
 
 constexpr const char* compare =
-    R"(Frames with the run's vertices and triangles are compared vertex by vertex; other meshes by the
-nearest points of both surfaces. For each frame: distances, energies of stretching and bending by
-the run's forces, shares of fold angles, self-crossing pairs, and the depth in the run's objects.
-Between two frames of the run its cloth is interpolated from positions and velocities.
+    R"(Frames that have the run's vertices and triangles are compared vertex by vertex, other meshes by
+the nearest points of both surfaces. Prints for each frame: distances, energies of stretching and
+bending computed with the run's forces, the distribution of fold angles, self-crossing pairs, and
+the depth in the run's objects. Between two frames of the run, its cloth is interpolated from
+positions and velocities.
 
 Examples:
   foldproof compare results/grab.h5 captured --rate 60 --start 0.5
   foldproof compare results/grab.h5 frames --out mine && foldproof report mine
 
 Exit codes:
-  0    compared, whatever the distance
+  0    compared; the distance does not matter
   2    bad input; a frame cannot be read, or none lies in the run's time)";
 
 constexpr const char* project =
-    R"(Prints how many points were moved, and of the last frame how much of the wrinkles is left: the
-standard deviation of the depths of points that were inside, and where the spectrum of the depth
-along a section of the cloth is largest, before, after plain projection, and after the map. Points
-between two objects are left alone. Points end at most tau/10^6 farther out than the map says.
+    R"(Prints how many points moved. For the last frame it also prints how much of the wrinkles is left
+before projection, after plain projection, and after the map: the standard deviation of the depths
+of points that were inside, and the peak of the spectrum of depth along a section of the cloth.
+Points between two objects are left alone. Points end at most tau/10^6 farther out than the map
+says.
 
 Examples:
   foldproof project results/half_inside.h5 --map blend --tau 0.01
 
 Exit codes:
   0    all points are out
-  1    some points found no room between objects
+  1    some points have too little clearance between objects
   2    bad input, or a file that cannot be written)";
 
 constexpr const char* check =
@@ -316,7 +325,7 @@ constexpr const char* check =
 Exit codes:
   0    everything holds
   1    something fails or is inconclusive
-  2    bad input; a name that chooses nothing)";
+  2    bad input; a name matches nothing)";
 
 constexpr const char* study =
     R"(Examples:
@@ -326,6 +335,6 @@ constexpr const char* study =
 Exit codes:
   0    everything holds
   1    something fails or is inconclusive
-  2    bad input; a name that chooses nothing)";
+  2    bad input; a name matches nothing)";
 
 }  // namespace foldproof::help

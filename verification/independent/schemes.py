@@ -1,0 +1,59 @@
+"""One step of each scheme, as the lists of BMF03 section 3 are printed.
+
+`exp` uses known velocities; `imp` solves (M - h/2 D(x)) w = M v + h/2 (f(x) + g) for w, directly.
+"""
+
+import numpy as np
+
+from model import Model, Span, State
+
+
+def explicit(model: Model, time: float, x: np.ndarray, v: np.ndarray, h: float,
+             flow: np.ndarray) -> np.ndarray:
+    """v + h a(time, x, flow), as for particles that nothing holds."""
+    matrix, known = model.damping(time, x)
+    force = model.elastic(time, x) + known + (matrix @ flow.ravel()).reshape(-1, 3)
+    return v + h * force / model.mass[:, None]
+
+
+def implicit(model: Model, time: float, x: np.ndarray, v: np.ndarray, h: float,
+             known_flow: np.ndarray) -> np.ndarray:
+    """The w with w = v + h a(time, x, w); prescribed particles have that of `known_flow`."""
+    matrix, known = model.damping(time, x)
+    mass = np.repeat(model.mass, 3)
+    right = mass * v.ravel() + h * (model.elastic(time, x) + known).ravel()
+    left = np.diag(mass) - h * matrix
+    w = known_flow.ravel().copy()
+    free = np.repeat(~model.held, 3)
+    right -= left[:, ~free] @ w[~free]
+    w[free] = np.linalg.solve(left[np.ix_(free, free)], right[free])
+    return w.reshape(-1, 3)
+
+
+def scheme_a(model: Model, now: State, h: float) -> State:
+    half = explicit(model, now.time, now.x, now.v, h / 2, now.v)
+    flow = model.mean_velocity(now, half, h)
+    flow = model.modify(Span(now.time, now.time + h, h), now.x, flow)
+    x, time = now.x + h * flow, now.time + h
+    v = implicit(model, time, x, half, h / 2, model.prescribed_velocity(half, time, now.time))
+    return State(time, x, model.modify(Span(time, time, h), x, v))
+
+
+def scheme_b(model: Model, now: State, h: float) -> State:
+    half = implicit(model, now.time, now.x, now.v, h / 2, model.mean_velocity(now, now.v, h))
+    half = model.modify(Span(now.time, now.time + h, h), now.x, half)
+    x, time = now.x + h * half, now.time + h
+    v = explicit(model, time, x, half, h / 2, half)
+    return State(time, x, model.prescribed_velocity(v, time, now.time))
+
+
+def scheme_c(model: Model, now: State, h: float) -> State:
+    flow = implicit(model, now.time, now.x, now.v, h / 2, model.mean_velocity(now, now.v, h))
+    flow = model.modify(Span(now.time, now.time + h, h), now.x, flow)
+    x, time = now.x + h * flow, now.time + h
+    half = explicit(model, now.time, now.x, now.v, h / 2, now.v)
+    v = implicit(model, time, x, half, h / 2, model.prescribed_velocity(half, time, now.time))
+    return State(time, x, model.modify(Span(time, time, h), x, v))
+
+
+SCHEMES = {"A": scheme_a, "B": scheme_b, "C": scheme_c}

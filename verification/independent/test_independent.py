@@ -1,0 +1,68 @@
+#!/usr/bin/python3
+"""Tests that `foldproof simulate` and the program beside this file, which share no code, agree case by case.
+
+test_independent.py [--program FILE] [IndependentTest.test_...]      --program: another than build/foldproof
+"""
+
+import json
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+
+from model import read_case  # noqa: E402
+from simulate import Agreement, compare, read_run, simulate  # noqa: E402
+
+FOLDER = Path(__file__).resolve().parent
+OTHER = sys.argv[1:2] == ["--program"]
+PROGRAM = Path(sys.argv.pop(2)) if OTHER else FOLDER.parents[1] / "build" / "foldproof"
+BOUND = 1e-10  # of the cloth's size: solves leave 1e-13 of a velocity in each of hundreds of steps
+ROUNDINGS = 1e-14  # of a mass, a sum of a dozen areas; of a second, in times
+CLOCK = 120  # s
+
+
+def agreement(name: str, changes: dict[str, object]) -> Agreement:
+    """Runs the case in both programs. RuntimeError says how `foldproof` ended if not well."""
+    file = FOLDER / "cases" / f"{name}.toml"
+    model = read_case(file, changes)
+    with tempfile.TemporaryDirectory(prefix="foldproof-independent-") as out:
+        settings = [word for key, value in changes.items() for word in ("--set", f"{key}={json.dumps(value)}")]
+        command = [str(PROGRAM), "simulate", str(file), *settings, "--out", out]
+        done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=CLOCK)
+        if done.returncode:
+            raise RuntimeError(f"exit code {done.returncode}: {done.stderr}")
+        return compare(simulate(model), model.mass, read_run(Path(out) / f"{name}.h5"))
+
+
+class IndependentTest(unittest.TestCase):
+    """Each test is a case, or a few variants of one."""
+
+    def agrees(self, name: str, changes: dict[str, object] | None = None) -> None:
+        found = agreement(name, changes or {})
+        said = f"{name} {changes or ''}: {found}"
+        print(said)
+        self.assertGreaterEqual(found.steps, 200, said)
+        self.assertLessEqual(found.x, BOUND * found.size, said)
+        self.assertLessEqual(found.travel, BOUND * found.size, said)
+        self.assertLessEqual(found.mass, ROUNDINGS, said)
+        self.assertLessEqual(found.time, ROUNDINGS, said)
+
+    def test_springs_hang_by_scheme_c(self) -> None:
+        self.agrees("springs")
+
+    def test_crooked_sheet_flies_by_schemes_a_b_c(self) -> None:
+        for scheme in "ABC":
+            self.agrees("flying", {"time.integrator": scheme})
+
+    def test_prescribed_particles_by_schemes_a_b_c(self) -> None:
+        for scheme in "ABC":
+            self.agrees("led", {"time.integrator": scheme})
+
+
+if __name__ == "__main__":
+    if OTHER:
+        del sys.argv[1]  # its file is taken out above
+    unittest.main()

@@ -1,0 +1,102 @@
+// A sheet as a soft body of Bullet, for both of its adapters.
+#pragma once
+
+#include <BulletSoftBody/btSoftBodyRigidBodyCollisionConfiguration.h>
+#include <btBulletDynamicsCommon.h>
+
+#include <memory>
+
+#include "verification/subjects/adapters/foldproof_solver.h"
+
+namespace foldproof_solver {
+
+struct BulletBody : Solver {
+  btSoftBodyRigidBodyCollisionConfiguration configuration;
+  btCollisionDispatcher dispatcher{&configuration};
+  std::unique_ptr<btDbvtBroadphase> broadphase;
+  std::unique_ptr<btSequentialImpulseConstraintSolver> constraints;
+  std::unique_ptr<btDiscreteDynamicsWorld> world;  // made by the adapter's prepare
+  btSoftBodyWorldInfo info;
+  btSoftBody* body = nullptr;
+  btVector3 gravity;
+
+  explicit BulletBody(const char* name) {
+    const int version = btGetVersion();
+    declared.name = name;
+    declared.version = std::to_string(version / 100) + "." + std::to_string(version % 100);
+    declared.capabilities = {"set_state", "held", "masses"};
+  }
+  ~BulletBody() override { clear(); }
+
+  void clear() {
+    if (body) world->removeCollisionObject(body);
+    delete body;
+    body = nullptr;
+    world.reset(), constraints.reset();
+  }
+
+  static int setting(const Scene& scene, const char* key, int otherwise) {
+    return std::stoi(scene.header["scene"]["settings"].value(key, std::to_string(otherwise)));
+  }
+
+  /// The body and what its world needs; springs, edges and masses are the scene's.
+  void prepare_body(const Scene& scene) {
+    if (scene.header["scene"]["material"]["bending_rigidity"] > 0)
+      throw Declined("a bending rigidity in N m: Bullet bends by springs two edges apart");
+    clear();
+    x = scene.numbers.at("x"), v = scene.numbers.at("v");
+    const Json& g = scene.header["scene"]["gravity"];
+    gravity = {g[0], g[1], g[2]};
+    broadphase = std::make_unique<btDbvtBroadphase>();
+    info.m_broadphase = broadphase.get(), info.m_dispatcher = &dispatcher;
+    info.m_gravity = gravity, info.air_density = 0, info.water_density = 0;
+    info.m_maxDisplacement = 1e9;  // m; a step's velocity is cut to it over dt
+    add_body(scene);
+  }
+
+  void add_body(const Scene& scene) {
+    const std::vector<int>& edges = scene.integers.at("edges");
+    const std::vector<int>& triangles = scene.integers.at("triangles");
+    body = new btSoftBody(&info, int(x.size() / 3), nullptr, nullptr);
+    for (int i = 0; i < body->m_nodes.size(); ++i) {
+      body->m_nodes[i].index = i;
+      body->setMass(i, scene.numbers.at("mass")[size_t(i)]);
+    }
+    for (const int i : scene.integers.at("held")) body->setMass(i, 0);
+    body->appendMaterial()->m_kLST = 1;
+    set_state(x, v, 0);
+    for (size_t e = 0; e + 1 < edges.size(); e += 2) {
+      body->appendLink(edges[e], edges[e + 1]);
+      btSoftBody::Link& link = body->m_links[body->m_links.size() - 1];
+      link.m_rl = scene.numbers.at("rest_lengths")[e / 2];
+      link.m_c1 = link.m_rl * link.m_rl;
+    }
+    for (size_t t = 0; t + 2 < triangles.size(); t += 3)
+      body->appendFace(triangles[t], triangles[t + 1], triangles[t + 2]);
+    body->m_cfg.kDP = body->m_cfg.kDF = body->m_cfg.kDG = body->m_cfg.kLF = 0;
+    body->m_sleepingThreshold = 0;
+    body->setActivationState(DISABLE_DEACTIVATION);
+  }
+
+  void set_state(Numbers new_x, Numbers new_v, double new_time) override {
+    Solver::set_state(std::move(new_x), std::move(new_v), new_time);
+    for (int i = 0; i < body->m_nodes.size(); ++i) {
+      btSoftBody::Node& node = body->m_nodes[i];
+      const double *p = &x[3 * size_t(i)], *u = &v[3 * size_t(i)];
+      node.m_x = node.m_q = {p[0], p[1], p[2]};
+      node.m_v = node.m_vn = {u[0], u[1], u[2]};
+      node.m_f = node.m_splitv = {0, 0, 0};
+    }
+  }
+
+  void advance(double dt, long steps) override {
+    for (long k = 0; k < steps; ++k) world->stepSimulation(dt, 0);
+    for (int i = 0; i < body->m_nodes.size(); ++i)
+      for (int c = 0; c < 3; ++c) {
+        x[3 * size_t(i) + size_t(c)] = body->m_nodes[i].m_x[c];
+        v[3 * size_t(i) + size_t(c)] = body->m_nodes[i].m_v[c];
+      }
+  }
+};
+
+}  // namespace foldproof_solver

@@ -1,0 +1,81 @@
+// Adapter of Bullet's deformable bodies with mass-spring forces; `scripts/engines bullet` builds
+// it. Setting: implicit = 1 (Euler backward, one Newton iteration, the default) or 0 (symplectic).
+#include <BulletSoftBody/btDeformableBodySolver.h>
+#include <BulletSoftBody/btDeformableGravityForce.h>
+#include <BulletSoftBody/btDeformableMassSpringForce.h>
+#include <BulletSoftBody/btDeformableMultiBodyConstraintSolver.h>
+#include <BulletSoftBody/btDeformableMultiBodyDynamicsWorld.h>
+
+#include <cmath>
+#include <functional>
+#include <numeric>
+
+#include "verification/subjects/adapters/bullet/bullet_body.h"
+
+using namespace foldproof_solver;
+
+struct Deformable : BulletBody {
+  std::unique_ptr<btDeformableBodySolver> deformable;
+  std::unique_ptr<btDeformableMassSpringForce> springs;
+  std::unique_ptr<btDeformableGravityForce> weight;
+
+  Deformable() : BulletBody("Bullet deformable") {
+    declared.level = "L2", declared.scheme = "Euler, backward or symplectic", declared.order = 1;
+    // its conjugate gradients end at a squared residual of one rounding
+    declared.solve_tolerance = std::sqrt(SIMD_EPSILON);
+  }
+  ~Deformable() override { clear(); }  // the world before what it refers to
+
+  Mapping prepare(const Scene& scene) override {
+    prepare_body(scene);
+    const bool implicit = setting(scene, "implicit", 1) != 0;
+    const Numbers& stiffness = scene.numbers.at("edge_stiffness");
+    const double sum = std::accumulate(stiffness.begin(), stiffness.end(), 0.0);
+    deformable = std::make_unique<btDeformableBodySolver>();
+    auto solver = std::make_unique<btDeformableMultiBodyConstraintSolver>();
+    solver->setDeformableSolver(deformable.get());
+    auto made = std::make_unique<btDeformableMultiBodyDynamicsWorld>(
+        &dispatcher, broadphase.get(), solver.get(), &configuration, deformable.get());
+    springs = std::make_unique<btDeformableMassSpringForce>(sum / double(stiffness.size()), 0);
+    weight = std::make_unique<btDeformableGravityForce>(gravity);
+    made->setGravity(gravity);
+    made->setImplicit(implicit);
+    made->setLineSearch(false);
+    made->setUseProjection(true);  // without it, implicit cloth does not move
+    made->addSoftBody(body);
+    made->addForce(body, springs.get());
+    made->addForce(body, weight.get());
+    constraints = std::move(solver), world = std::move(made);
+    return {{"stretch", "one stiffness [N/m] for all edges, the mean of the scene's"},
+            {"damping", "none"},
+            {"step", implicit ? "backward Euler, one Newton iteration" : "symplectic Euler"}};
+  }
+
+  Numbers summed(const std::function<void(btDeformableLagrangianForce::TVStack&)>& add) {
+    btDeformableLagrangianForce::TVStack sum;
+    sum.resize(body->m_nodes.size(), btVector3(0, 0, 0));
+    add(sum);
+    Numbers all;
+    for (int i = 0; i < sum.size(); ++i) all.insert(all.end(), {sum[i][0], sum[i][1], sum[i][2]});
+    return all;
+  }
+  Numbers forces() override {
+    return summed(
+        [this](auto& f) { springs->addScaledElasticForce(1, f), weight->addScaledForces(1, f); });
+  }
+  Numbers damping() override {
+    return summed([this](auto& f) { springs->addScaledDampingForce(1, f); });
+  }
+  double energy() override {
+    double potential = springs->totalElasticEnergy(1);
+    for (int i = 0; i < body->m_nodes.size(); ++i)
+      if (body->m_nodes[i].m_im > 0)
+        potential -= gravity.dot(body->m_nodes[i].m_x) / body->m_nodes[i].m_im;
+    return potential;
+  }
+};
+
+int main() {
+  Deformable solver;
+  return serve(solver);
+}
