@@ -65,8 +65,8 @@ class ErrorsShown(unittest.TestCase):
         section = re.search(r'<section id="errors">.*?</section>', text, re.DOTALL)[0]
         self.assertRegex(text, r'Its error: <a href="#errors-of-fold">its step puts its positions off by [^\n]{0,80}\u2009')
         for shown in ("it &lt;varies&gt;", "height &lt;b&gt;", "only &lt;statistics&gt;", "level 2 came to no end: it &lt;stops&gt;".capitalize(),
-                      "not asked: 4.5 hours", "fold</a>, first 0.5 of 3 s", "(commit fedcba9876)", "(tied: C)", "cheapest for 1 %", "cheapest for 0.1 %"):
-            self.assertIn(shown, section)
+                      "not asked: 4.5 hours", "fold, first 0.5 of 3 s", "(commit fedcba9876)", "(tied: C)", "cheapest for 1 %", "cheapest for 0.1 %"):
+            self.assertIn(shown, re.sub("<[^>]*>", "", section))
         self.assertNotIn("earlier form", text)
 
     def test_a_case_that_has_changed_since_is_named(self) -> None:
