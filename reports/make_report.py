@@ -28,6 +28,7 @@ sys.dont_write_bytecode = True
 from data.command_line import OneLineParser, refuse, require_modules, require_program  # noqa: E402
 
 require_modules("make_report", "numpy", "h5py", "matplotlib", "jinja2")
+from data.fault_record import with_record  # noqa: E402
 from data.history import row_of  # noqa: E402
 from data.results import Case, CaseEntry, Run, Study, case_entry_of_file, load_case, load_run  # noqa: E402
 from data.unreadable import Unreadable, one_line  # noqa: E402
@@ -187,7 +188,7 @@ def read_folder(folder: Path) -> tuple[Run, Run | None]:
     studies = [study for other in others for study in other.studies]
     if (folder / "run.h5").is_file():
         run = load_run(folder / "run.h5")
-        return replace(run, studies=run.studies + studies), bench
+        return replace(run, studies=run.studies + studies, faults=with_record(run.faults)), bench
     entries = [case_entry_of_file(path) for path in sorted(folder.glob("*.h5")) if path.name not in ("bench.h5", *OF_A_CASE)]
     cases = [entry for entry in entries if entry is not None]
     if not cases and bench is None and not others:

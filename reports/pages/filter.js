@@ -67,11 +67,19 @@
 
   // ---- showing ----
 
+  // a reader may type the name of a Greek letter that the page shows
+  const GREEK = {{ greek }};
+
+  function hasWord(entry, word) {
+    const letters = word.replace(/[a-z]+/g, name => GREEK[name] ?? name);
+    return entry.words.includes(word) || entry.words.includes(letters);
+  }
+
   function isActive() { return fields.some(field => field.value.trim()); }
 
   function matches(entry, wanted) {
     return (!section.value || entry.section === section.value) && (!verdict.value || entry.verdict === verdict.value)
-      && (!subject.value || entry.subjects.has(subject.value)) && wanted.every(word => entry.words.includes(word));
+      && (!subject.value || entry.subjects.has(subject.value)) && wanted.every(word => hasWord(entry, word));
   }
 
   function show() {

@@ -1,6 +1,7 @@
 """Puts what was read and drawn into the page. Groups, counts and sorts for display; decides nothing."""
 from __future__ import annotations
 
+import json
 import re
 from collections import Counter
 from collections.abc import Iterable
@@ -13,6 +14,8 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
 from data import quantities
+from data.fault_record import commits_of
+from data.formulas import GREEK, formula_html
 from data.results import Case, CaseEntry, Column, Fault, Finding, Run, Study
 from pages import ledger
 from pages.answers import cheapest_of
@@ -146,9 +149,10 @@ def render(page: Page, since: list[Piece] | None = None, cuts: Cuts | None = Non
         most_open=MOST_OPEN, viewer=Markup(_viewer()), rulings=ledger.ruling_counts, sections=ledger.by_section,
         cheapest=cheapest_of(view.study for view in page.studies),
         known_faults={fault.name: fault for fault in page.faults}, caught=CaughtCount(page.faults),
-        by_file=faults_by_file, fault_outcomes=fault_outcomes, kill_tables=kill_tables(page.faults),
+        by_file=faults_by_file, commits=commits_of(page.faults), fault_outcomes=fault_outcomes, kill_tables=kill_tables(page.faults),
         known_findings={finding.name for finding in page.all_findings()}, commands=commands_of(page),
         program=program_of(page),
+        expectations={case.anchor: case for case in page.case_findings + page.hard_findings if case.anchor},
         of_case={finding.name: case for case in page.case_findings + page.hard_findings
                  for finding in case.findings}.get)
     return environment.get_template("page.html.j2").render(page=page, said=page.provenance,
@@ -196,10 +200,10 @@ def new_environment() -> Environment:
                               trim_blocks=True, lstrip_blocks=True)
     environment.filters.update(number=quantities.number_html, known=quantities.known_html, unit=quantities.unit_text,
                                seconds=quantities.seconds_html, bar_length=length_text, sentence=html_of, measured=measured_html, bound=bound_html,
-                               rule=rule_html)
+                               rule=rule_html, formula=formula_html)
     environment.globals.update(
         quantity=quantities.quantity_html, ratio=quantities.ratio_of, isnan=isnan, anchor=Anchors().of,
-        outcome_class=outcome_class, counts=count_outcomes, style=Markup(_text_of(*STYLES)), script=Markup(_text_of("pages/filter.js")))
+        outcome_class=outcome_class, counts=count_outcomes, style=Markup(_text_of(*STYLES)), script=Markup(_text_of("pages/filter.js").replace("{{ greek }}", json.dumps(GREEK, ensure_ascii=False))))
     return environment
 
 

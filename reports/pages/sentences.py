@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 
 from markupsafe import Markup, escape
 
+from data.formulas import formula_html
 from data.quantities import quantity_html, quantity_text
 
 
@@ -68,8 +69,9 @@ def _html(piece: Piece) -> Markup:
     if isinstance(piece, Number):
         return quantity_html(piece.value, piece.unit)
     if isinstance(piece, Quoted):
-        said = Markup('<span class="quoted">{}</span>').format(piece.text)
-        return Markup('<a href="#{}">{}</a>').format(piece.anchor, piece.text) if piece.anchor else said
+        text = piece.text if piece.is_name else formula_html(piece.text)
+        said = Markup('<span class="quoted">{}</span>').format(text)
+        return Markup('<a href="#{}">{}</a>').format(piece.anchor, text) if piece.anchor else said
     return escape(piece)
 
 

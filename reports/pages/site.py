@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from markupsafe import Markup, escape
 
 FIRST = "index.html"
+SEARCHED = 20    # entries of a page that are searched, at least
 _MARK = re.compile(r"<!--(page|end) (\d+)-->")
 _ID = re.compile(r'\sid="([^"]+)"')
 _LINK = re.compile(r'href="#([^"]+)"')
@@ -116,8 +117,8 @@ def _levelled(text: str) -> str:
 
 
 def _without_idle_search(page: str) -> str:
-    """The search needs entries; a page without any has none of its controls."""
-    if _ENTRY.search(page[page.index("<main"):]):
+    """The search is for pages with many entries; others have none of its controls."""
+    if len(_ENTRY.findall(page[page.index("<main"):])) >= SEARCHED:
         return page
     return re.sub(r'<form class="filter".*?</form>', "", page, count=1, flags=re.DOTALL)
 

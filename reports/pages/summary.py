@@ -7,6 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+from data.fault_record import commits_of
 from data.history import Change, MarginChange, RunRow, changes, in_order, margin_changes
 from data.results import Fault, Finding
 from pages.conclusions import Results, conclusions_of
@@ -153,6 +154,7 @@ def _faults(faults: list[Fault]) -> list[Piece]:
     if not faults:
         return ["These results list no seeded faults."]
     counted = Counter(fault.outcome for fault in faults)
+    recorded = commits_of(faults)
     run = sum(counted[outcome] for outcome in ("caught", "SURVIVED", "equivalent", "ERROR"))
     total = _count(len(faults), "faults")
     if not run:
@@ -160,8 +162,10 @@ def _faults(faults: list[Fault]) -> list[Piece]:
                 Quoted("scripts/faults --out DIR/faults.json", "command", is_name=True), "."]
     said: list[Piece] = ["Of ", total, " seeded faults " if len(faults) != 1 else " seeded fault ", _count(counted["caught"], "faults caught"), " was caught, " if counted["caught"] == 1 else " were caught, ",
                          _count(counted["SURVIVED"], "faults that survived"), " survived"]
+    if recorded:
+        said += [", on commit ", Quoted(recorded[0][0][:10], "record of faults", is_name=True), *([" and others"] if recorded[1:] else []), ", not with these results"]
     rest = len(faults) - counted["caught"] - counted["SURVIVED"]
-    return [*said, *([", ", _count(rest, "other faults"), " were not run or are equivalent"] if rest else []), "."]
+    return [*said, *([", ", _count(rest, "other faults"), " were not run since they were written, or are equivalent"] if rest else []), "."]
 
 
 def since_last(before: RunRow | None, now: RunRow | None, anchor: Callable[[str], str]) -> list[Piece]:

@@ -14,6 +14,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
 from data.quantities import number_text
+from data.formulas import formula_text
 from data.results import Curve, StudyMap
 from plots.plot_style import (INK, MUTED, PAPER, Plot, finish, label_axes, level_text, new_figure, say_in_the_middle,
                               scale_axis, with_unit)
@@ -123,7 +124,7 @@ def _draw_curves(axes: Axes, curves: list[Curve]) -> None:
         place = _place_of_name(path, names, paths[:index] + paths[index + 1:])
         if place is not None:
             names.append(place)
-            axes.text(*place, fill(curve.label, LABEL_WIDTH), transform=axes.transAxes, ha="center", va="center",
+            axes.text(*place, fill(formula_text(curve.label), LABEL_WIDTH), transform=axes.transAxes, ha="center", va="center",
                       fontsize=7.4, color=INK, zorder=6,
                       bbox={"facecolor": PAPER, "edgecolor": "none", "boxstyle": "round,pad=0.25", "alpha": 0.9})
 

@@ -18,6 +18,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, MaxNLocator, NullFormatter, NullLocator
 
+from data.formulas import formula_text
 from data.quantities import MINUS, is_count, number_text, superscript, unit_text
 from data.whole_file import write_whole
 from plots.svg_in_page import page_svg
@@ -127,7 +128,8 @@ def label_axes(axes: Axes, x_label: str, x_unit: str, y_label: str, y_unit: str)
 
 def with_unit(label: str, unit: str) -> str:
     """A label with its unit in brackets; the unit 1 is not written."""
-    return label if unit.strip() in ("", "1") else f"{label} [{unit_text(unit)}]"
+    said = formula_text(label)
+    return said if unit.strip() in ("", "1") else f"{said} [{unit_text(unit)}]"
 
 
 def scale_axis(axes: Axes, which: str, scale: str, values: np.ndarray) -> None:

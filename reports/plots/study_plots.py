@@ -10,6 +10,7 @@ from markupsafe import Markup
 from matplotlib.axes import Axes
 from matplotlib.markers import MarkerStyle
 
+from data.formulas import formula_text
 from data.results import Curve, StudyFigure
 from plots.plot_style import (BAND, COLOURS, INK, MARKERS, MUTED, PAPER, Pen, Plot, Points, finish, label_axes,
                               new_figure, say_in_the_middle, scale_axis, variable_of)
@@ -219,7 +220,7 @@ def _label_curves(axes: Axes, curves: list[Curve], pens: list[Pen], shown: list[
     to_axes = axes.transData + axes.transAxes.inverted()
     ends = [tuple(to_axes.transform((x[x.argmax()], y[x.argmax()]))) if len(x) else (0.0, -1.0)
             for x, y in shown]
-    labels = [fill(curve.label, LABEL_WIDTH) for curve in curves]
+    labels = [fill(formula_text(curve.label), LABEL_WIDTH) for curve in curves]
     step = min(LABEL_STEP * max(1 + label.count("\n") for label in labels), 1.06 / max(len(curves), 1))
     heights = spread([end[1] for end in ends], step)
     size = 7.6 if step >= LABEL_STEP else 6.4

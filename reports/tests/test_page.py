@@ -21,7 +21,7 @@ from pages.chromium import Browser, NoBrowser, find_browser
 from tests.made_up_run import NAMES, put_run
 
 REPORTS = Path(__file__).resolve().parents[1]
-SECTIONS = ("claims", "checks", "studies", "cases", "case-findings", "faults", "hard", "speed", "provenance")
+SECTIONS = ("claims", "checks", "studies", "cases", "faults", "hard", "speed", "provenance")
 LEAST_CONTRAST = 4.5                # of text, WCAG 2.1 level AA
 TEXT_COLOURS = ("ink", "soft", "holds", "fails", "inconclusive", "none", "link", "plot-ink", "plot-muted")
 
@@ -70,7 +70,7 @@ class Order(MadeUpPage):
 
     def test_a_claim_says_where_the_paper_makes_it_where_the_file_knows(self) -> None:
         self.assertIn("The paper, section 3, paragraph 4: &ldquo;Sums add up &hellip;&rdquo;", self.text)
-        self.assertIn("Printed: <code>a - b</code>. Restored: <code>a + b</code>.", self.text)
+        self.assertIn("Printed: <span class=\"formula\">a - b</span>. Restored: <span class=\"formula\">a + b</span>.", self.text)
         self.assertEqual(self.text.count('<p class="cited">'), 2)  # none of T17, from an older program
 
     def test_what_was_not_asked_shows_its_reason_and_no_numbers(self) -> None:
