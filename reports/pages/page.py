@@ -34,6 +34,7 @@ from pages.summary import Judged, Summary, since_last, summary_of
 from pages.summary_markdown import count_words
 from pages.trust import Coverage, Kinds, Tolerances, Variants
 from pictures.case_pictures import PictureRow, length_text
+from pictures.sketches import sketch_of
 from plots.map_plots import map_notes
 from plots.plot_style import Plot
 from viewer.field_pictures import FieldView
@@ -148,7 +149,7 @@ def render(page: Page, since: list[Piece] | None = None, cuts: Cuts | None = Non
         margin=margin_percent, plain=all_hold, whole_study_table=WHOLE_STUDY_TABLE, whole_table=WHOLE_TABLE,
         most_open=MOST_OPEN, viewer=Markup(_viewer()), rulings=ledger.ruling_counts, sections=ledger.by_section,
         cheapest=cheapest_of(view.study for view in page.studies),
-        known_faults={fault.name: fault for fault in page.faults}, caught=CaughtCount(page.faults),
+        sketch_of=sketch_of, known_faults={fault.name: fault for fault in page.faults}, caught=CaughtCount(page.faults),
         by_file=faults_by_file, commits=commits_of(page.faults), fault_outcomes=fault_outcomes, kill_tables=kill_tables(page.faults),
         known_findings={finding.name for finding in page.all_findings()}, commands=commands_of(page),
         program=program_of(page),

@@ -1,11 +1,13 @@
 #!/usr/bin/python3
-"""Tests of formulas in sentences, and of the record of seeded faults."""
+"""Tests of formulas in sentences, of the record of seeded faults, and of drawings of set-ups."""
 from __future__ import annotations
 
 import json
+import re
 import sys
 import tempfile
 import unittest
+import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
 sys.dont_write_bytecode = True
@@ -16,6 +18,7 @@ from data.fault_record import commits_of, with_record  # noqa: E402
 from data.formulas import formula_html, formula_text  # noqa: E402
 from data.results import Fault  # noqa: E402
 from data.unreadable import Unreadable  # noqa: E402
+from pictures.sketches import HEIGHT, WIDTH, drawn_studies, sketch_of  # noqa: E402
 
 
 class Formulas(unittest.TestCase):
@@ -74,6 +77,21 @@ class FaultRecord(unittest.TestCase):
         self.file.write_text('{"faults": {"slip": {}}}')
         with self.assertRaisesRegex(Unreadable, "outcomes.json"):
             with_record([self.fault], self.file)
+
+
+class Sketches(unittest.TestCase):
+    def test_each_is_whole_and_stays_in_its_box(self) -> None:
+        for study in drawn_studies():
+            sketch = sketch_of(study)
+            root = ElementTree.fromstring(str(sketch.svg))
+            self.assertEqual(root.get("aria-label"), sketch.words)
+            for path in root.iter("path"):
+                numbers = [float(number) for number in re.findall(r"-?[0-9.]+", path.get("d"))]
+                self.assertTrue(all(0 <= x <= WIDTH for x in numbers[::2]), study)
+                self.assertTrue(all(0 <= y <= HEIGHT for y in numbers[1::2]), study)
+
+    def test_a_study_without_one_has_none(self) -> None:
+        self.assertIsNone(sketch_of("no-such-study"))
 
 
 if __name__ == "__main__":

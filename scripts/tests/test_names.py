@@ -21,6 +21,9 @@ from script_module import ROOT, script  # noqa: E402
 from edits import apply, changes_of  # noqa: E402
 from mutants import PROGRAM, PYTHON_TESTS, TESTS  # noqa: E402
 
+sys.path.insert(0, str(ROOT / "reports"))
+from pictures.sketches import drawn_studies  # noqa: E402
+
 FAULTS = script("faults")
 
 
@@ -100,6 +103,9 @@ class Names(unittest.TestCase):
             for part in row["parts"]:
                 name = part["name"].split("'")[0]
                 self.assertIn(f'"{name}', parts, row["case"])
+
+    def test_drawings_are_of_studies_that_exist(self) -> None:
+        self.assertLessEqual(set(drawn_studies()), {row["name"] for row in self.listed["studies"]})
 
     def test_renames_lead_from_names_that_are_gone_to_names_that_exist(self) -> None:
         renames = tomllib.loads((ROOT / "scripts/renames.toml").read_text(encoding="utf-8"))
