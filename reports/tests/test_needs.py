@@ -93,7 +93,7 @@ class NeedsShown(unittest.TestCase):
         self.assertEqual(re.findall(r'aria-label="([a-z ]+)">(.)</span>', section), [("not needed here", "\u2715"), ("kept for a reason", "\u25d0")])
         self.assertIn("it &lt;stops&gt;", section)
         self.put(told("bag", "abcdef0123456789"))
-        self.assertIn("was not asked", self.made())
+        self.assertIn("Not known which of its parts it needs", self.made())
 
     def test_what_is_recorded_is_shown_where_the_run_did_not_ask(self) -> None:
         put_run(self.root)

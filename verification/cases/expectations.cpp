@@ -117,12 +117,11 @@ Case with_usual_expectations(Case input_case) {
   const bool has_energy = !scene.bending || scene.bending->weighting == Weighting::rest;
   if (has_energy && scene.objects.empty() && scene.sticky.empty() && !scene.strain_limits &&
       !scene.self_collision && !is_driven(scene))
-    add_unless_stated(
-        {"energy_is_accounted_for", 0.01,
-         "schemes of second order at half the elastic limit: an oscillation of (omega h)^2/8 in "
-         "energy where the stiffest modes carry a small part of it; one percent leaves no room for "
-         "a force that is not the gradient of its energy"},
-        input_case.expectations);
+    add_unless_stated({"energy_is_accounted_for", 0.01,
+                       "schemes of second order at half the elastic limit: an oscillation of "
+                       "(omega h)^2/8 in energy where the stiffest modes carry a small part of it; "
+                       "one percent would expose a force that is not the gradient of its energy"},
+                      input_case.expectations);
   add_unless_stated(
       {"is_reproducible", 0, "the same numbers in the same order give the same bits on every run"},
       input_case.expectations);
@@ -132,10 +131,10 @@ Case with_usual_expectations(Case input_case) {
   if (is_stated("tangle_does_not_grow", input_case.expectations)) return input_case;
   add_unless_stated(
       {"never_crosses_itself", 0,
-       scene.self_collision ? "what starts free of crossings stays free of them: repulsion and "
-                              "impulses may fail, impact zones may not"
-                            : "the scene has no self-collision, and needs none: cloth that would "
-                              "pass through itself needs [self_collision]"},
+       scene.self_collision ? "cloth that starts without crossings stays without them: repulsion "
+                              "and impulses may fail, impact zones may not"
+                            : "the scene has no self-collision and should need none; if the cloth "
+                              "passes through itself, add [self_collision]"},
       input_case.expectations);
   return input_case;
 }
