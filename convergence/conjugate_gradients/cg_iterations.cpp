@@ -100,11 +100,15 @@ Table costs_table(const std::vector<Sweep>& measured) {
 }
 
 NamedFinding fewer_than_ten(const std::vector<Sweep>& measured) {
-  Table typical_costs{{"residual compared with", "1"}, {"mean iterations", "1"}, {"largest", "1"}};
+  // every tolerance at the typical damping and step: those that keep the order and error, too
+  Table typical_costs{{"residual compared with", "1"},
+                      {"tolerance", "1"},
+                      {"mean iterations", "1"},
+                      {"largest", "1"}};
   for (const Sweep& sweep : measured) {
     for (size_t i = 0; i < sweep.costs.size(); ++i) {
-      if (sweep.name != "damping" || sweep.values[i] != typical.ratio) continue;
-      typical_costs.row(words_of(sweep.settings[i].scale), sweep.costs[i].mean,
+      if (sweep.name != "tolerance") continue;
+      typical_costs.row(words_of(sweep.settings[i].scale), sweep.values[i], sweep.costs[i].mean,
                         sweep.costs[i].largest);
     }
   }

@@ -158,6 +158,36 @@ NamedFinding even_curve_takes_more(const std::vector<Balance>& all) {
            ""}};
 }
 
+NamedFinding uneven_bodies_save(const std::vector<Balance>& all) {
+  Table shares{{"body", ""}, {"cells of the grid along each axis", "1"}, {"octree over grid", "1"}};
+  for (const Balance& b : all)
+    if (b.body == "box" || b.body == "statue")
+      shares.row(b.body, std::ldexp(1, b.level), share_of_grid(b));
+  return {
+      "octree-memory.saves-on-boxes-and-bumpy-bodies",
+      "On a box and on a bumpy body the octree takes less memory than the grid, at every error.",
+      judge_worst(shares, 1, "the grid's memory: beyond it nothing is saved")};
+}
+
+/// A sphere and a torus: less memory from 128 cells on, more at 64.
+NamedFinding even_bodies_need_fine_grids(const std::vector<Balance>& all) {
+  constexpr int from_here_on = 7, not_yet = 6;  // levels
+  Table shares{{"body", ""},
+               {"cells of the grid along each axis", "1"},
+               {"octree over grid", "1"},
+               {"that, or its inverse at 64 cells", "1"}};
+  for (const Balance& b : all)
+    if ((b.body == "sphere" || b.body == "torus") && b.level >= not_yet) {
+      const double share = share_of_grid(b);
+      shares.row(b.body, std::ldexp(1, b.level), share,
+                 b.level >= from_here_on ? share : 1 / share);
+    }
+  return {"octree-memory.even-bodies-need-fine-grids",
+          "On a sphere and on a torus the octree takes less memory than the grid from 128 cells "
+          "along each axis on, and more at 64.",
+          judge_worst(shares, 1, "the grid's memory, from both sides")};
+}
+
 Table table_of(const std::vector<Balance>& all) {
   Table table{{"body", ""},
               {"cells of the grid along each axis", "1"},
@@ -235,7 +265,8 @@ StudyResult run_octree_memory(const Subject&, Tier tier, const Progress& progres
     progress(double(i + 1) / double(measured.size()));
   }
   StudyResult result;
-  result.findings = {takes_a_tenth(all), even_curve_takes_more(all)};
+  result.findings = {takes_a_tenth(all), even_curve_takes_more(all), uneven_bodies_save(all),
+                     even_bodies_need_fine_grids(all)};
   result.figures = {figure_of(all)};
   result.maps = {slice_of(measured.back())};
   result.tables = {table_of(all)};
@@ -245,12 +276,15 @@ StudyResult run_octree_memory(const Subject&, Tier tier, const Progress& progres
 }  // namespace
 
 Study octree_memory_study() {
-  return {"octree-memory", "An octree takes less memory than a regular grid of the same error.",
-          "BMF03 section 5.1",
-          "How much does adaptive sampling save? For bodies with even curvature, sharp edges and "
-          "bumps, a regular grid and the coarsest octree with no larger error, both in double "
-          "precision. The octree may use cells of half the grid's width where it needs them.",
-          run_octree_memory};
+  return {
+      "octree-memory",
+      "An octree takes less memory than a regular grid of the same error on boxes and bumpy "
+      "bodies; on a sphere and a torus it does from 128 cells along each axis on, and not at 64.",
+      "BMF03 section 5.1",
+      "How much does adaptive sampling save? For bodies with even curvature, sharp edges and "
+      "bumps, a regular grid and the coarsest octree that misses by no more, both in double "
+      "precision. The octree may use cells of half the grid's width where it needs them.",
+      run_octree_memory};
 }
 
 }  // namespace foldproof

@@ -205,7 +205,7 @@ TEST_CASE(
     claim.id.starts_with("C") ? objects.push_back(std::stoi(claim.id.substr(1)))
                               : ids.push_back(claim.id);
   }
-  for (int k = 1; k <= 20; ++k) expected.push_back("T" + std::to_string(k));
+  for (int k = 1; k <= 21; ++k) expected.push_back("T" + std::to_string(k));
   for (int k = 1; k <= 13; ++k) expected.push_back("B" + std::to_string(k));
   for (int k = 1; k <= 6; ++k) expected.push_back("S" + std::to_string(k));
   CHECK(ids == expected);

@@ -103,6 +103,21 @@ Podium podium(const PrecisionScene& scene, double wanted, const Currency& curren
   return podium;
 }
 
+/// The other methods whose cost is within the ratio of two steps that were tried: runs that far
+/// apart do not tell them from the cheapest.
+std::string alike(const PrecisionScene& scene, double wanted, const Currency& currency,
+                  const Podium& podium) {
+  std::string names;
+  for (const PrecisionCurve& curve : scene.curves) {
+    const std::string name(curve.integrator.name);
+    const double cost = price_at(curve, scene.problem.end, wanted).*currency.cost;
+    if (name == podium.first || !(cost <= scene.problem.ratio * (podium.best.*currency.cost)))
+      continue;
+    names += (names.empty() ? "" : ", ") + name;
+  }
+  return names;
+}
+
 Table cheapest(const std::vector<PrecisionScene>& scenes) {
   Table table{{"scene", "1"},
               {"error wanted", "%"},
@@ -115,7 +130,8 @@ Table cheapest(const std::vector<PrecisionScene>& scenes) {
               {"processor time", "s"},
               {"C costs this many times as much", "1"},
               {"next best", "1"},
-              {"it costs this many times as much", "1"}};
+              {"it costs this many times as much", "1"},
+              {"alike", "1"}};
   for (const PrecisionScene& scene : scenes)
     for (double wanted : wanted_errors)
       for (const Currency& currency : currencies) {
@@ -124,10 +140,12 @@ Table cheapest(const std::vector<PrecisionScene>& scenes) {
         table.row(scene.problem.description, percent * wanted, currency.name, at.first, best.step,
                   best.step / scene.truth.elastic_limit, name_of(best.limit), best.applications,
                   best.seconds, at.scheme_C.*currency.cost / best.*currency.cost, at.second,
-                  at.next.*currency.cost / best.*currency.cost);
+                  at.next.*currency.cost / best.*currency.cost, alike(scene, wanted, currency, at));
       }
   return {"cheapest",
-          "The cheapest method for a wanted position error, by counted work and by seconds", table};
+          "The cheapest method for a wanted position error, by counted work and by seconds; alike "
+          "are those that cost more by less than the ratio of two steps that were tried",
+          table};
 }
 
 Table prices(const std::vector<PrecisionScene>& scenes) {

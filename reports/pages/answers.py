@@ -3,7 +3,7 @@ nothing."""
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import isnan
 
 from data.results import Column, Study, Table
@@ -18,6 +18,8 @@ class Choice:
     """The cheapest method for one motion and one error, and others with the factor that they cost more."""
     method: str
     others: list[tuple[str, float]]             # NaN: does not reach that error
+    alike: list[str] = field(default_factory=list)   # methods that the tried steps do not tell from it
+    disagrees: str = ""                         # "B by seconds", where another measure has another winner beyond its ties
 
 
 @dataclass
@@ -36,7 +38,7 @@ def cheapest_of(studies: Iterable[Study]) -> Cheapest | None:
             rows = _rows(table)
             if rows and all(key in rows[0] for key in NEEDED):
                 unit = next(column.unit for column in table.columns if _name(column) == "error wanted")
-                return _arrange([row for row in rows if row["by"] == rows[0]["by"]], unit)
+                return _arrange(rows, unit)
     return None
 
 
@@ -50,17 +52,36 @@ def _name(column: Column) -> str:
 
 
 def _arrange(rows: list[dict[str, object]], unit: str) -> Cheapest:
-    errors = list(dict.fromkeys(float(row["error wanted"]) for row in rows))
-    scenes = list(dict.fromkeys(str(row["scene"]) for row in rows))
-    found = {(str(row["scene"]), float(row["error wanted"])): _choice(row) for row in rows}
-    return Cheapest(str(rows[0]["by"]), errors, unit, [(scene, [found.get((scene, error)) for error in errors]) for scene in scenes])
+    by = str(rows[0]["by"])
+    errors = list(dict.fromkeys(float(row["error wanted"]) for row in rows if row["by"] == by))
+    scenes = list(dict.fromkeys(str(row["scene"]) for row in rows if row["by"] == by))
+    found = {_place(row): _choice(row) for row in rows if row["by"] == by}
+    for row in rows:
+        if (choice := found.get(_place(row))) and row["by"] != by:
+            _compare(choice, row)
+    return Cheapest(by, errors, unit, [(scene, [found.get((scene, error)) for error in errors]) for scene in scenes])
+
+
+def _place(row: dict[str, object]) -> tuple[str, float]:
+    return str(row["scene"]), float(row["error wanted"])
+
+
+def _compare(choice: Choice, other: dict[str, object]) -> None:
+    """Notes another measure's winner where neither is among the other's ties."""
+    winner = str(other["cheapest method"])
+    if not {choice.method, *choice.alike} & {winner, *_alike(other)}:
+        choice.disagrees = f"{winner} by {other['by']}"
+
+
+def _alike(row: dict[str, object]) -> list[str]:
+    return [name for name in str(row.get("alike", "")).split(", ") if name]
 
 
 def _choice(row: dict[str, object]) -> Choice:
-    method, others = str(row["cheapest method"]), []
+    method, alike, others = str(row["cheapest method"]), _alike(row), []
     for named, factor in OTHERS:
         other = str(row.get(named, "C")) if named else "C"
         costs = float(row.get(factor, float("nan")))
-        if other not in (method, *(name for name, _ in others)) and not (named and isnan(costs)):
+        if other not in (method, *alike, *(name for name, _ in others)) and not (named and isnan(costs)):
             others.append((other, costs))
-    return Choice(method, others)
+    return Choice(method, others, alike)

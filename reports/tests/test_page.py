@@ -123,8 +123,11 @@ class Answers(unittest.TestCase):
         study = Study("work", "", "", "", 0.0, [], [Table("other", []), Table("cheapest", columns)])
         found = cheapest_of([study])
         self.assertEqual((found.by, found.errors, found.unit), ("work", [1.0, 0.1], "%"))
-        self.assertEqual(found.rows, [("a", [Choice("RK4", [("A", 1.5), ("C", 3.0)]), Choice("C", [("B", 2.0)])]),
+        self.assertEqual(found.rows, [("a", [Choice("RK4", [("A", 1.5), ("C", 3.0)], [], "A by seconds"), Choice("C", [("B", 2.0)])]),
                                       ("b", [Choice("B", [("C", 4.0)]), None])])
+        columns.append(Column("alike", "", np.array(["A, B", "", "", ""], dtype=object)))
+        tied = cheapest_of([Study("work", "", "", "", 0.0, [], [Table("cheapest", columns)])])
+        self.assertEqual(tied.rows[0][1], [Choice("RK4", [("C", 3.0)], ["A", "B"]), Choice("C", [("B", 2.0)])])
         self.assertIsNone(cheapest_of([Study("none", "", "", "", 0.0, [], [])]))
 
 

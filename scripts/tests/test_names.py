@@ -19,7 +19,7 @@ sys.dont_write_bytecode = True
 
 from script_module import ROOT, script  # noqa: E402
 from edits import apply, changes_of  # noqa: E402
-from mutants import PROGRAM, TESTS  # noqa: E402
+from mutants import PROGRAM, PYTHON_TESTS, TESTS  # noqa: E402
 
 FAULTS = script("faults")
 
@@ -38,7 +38,7 @@ class Names(unittest.TestCase):
     def setUpClass(cls) -> None:
         cls.listed = json.loads(output_of(str(PROGRAM), "list", "--json"))
         cls.tests = set(subprocess.run([TESTS, "--list-test-names-only"], capture_output=True, text=True, check=False).stdout.splitlines())
-        for file in sorted((ROOT / "scripts/tests").glob("test_*.py")):
+        for file in (*sorted((ROOT / "scripts/tests").glob("test_*.py")), *PYTHON_TESTS.values()):
             cls.tests |= set(re.findall(r"^    def (test_\w+)\(", file.read_text(encoding="utf-8"), re.M))
 
     def exists(self, finding: str) -> bool:

@@ -36,13 +36,14 @@ class Gravity:
 
 
 class Springs:
-    """F_a = Y A/L (|d|/L - 1) d^ + kd A/L^2 ((v_b - v_a).d^) d^, F_b = -F_a; d = x_b - x_a."""
+    """F_a = Y A/L^2 (|d| - s L) d^ + kd A/L^2 ((v_b - v_a).d^) d^, F_b = -F_a; s: scale."""
 
     def __init__(self, cloth: Surface, stiffness: float, damping: float, scale: float) -> None:
         self.a, self.b = cloth.edges.T
-        self.length = scale * np.linalg.norm(cloth.rest[self.b] - cloth.rest[self.a], axis=1)
-        self.stiffness = stiffness * cloth.edge_areas / self.length  # N a unit of strain
-        self.damper = damping * cloth.edge_areas / self.length**2  # N s/m
+        unscaled = np.linalg.norm(cloth.rest[self.b] - cloth.rest[self.a], axis=1)
+        self.length = scale * unscaled
+        self.stiffness = stiffness * cloth.edge_areas / unscaled**2  # N/m
+        self.damper = damping * cloth.edge_areas / unscaled**2  # N s/m
 
     def directions(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         d = x[self.b] - x[self.a]
@@ -51,7 +52,7 @@ class Springs:
 
     def elastic(self, _time: float, x: np.ndarray) -> np.ndarray:
         length, direction = self.directions(x)
-        pull = (self.stiffness * (length / self.length - 1))[:, None] * direction
+        pull = (self.stiffness * (length - self.length))[:, None] * direction
         force = np.zeros_like(x)
         np.add.at(force, self.a, pull)
         np.add.at(force, self.b, -pull)
@@ -110,5 +111,6 @@ class Bending:
 
     def damping(self, _time: float, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         fold = Fold(x, self.hinges)
-        factor = self.damper * (fold.edge if self.factor == "edge" else self.rest_weight)
+        factor = self.damper * (fold.edge if self.factor == "edge" else
+                                fold.edge**2 / fold.doubled_area)
         return dampers(len(x), self.hinges, fold.mode, factor), np.zeros_like(x)

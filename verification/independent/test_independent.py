@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Tests that `foldproof simulate` and the program beside this file, which share no code, agree case by case.
+"""Tests that `foldproof simulate` and the program beside this file agree case by case.
 
 test_independent.py [--program FILE] [IndependentTest.test_...]      --program: another than build/foldproof
 """
@@ -60,6 +60,14 @@ class IndependentTest(unittest.TestCase):
     def test_prescribed_particles_by_schemes_a_b_c(self) -> None:
         for scheme in "ABC":
             self.agrees("led", {"time.integrator": scheme})
+
+    def test_bending_by_its_other_weights_and_rest_angles(self) -> None:
+        for key, value in (("weighting", "current"), ("damping_factor", "edge_squared_over_area"),
+                           ("rest_angle", "flat")):
+            self.agrees("flying", {f"bending.{key}": value})
+
+    def test_springs_of_scaled_rest_lengths(self) -> None:
+        self.agrees("springs", {"stretch.rest_length_scale": 0.93})
 
 
 if __name__ == "__main__":

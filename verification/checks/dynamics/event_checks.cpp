@@ -92,7 +92,7 @@ Finding order_holds(const Subject&) {
     measured.row(std::string(integrator.name),
                  std::abs(std::log2(coarse / fine) - integrator.order));
   }
-  return judge_worst(measured, 0.2,
+  return judge_worst(measured, 0.1,
                      "a step across an event would err by the first or second power of the step, "
                      "so that an order of two or more would be off by 1 at least; at fiftieths of "
                      "the decay the next term leaves a tenth");
