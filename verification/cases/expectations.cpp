@@ -123,8 +123,8 @@ Case with_usual_expectations(Case input_case) {
     add_unless_stated(
         {"energy_is_accounted_for", 0.01,
          "empirical: at half the elastic limit the energy of the stiffest mode oscillates by "
-         "(omega h)^2/8, an eighth; how small a part of the energy such modes carry is known from "
-         "runs only, which miss 7e-11 to 8e-3 of what is exchanged"},
+         "(omega h)^2/8, an eighth; how little of the energy such modes carry is known only from "
+         "runs, whose balance is off by 7e-11 to 8e-3 of the energy exchanged"},
         input_case.expectations);
   add_unless_stated(
       {"is_reproducible", 0, "the same numbers in the same order give the same bits on every run"},
