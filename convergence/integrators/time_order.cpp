@@ -17,8 +17,8 @@ namespace {
 constexpr int pairs_judged = 3;
 constexpr double bound = 0.1;
 constexpr const char* why_bound =
-    "design bound on |order - expected| over the last three pairs: another order is off by 1, and "
-    "the evidence shows, pair by pair, what the error's next term leaves";
+    "chosen bound on |order - expected| over the last three pairs: another order is off by 1, and "
+    "the evidence shows the effect of the error's next term, pair by pair";
 
 std::string in_words(int order) {
   const std::array<std::string, 5> words = {"zeroth", "first", "second", "third", "fourth"};
