@@ -23,7 +23,7 @@ const Vector3 half_extents(0.3125, 0.40625, 0.28125);  // of the box [m]
 struct Body {
   std::string name, words;
   Solid solid;
-  double size;                                  // of which edges are fractions [m]
+  double size;                                  // edges are fractions of it [m]
   Vector3 normal;                               // of the sheet's plane
   std::function<Vector3(double edge)> through;  // a point of it [m]
   std::function<bool(const oracles::TriangleSoup& cloth)> is_clear;

@@ -142,7 +142,7 @@ NamedFinding finding_of(const OrderProblem& problem, const Run& run, const Quant
 /// variable steps.
 NamedFinding newmark_with_variable_steps(const OrderProblem& problem,
                                          const std::vector<Run>& runs) {
-  constexpr double second = 2;  // in the paper's words, whatever the table says
+  constexpr double second = 2;  // the paper's claim, regardless of the table
   Worst deviation, uncertainty;
   Table orders{{"steps", "1"}, {"error in", "1"}, {"order of the last pair", "1"}};
   for (const Run& run : runs) {

@@ -64,7 +64,7 @@ NamedFinding limit_finding(const Integrator& integrator, const Table& row) {
   const std::string what =
       !mixed        ? "where its stability polynomial exceeds 1, so that damping narrows it"
       : name == "C" ? "2 (zeta + sqrt(1 + zeta^2)) over omega, so that damping widens it"
-                    : "2/omega whatever the damping";
+                    : "2/omega for any damping";
   return {"stability-oscillator.limit-is-as-derived." + name,
           "The largest stable step of " + title + " on the damped oscillator is " + what + ".",
           {{largest_deviation(row, "largest stable omega h", "as known"), 1e-3, 0, "1",
@@ -192,7 +192,7 @@ StudyResult run_stability_oscillator(const Subject& subject, Tier tier, const Pr
 Study stability_oscillator_study() {
   return {
       "stability-oscillator",
-      "On the damped oscillator schemes A and B are stable up to 2/omega whatever the damping, C "
+      "On the damped oscillator schemes A and B are stable up to 2/omega for any damping, C "
       "further the more it is damped; explicit methods lose their step to the damping, implicit "
       "ones have no limit.",
       "BMF03 section 3",

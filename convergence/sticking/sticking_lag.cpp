@@ -183,16 +183,16 @@ double derived_limit(const std::string& method, double omega_tau) {
 }
 
 NamedFinding limit_finding(const std::string& name, const Table& limits) {
-  return {"sticking-lag.limit-is-as-derived." + name,
-          "Scheme " + name + ": what sticks is stable in steps up to " +
-              (name == "C" ? "tau_s + sqrt(tau_s^2 + 4/omega^2)."
-                           : "2/omega, whatever its forecast time."),
-          {{largest_deviation(limits, "omega h, measured", "derived"), 1e-3, 0, "1",
-            "a radius of 1 + 1e-7 counts as growth, which errs by a ten-thousandth where the "
-            "radius leaves 1 slowest; the formulas for A, B and for C differ by more from tau_s = "
-            "2e-3/omega on"},
-           limits,
-           "measured is the largest relative deviation"}};
+  return {
+      "sticking-lag.limit-is-as-derived." + name,
+      "Scheme " + name + ": what sticks is stable in steps up to " +
+          (name == "C" ? "tau_s + sqrt(tau_s^2 + 4/omega^2)." : "2/omega, for any forecast time."),
+      {{largest_deviation(limits, "omega h, measured", "derived"), 1e-3, 0, "1",
+        "a radius of 1 + 1e-7 counts as growth, which errs by a ten-thousandth where the radius "
+        "leaves 1 slowest; the formulas for A, B and for C differ by more from tau_s = 2e-3/omega "
+        "on"},
+       limits,
+       "measured is the largest relative deviation"}};
 }
 
 void add_limits(const Subject& subject, Tier tier, StudyResult& result) {

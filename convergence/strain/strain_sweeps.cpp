@@ -181,8 +181,8 @@ Table table_of(const std::vector<Row>& rows) {
           stacked({"order", ""}, groups)};
 }
 
-/// Springs that are beyond their limits at the start are brought back in one step,
-/// whatever that takes.
+/// Springs that are beyond their limits at the start are brought back in one step, however many
+/// sweeps that takes.
 Table recovery_table() {
   Table table{{"length over rest length", "1"},
               {"kinetic energy given", "J"},

@@ -196,11 +196,11 @@ Study mesh_error_study() {
           "On a smooth motion the mesh's error exceeds that of a step of half the elastic limit.",
           "ours",
           "How fine should the step be for my mesh? A sheet held along its upper edge swings by a "
-          "smooth velocity, on meshes each of which halves the cells of the one before. Errors of "
-          "the mesh come from neighbouring meshes at the particles that they share, with the "
-          "step's error extrapolated away; errors of the step from two steps on one mesh. Where "
-          "springs decide the elastic limit it is proportional to the cells' width, so that with "
-          "second order in both, the ratio of the two errors is the same on every mesh.",
+          "smooth velocity, on meshes that each halve the cells of the one before. Errors of the "
+          "mesh come from neighbouring meshes at the particles that they share, with the step's "
+          "error extrapolated away; errors of the step from two steps on one mesh. Where springs "
+          "decide the elastic limit it is proportional to the cells' width, so that with second "
+          "order in both, the ratio of the two errors is the same on every mesh.",
           run_mesh_error};
 }
 
