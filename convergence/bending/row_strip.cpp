@@ -87,8 +87,8 @@ Eigen::Vector3d miss_of_end(const RowStrip& strip, const Eigen::VectorXd& unknow
   return miss;
 }
 
-/// What must vanish at rest: generalised forces, those that hold the last panel included, and that
-/// panel's misses. The unknowns are slopes, strains, and what holds the end.
+/// The residual, which vanishes at rest: generalised forces, those that hold the last panel
+/// included, and that panel's misses. The unknowns are slopes, strains, and what holds the end.
 Eigen::VectorXd imbalance(const RowStrip& strip, const Eigen::VectorXd& unknowns) {
   if (!strip.hold().last) return generalised_forces(strip, unknowns);
   const Eigen::Index n = 2 * strip.panels(), held = held_numbers(strip);

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "verification/oracles/elastica.h"
+#include "verification/oracles/estimate.h"
 
 namespace foldproof::oracles {
 
