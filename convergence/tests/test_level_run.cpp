@@ -55,6 +55,17 @@ std::string key_after(const std::function<void(Level&)>& change) {
 
 }  // namespace
 
+TEST_CASE("counts have no rounding, and other values have") {
+  const auto bar_of = [](const std::vector<double>& values) {
+    std::vector<LevelRun> runs(values.size());
+    for (size_t k = 0; k < values.size(); ++k) runs[k].values = {values[k]};
+    return value_over_levels({"q", "lowest"}, 0, runs, 2).bar.half_width;
+  };
+  CHECK(bar_of({9, 9, 9, 9}) == 0);
+  CHECK(bar_of({9, 8, 7, 7}) == 3);
+  CHECK(bar_of({9.5, 9.5, 9.5, 9.5}) == Approx(9.5e3 * epsilon));
+}
+
 TEST_CASE("divided steps keep the ends of the undivided ones to the bit") {
   const std::vector<double> ends = {0.1, 0.1 + 1.0 / 3, 0.9};
   const std::vector<double> finer = divide_steps(ends, 0.04, 3);
