@@ -165,8 +165,8 @@ TEST_CASE("a run that stopped is kept with its reason") {
 
 TEST_CASE("a stored run that lacks something is made again") {
   const Level level = time_level(trial(), 0, {});
-  for (const char* lacking :
-       {"values", "times", "positions", "kinetic", "elastic", "contacts", "cost", "stopped"}) {
+  for (const char* lacking : {"values", "times", "positions", "kinetic", "elastic", "contacts",
+                              "work", "seconds", "stopped"}) {
     INFO(lacking);
     const ScratchFolder scratch;
     ResultStore store(scratch.file("store"));
@@ -179,6 +179,19 @@ TEST_CASE("a stored run that lacks something is made again") {
     CHECK(stored_level(level, computing_provider(), store, "p").x == made.x);
     CHECK(store.starts(key) == 2);
   }
+}
+
+TEST_CASE("a stored run of other particles is made again") {
+  const Level level = time_level(trial(), 0, {});
+  const ScratchFolder scratch;
+  ResultStore store(scratch.file("store"));
+  const LevelRun made = stored_level(level, computing_provider(), store, "p");
+  const std::string key = key_of(level, "p");
+  StoredResult kept = *store.find(key);
+  kept.arrays["positions"].push_back(0);
+  store.keep(key, kept);
+  CHECK(stored_level(level, computing_provider(), store, "p").x == made.x);
+  CHECK(store.starts(key) == 2);
 }
 
 TEST_CASE("fields differ by the largest root mean square over the frames") {
