@@ -28,13 +28,18 @@ struct FilteredMotion {
   Scene (*scene)(int start);
 };
 
-/// The sheet falls on a ball, and slides on it.
+/// The sheet flutters, falls on a ball, and slides on it.
 Scene sheet_on_ball(int start) {
   constexpr double radius = 0.1;
   Scene scene =
       level_sheet(sheet_cells, sheet_side, Vector3(0.013, radius + 0.011 + 0.0017 * start, -0.009));
   scene.solver.tolerance = 1e-11;
   scene.objects = {solid_object("ball", Sphere{radius}, 0.3)};
+  for (Eigen::Index i = 0; i < scene.x.cols(); ++i) {
+    const double a = scene.mesh.rest(0, i) / sheet_side, b = scene.mesh.rest(1, i) / sheet_side;
+    scene.v.col(i) = Vector3(0.1 * std::cos(2.9 * b), 0.5 * std::cos(4.1 * a - 2.2 * b),
+                             0.2 * std::sin(3.7 * a));
+  }
   return scene;
 }
 
