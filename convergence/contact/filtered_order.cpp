@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "convergence/contact/contact_runs.h"
-#include "convergence/integrators/studies.h"
+#include "convergence/contact/studies.h"
 #include "convergence/order.h"
 #include "convergence/ranges.h"
 #include "convergence/tables.h"
