@@ -513,7 +513,8 @@ void add_readers(CLI::App& app, Options& options) {
       show_claims);
   claims->add_option("ID", options.names,
                      "One claim, such as T17: why, and the findings that decide it");
-  claims->add_option("--paper", options.paper, "Only the claims of one paper, such as BFA02");
+  claims->add_option("--paper", options.paper, "Only the claims of one paper, such as BFA02")
+      ->type_name("KEY");
   add_folder(claims, options, "Folder of the finished run")->capture_default_str();
   add_json(claims, options);
   add_pages(app, options);

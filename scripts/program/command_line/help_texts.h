@@ -29,7 +29,6 @@ Exit codes:
 
 constexpr const char* claims =
     R"(Examples:
-  foldproof claims                                     all claims and their rulings
   foldproof claims B10                                 one claim: its ruling, and the findings
   foldproof claims --paper BFA02                       the claims of one paper
 
@@ -85,7 +84,6 @@ Exit codes:
 
 constexpr const char* inspect =
     R"(Examples:
-  foldproof inspect cases/statue.obj
   foldproof inspect cases/limb.obj --cells 100 --json
   foldproof inspect cases/skirt.obj --cloth            its rigidity by direction, its elastic limit
 
