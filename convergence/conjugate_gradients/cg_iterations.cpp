@@ -168,8 +168,8 @@ NamedFinding no_growth_with_the_mesh(const std::vector<Sweep>& measured) {
     if (!std::isnan(steepest) && !(exponent <= steepest)) steepest = exponent;
   }
   const Verdict verdict{meshes.rows() == 0 ? nan : steepest, largest_exponent, 0, "1",
-                        "the condition is the same on every mesh; a count that grew like its root "
-                        "on a fixed material would have exponent 1/2"};
+                        "the condition is the same on every mesh; a count that grew as its square "
+                        "root on a fixed material would have exponent 1/2"};
   return {"cg-iterations.do-not-grow-with-the-mesh",
           "At a fixed damping ratio and a fixed fraction of the elastic limit, iterations do not "
           "grow with the number of cells along a side.",
@@ -190,7 +190,7 @@ std::vector<Figure> figures_of(const std::vector<Sweep>& measured) {
                          {sweep.label, sweep.unit, Scale::log},
                          {"iterations a solve", "1", Scale::linear},
                          nan,
-                         "Each curve says what its residual is compared with. The other things are "
+                         "Each curve names what its residual is compared with. Everything else is "
                          "as in the table.",
                          {}});
       figure = figures.end() - 1;
@@ -238,10 +238,10 @@ Study cg_iterations_study() {
       "A solve for the implicit velocity takes fewer than ten iterations of conjugate gradients in "
       "a typical setting, and no more on a finer mesh.",
       "BMF03 section 3",
-      "A hanging sheet moves with waves and noise. Solves are counted under schemes A and B, each "
-      "of which has one a step; C has both. Tolerance, damping, step and mesh size are varied one "
-      "at a time. The damping ratio is zeta = (damping/stiffness) omega/2, for springs kd_s/Y and "
-      "for hinges kd |E|/(ke c/2), with omega from the elastic limit of the step.",
+      "A hanging sheet moves with waves and noise. Solves are counted under schemes A and B, which "
+      "solve once a step; C solves twice. Tolerance, damping, step and mesh size are varied one at "
+      "a time. The damping ratio is zeta = (damping/stiffness) omega/2, for springs kd_s/Y and for "
+      "hinges kd |E|/(ke c/2), with omega from the elastic limit of the step.",
       run_cg_iterations};
 }
 

@@ -39,9 +39,9 @@ NamedFinding order_finding(const Table& cut) {
   return {"pointwise-contact.edge-penetration-is-second-order",
           "Edges whose ends lie on a ball cut into it by the square of their length.",
           {{deviation.value, 0.3, 0, "1",
-            "a chord of length L is L^2/(8R) deep; how far the longest edges have come to lie "
-            "along the ball differs from mesh to mesh by a few percent, which is worth three "
-            "tenths of an order between meshes half as fine again"},
+            "a chord of length L is L^2/(8R) deep; how closely the longest edges lie along the "
+            "ball differs from mesh to mesh by a few percent, which is three tenths of an order "
+            "between meshes refined by a factor 1.5"},
            cut,
            "measured is |order - 2| of the last two pairs"}};
 }
@@ -67,8 +67,8 @@ NamedFinding held_finding(const Table& particles, const Table& faces) {
   return {"pointwise-contact.centres-help-coarse-cloth",
           "With midpoints and centres as points, the centres of coarse triangles stay out.",
           {{held / alone, 0.1, 0, "1",
-            "what a step leaves on a curved surface, the square of its way, is far below a tenth "
-            "of a chord's depth"},
+            "a step's error on a curved surface, the square of its displacement over the radius, "
+            "is far below a tenth of a chord's depth"},
            Table{{"edge", "m"}, {"particles alone", "m"}, {"centres too", "m"}}.with_row(
                faces.numbers("edge").front(), alone, held),
            "of the coarsest mesh"}};

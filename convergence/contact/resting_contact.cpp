@@ -115,7 +115,7 @@ Study resting_contact_study() {
   return {
       "resting-contact", "Forecasting lets cloth come to rest.", "BMF03 section 5.2",
       "A sheet falls on a ball and hangs over it. The paper's response corrects velocities before "
-      "the cloth moves; the two it is compared with look at where the cloth has come to.",
+      "the cloth moves; the two responses compared with it act on positions after the move.",
       run_resting_contact};
 }
 

@@ -63,11 +63,11 @@ StudyResult run_sheet_order(const Subject& subject, Tier tier, const Progress& p
 
 Study sheet_time_order_study() {
   return {"time-order.sheet",
-          "Schemes A, B and C are second order in x and v on a damped hanging sheet, whatever the "
+          "Schemes A, B and C are second order in x and v on a damped hanging sheet, for any "
           "sequence of steps.",
           "BMF03 section 3",
           "A sheet of squares, rows split along alternating diagonals, hangs by its two upper "
-          "corners, which are led to and fro. It is released from a wavy shape with a wavy "
+          "corners, which are moved to and fro. It is released from a wavy shape with a wavy "
           "velocity; springs and bending are both damped. Everything else is as in the study of "
           "the hinge, with the solution by GSL over all free particles.",
           run_sheet_order};

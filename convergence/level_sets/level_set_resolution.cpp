@@ -133,7 +133,7 @@ void add_interpolation(const std::vector<int>& cells, StudyResult& result) {
         "measured is the largest error over h^2/(4 |p|) of the innermost cells touched"}});
   result.findings.push_back(
       order_finding({"cell-gradient-is-first-order", "The gradient of the cell errs by O(h).", "1",
-                     1, "it is right in the cell's middle and constant along each axis"},
+                     1, "it is exact in the cell's middle and constant along each axis"},
                     cell));
   result.findings.push_back(
       order_finding({"nodal-gradient-is-second-order",
@@ -179,7 +179,8 @@ void add_crude_start(const std::vector<int>& cells, StudyResult& result) {
   result.findings.push_back(order_finding(
       {"crude-start.distance-is-first-order",
        "From small positive and small negative values marching gives the distance, to O(h).", "m",
-       1, "the surface is known to a part of a cell, which marching carries everywhere"},
+       1,
+       "the surface is known to a fraction of a cell, and marching carries that error everywhere"},
       against_h(nodes, &NodeErrors::mean)));
   const Convergence offset = against_h(crude, &ContourErrors::worst_offset);
   Worst farthest;
@@ -187,8 +188,8 @@ void add_crude_start(const std::vector<int>& cells, StudyResult& result) {
   result.findings.push_back({"level-set-resolution.crude-start.contour-is-within-half-a-cell",
                              "The crude start leaves the surface off by half a cell at most.",
                              {{farthest.value(), 0.5, 0, "cells",
-                               "sides alone put the crossing in the middle of an edge, at most "
-                               "half a cell from where it is"},
+                               "inside/outside alone puts the crossing in the middle of an edge, "
+                               "at most half a cell from its true place"},
                               columns_of(offset, "cells"),
                               "measured is the largest offset on any of the grids"}});
   const Convergence angle = against_h(crude, &ContourErrors::mean_angle);
@@ -241,11 +242,11 @@ Study level_set_resolution_study() {
           "From exact values next to the surface second-order marching gives the distance to "
           "O(h^2); the paper's crude start gives it to O(h), with normals that stay wrong.",
           "BMF03 section 5.1",
-          "How fine must a grid be, and what does the start cost? Bodies whose distance is known "
-          "in closed form are put on grids whose spacing is halved. Measured are the distance at "
-          "the nodes after fast marching of both orders, what trilinear interpolation and two "
-          "kinds of gradients add between exact nodes, and the surface and the normals that a "
-          "start from sides alone leaves behind.",
+          "How fine must a grid be, and how much accuracy does a crude start lose? Bodies with a "
+          "closed-form distance are sampled on grids whose spacing is halved. Measured are the "
+          "distance at the nodes after fast marching of both orders; the errors that trilinear "
+          "interpolation and two kinds of gradients add between exact nodes; and the surface and "
+          "normals after a start from inside/outside alone.",
           run_level_set_resolution};
 }
 

@@ -113,7 +113,7 @@ NamedFinding second_order(const std::vector<MeshRun>& meshes) {
   Table evidence = differences(meshes);
   evidence.add({"order of the pair", "1", row_orders(errors)});
   const Verdict verdict{deviation.value, 0.5, deviation.uncertainty, "1",
-                        "first order would be off by 1; half of that is left to the border, whose "
+                        "first order would be off by 1; half of that allows for the border, whose "
                         "springs and hinges lack a neighbour, on meshes this coarse"};
   return {"mesh-error.is-second-order-in-cell-width",
           "Positions of a smooth motion converge with second order in the cells' width.",
@@ -130,8 +130,7 @@ NamedFinding step_errs_less(const std::vector<MeshRun>& meshes, const Table& err
       largest_ratio(errors, "error of the step", "error of the mesh"), 0.1, uncertainty.value(),
       "1", "a tenth: then a shorter step would lessen the whole error by no more than that"};
   return {"mesh-error.usual-step-error-is-below-a-tenth-of-it",
-          "At the share of the elastic limit that automatic steps take, the step's error is less "
-          "than a tenth of the mesh's.",
+          "With automatic steps, the step's error is less than a tenth of the mesh's.",
           {verdict, errors, "measured is the largest ratio of the two"}};
 }
 
@@ -194,14 +193,14 @@ StudyResult run_mesh_error(const Subject& subject, Tier tier, const Progress& pr
 
 Study mesh_error_study() {
   return {"mesh-error",
-          "On a smooth motion the mesh errs more than a step of half the elastic limit does.",
+          "On a smooth motion the mesh's error exceeds that of a step of half the elastic limit.",
           "ours",
           "How fine should the step be for my mesh? A sheet held along its upper edge swings by a "
-          "smooth velocity, on meshes each of which halves the cells of the one before. Errors of "
-          "the mesh come from neighbouring meshes at the particles that they share, with the "
-          "step's error extrapolated away; errors of the step from two steps on one mesh. Where "
-          "springs decide on the elastic limit it is proportional to the cells' width, so that "
-          "with second order in both, the ratio of the two errors is the same on every mesh.",
+          "smooth velocity, on meshes that each halve the cells of the one before. Errors of the "
+          "mesh come from neighbouring meshes at the particles that they share, with the step's "
+          "error extrapolated away; errors of the step from two steps on one mesh. Where springs "
+          "decide the elastic limit it is proportional to the cells' width, so that with second "
+          "order in both, the ratio of the two errors is the same on every mesh.",
           run_mesh_error};
 }
 
