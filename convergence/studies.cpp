@@ -17,6 +17,7 @@ namespace foldproof {
 std::vector<Study> all_studies() {
   return {hinge_time_order_study(),
           sheet_time_order_study(),
+          filtered_order_study(),
           work_precision_study(),
           solve_tolerance_study(),
           mesh_error_study(),

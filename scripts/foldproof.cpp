@@ -250,6 +250,14 @@ void add_twins(CLI::App* converge, Options& options) {
       ->capture_default_str();
 }
 
+void add_errors(CLI::App* command, Options& options, const std::string& what) {
+  command->add_option("--errors", options.errors, what)
+      ->type_name("ERRORS")
+      ->check(positive_number())
+      ->delimiter(',')
+      ->allow_extra_args(false);
+}
+
 void add_converge(CLI::App& app, Options& options) {
   CLI::App* converge = add_command(
       app, options,
@@ -260,6 +268,9 @@ void add_converge(CLI::App& app, Options& options) {
   add_input(converge, "CASE", options.file, case_words);
   add_ladder(converge, options);
   add_twins(converge, options);
+  add_errors(converge, options,
+             "In both: errors to find the cheapest step and mesh for, as shares of the motion "
+             "(default: 1e-2,1e-3)");
   add_overrides(converge, options);
   add_folder(converge, options,
              "Folder whose store/ keeps every run; a second call runs only missing ones")
@@ -282,13 +293,7 @@ void add_precision(CLI::App& app, Options& options) {
       ->check(some_text("integrators, or all"))
       ->delimiter(',')
       ->allow_extra_args(false);
-  precision
-      ->add_option("--errors", options.errors,
-                   "Wanted errors, as shares of the motion (default: 1e-2,1e-3)")
-      ->type_name("ERRORS")
-      ->check(positive_number())
-      ->delimiter(',')
-      ->allow_extra_args(false);
+  add_errors(precision, options, "Wanted errors, as shares of the motion (default: 1e-2,1e-3)");
   precision
       ->add_option("--until", options.until,
                    "Use only the beginning of the run, up to this time [s]")

@@ -5,6 +5,7 @@
 
 namespace foldproof {
 
+Study filtered_order_study();  // filtered-order: order under contact and strain limits
 // wrinkle-preservation: what each map of depth leaves of wrinkles inside an object
 Study wrinkles_kept_study();
 Study eps_needed_study();  // required-eps: how far out the deepest points must go

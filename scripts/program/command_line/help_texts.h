@@ -245,6 +245,8 @@ the case's [[quantity]] tables; without any: positions, energies, heights, quant
              own particles. In [[hold]], a box holds a region, a list of particles holds points.
              All meshes take the steps that the finest one needs; one more run, with half the
              step, measures their error.
+--in both    does both, and maps the error over step and mesh: names the cheapest pair for each of
+             --errors, forecasts its cost, and says what half the error costs.
 
 Two more runs start disturbed: by 1e-12 of the cloth's extent, and by the size of the step's error.
 When they differ from the undisturbed run by --fraction of its motion, positions are no longer
