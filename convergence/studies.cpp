@@ -29,6 +29,7 @@ std::vector<Study> all_studies() {
           stability_sheet_study(),
           variable_step_stability_study(),
           transient_growth_study(),
+          frame_long_steps_study(),
           bending_rigidity_study(),
           cantilever_study(),
           strip_vibration_study(),
@@ -51,13 +52,17 @@ std::vector<Study> all_studies() {
           pointwise_contact_study(),
           self_collision_cost_study(),
           crossing_queries_study(),
+          contact_answers_study(),
           strain_sweeps_study(),
           strain_momentum_study(),
           biphasic_study(),
           folding_study(),
           sticking_lag_study(),
           heavy_cantilever_study(),
-          strip_tests_study()};
+          strip_tests_study(),
+          fold_tests_study(),
+          pressed_strip_study(),
+          fabric_strip_study()};
 }
 
 }  // namespace foldproof

@@ -513,13 +513,18 @@ void add_readers(CLI::App& app, Options& options) {
       show_claims);
   claims->add_option("ID", options.names,
                      "One claim, such as T17: why, and the findings that decide it");
+  claims->add_option("--paper", options.paper, "Only the claims of one paper, such as BFA02")
+      ->type_name("KEY");
   add_folder(claims, options, "Folder of the finished run")->capture_default_str();
   add_json(claims, options);
   add_pages(app, options);
   CLI::App* mesh = add_command(
-      app, options, {"inspect", "Can a mesh serve as a body? Is it a solid?", help::inspect},
+      app, options,
+      {"inspect", "Can a mesh serve as a body, or what does it make of a cloth?", help::inspect},
       inspect);
   add_input(mesh, "MESH.obj", options.file, "An OBJ file");
+  mesh->add_flag("--cloth", options.as_cloth,
+                 "As a cloth: rigidity by direction, elastic limit, thinnest triangles");
   mesh->add_option("--cells", options.cells, "Grid cells along the longest side")
       ->type_name("N")
       ->check(whole_number(4, 1000))

@@ -19,6 +19,8 @@ Study self_collision_cost_study();  // self-collision-cost: search, zones, gaps 
 Study pointwise_contact_study();
 // crossing-queries: moving features that meet, and whether that is noticed
 Study crossing_queries_study();
+// contact-answers: contacts that repulsion, impulses and zones answer
+Study contact_answers_study();
 Study folding_study();  // folding: 0 % compression between ends that come together
 
 }  // namespace foldproof

@@ -29,8 +29,8 @@ Exit codes:
 
 constexpr const char* claims =
     R"(Examples:
-  foldproof claims                                     all claims and their rulings
   foldproof claims B10                                 one claim: its ruling, and the findings
+  foldproof claims --paper BFA02                       the claims of one paper
 
 Exit codes:
   0    shown; the rulings do not matter
@@ -84,11 +84,11 @@ Exit codes:
 
 constexpr const char* inspect =
     R"(Examples:
-  foldproof inspect cases/statue.obj
   foldproof inspect cases/limb.obj --cells 100 --json
+  foldproof inspect cases/skirt.obj --cloth            its rigidity by direction, its elastic limit
 
 Exit codes:
-  0    the mesh is a solid, and ray casting agrees on what is inside
+  0    the mesh is a solid, and ray casting agrees on what is inside; or a cloth was inspected
   1    the mesh is not a solid, or ray casting disagrees
   2    bad input)";
 
