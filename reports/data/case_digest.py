@@ -47,4 +47,8 @@ def mesh_files(value: Any) -> list[str]:
 
 def case_files(cases: Path) -> dict[str, str]:
     """The file name of each case, as used by case_digest. fabrics.toml is data of cases."""
-    return {file.stem: str(file.relative_to(cases)) for file in sorted(cases.glob("**/*.toml")) if file.stem != "fabrics"}
+    return {
+        file.stem: str(file.relative_to(cases))
+        for file in sorted(cases.glob("**/*.toml"))
+        if file.stem != "fabrics"
+    }

@@ -156,12 +156,19 @@ class Papers(unittest.TestCase):
     """Claims of several papers."""
 
     def test_claims_stand_under_their_paper(self) -> None:
-        claims = [Claim(name=name, section="3", statement="s", ruling="undecided", recorded="undecided", condition="", why="w",
-                        decided_by=[], paper=paper, paper_title="Title (1999)", missing="m")
-                  for name, paper in (("T1", "ABC99"), ("X1", "XYZ00"), ("T2", "ABC99"))]
+        claims = [
+            Claim(
+                name=name, section="3", statement="s", ruling="undecided", recorded="undecided",
+                condition="", why="w", decided_by=[], paper=paper, paper_title="Title (1999)",
+                missing="m"
+            )
+            for name, paper in (("T1", "ABC99"), ("X1", "XYZ00"), ("T2", "ABC99"))
+        ]
         grouped = by_paper(claim_views(claims, []))
-        self.assertEqual([(heading, [view.claim.name for view in views]) for heading, views in grouped],
-                         [("ABC99: Title (1999)", ["T1", "T2"]), ("XYZ00: Title (1999)", ["X1"])])
+        self.assertEqual(
+            [(heading, [view.claim.name for view in views]) for heading, views in grouped],
+            [("ABC99: Title (1999)", ["T1", "T2"]), ("XYZ00: Title (1999)", ["X1"])],
+        )
 
 
 class Answers(unittest.TestCase):

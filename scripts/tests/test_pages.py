@@ -110,7 +110,8 @@ class Cases(unittest.TestCase):
 
     def test_every_shipped_case_is_listed(self) -> None:
         text = (ROOT / "cases/CASES.md").read_text(encoding="utf-8")
-        cases = {path.stem for path in (ROOT / "cases").rglob("*.toml")} - {"fabrics"}  # data of cases
+        # data of cases
+        cases = {path.stem for path in (ROOT / "cases").rglob("*.toml")} - {"fabrics"}
         self.assertEqual({case for case in cases if f"`{case}`" not in text}, set())
 
 
