@@ -1,5 +1,6 @@
-"""Sentences whose numbers and quotations come from the results of a run, and carry the place they come from. The
-words between them hold no digits, so that no number on a page can be anything but data."""
+"""Sentences whose numbers and quotations come from the results of a run, and carry the place they
+come from. The words between them hold no digits, so that no number on a
+page can be anything but data."""
 from __future__ import annotations
 
 import re
@@ -22,7 +23,8 @@ class Number:
 
 @dataclass(frozen=True)
 class Quoted:
-    """Words of the run: a name, a statement, a date. `anchor` leads to it on the page; "" leads nowhere."""
+    """Words of the run: a name, a statement, a date. `anchor` leads to it
+    on the page; "" leads nowhere."""
     text: str
     source: str
     anchor: str = ""
@@ -80,5 +82,9 @@ def _markdown(piece: Piece) -> str:
         return quantity_text(piece.value, piece.unit)
     if isinstance(piece, Quoted):
         # a name in code may hold anything but the sign that ends it
-        return f"`{' '.join(piece.text.replace('`', ' ').split())}`" if piece.is_name else escaped_markdown(piece.text)
+        return (
+            f"`{' '.join(piece.text.replace('`', ' ').split())}`"
+            if piece.is_name
+            else escaped_markdown(piece.text)
+        )
     return piece
