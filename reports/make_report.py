@@ -31,7 +31,13 @@ require_modules("make_report", "numpy", "h5py", "matplotlib", "jinja2")
 from data.fault_record import with_record  # noqa: E402
 from data.history import row_of  # noqa: E402
 from data.results import (
-    Case, CaseEntry, Run, Study, case_entry_of_file, load_case, load_run
+    Case,
+    CaseEntry,
+    Run,
+    Study,
+    case_entry_of_file,
+    load_case,
+    load_run,
 )  # noqa: E402
 from data.unreadable import Unreadable, one_line  # noqa: E402
 from data.whole_file import write_whole  # noqa: E402
@@ -43,14 +49,25 @@ from pages.ledger import claim_views  # noqa: E402
 from pages.errors import load_errors  # noqa: E402
 from pages.needs import load_needs  # noqa: E402
 from pages.page import (
-    CaseView, Page, StudyView, faults_of, OF_STUDIES, findings_by_section, render,
-    render_comparison, render_site
+    CaseView,
+    Page,
+    StudyView,
+    faults_of,
+    OF_STUDIES,
+    findings_by_section,
+    render,
+    render_comparison,
+    render_site,
 )  # noqa: E402
 from pages.printed import print_page  # noqa: E402
 from pages.summary import REFERENCE, since_last  # noqa: E402
 from pages.summary_page import render_summary  # noqa: E402
 from pages.trust import (
-    kinds_of, load_coverage, load_variants, tolerances_of, note_on_unfinished_run
+    kinds_of,
+    load_coverage,
+    load_variants,
+    tolerances_of,
+    note_on_unfinished_run,
 )  # noqa: E402
 from pictures.case_pictures import make_pictures  # noqa: E402
 from plots.angle_spectrum import plot_angle_spectrum  # noqa: E402
@@ -65,7 +82,7 @@ SHIPPED_CASES = Path(__file__).resolve().parent.parent / "cases"
 # characters that the data of all views of a page may take, shared equally
 VIEWS = 4_000_000
 
-OF_A_CASE = ("precision.h5", "converge.h5")   # of `foldproof precision` and `foldproof converge`
+OF_A_CASE = ("precision.h5", "converge.h5")  # of `foldproof precision` and `foldproof converge`
 
 Job = tuple[Callable[..., Any], tuple[Any, ...]]
 
@@ -92,8 +109,12 @@ def main() -> int:
         if said.other:
             out = compare_runs(said.dir, said.other, said.out)
         else:
-            out = make_report(said.dir, said.out or said.dir / "report.html",
-                              said.figures or said.dir / "figures", for_papers=said.papers)
+            out = make_report(
+                said.dir,
+                said.out or said.dir / "report.html",
+                said.figures or said.dir / "figures",
+                for_papers=said.papers,
+            )
         if said.pdf:
             out = print_page(out, out.with_suffix(".pdf"))
     except (OSError, Unreadable, NoBrowser, BrokenProcessPool) as error:
@@ -120,18 +141,25 @@ def arguments() -> argparse.Namespace:
         "dir", metavar="DIR", type=Path, help="folder with run.h5, bench.h5 or case files"
     )
     parser.add_argument(
-        "other", metavar="OTHER", type=Path, nargs="?",
-        help="folder or run.h5 of another run: DIR (a folder or run.h5) is compared with it"
+        "other",
+        metavar="OTHER",
+        type=Path,
+        nargs="?",
+        help="folder or run.h5 of another run: DIR (a folder or run.h5) is compared with it",
     )
     parser.add_argument(
-        "--out", metavar="FILE", type=Path,
-        help="the page (default: DIR/report.html; of two runs compare.html beside OTHER's run.h5)"
+        "--out",
+        metavar="FILE",
+        type=Path,
+        help="the page (default: DIR/report.html; of two runs compare.html beside OTHER's run.h5)",
     )
-    parser.add_argument("--figures", metavar="DIR", type=Path,
-                        help="folder for the figures (default: DIR/figures)")
     parser.add_argument(
-        "--papers", action="store_true",
-        help="figures as PDF and PNG files (200 dpi) too, and the pictures of cases as files"
+        "--figures", metavar="DIR", type=Path, help="folder for the figures (default: DIR/figures)"
+    )
+    parser.add_argument(
+        "--papers",
+        action="store_true",
+        help="figures as PDF and PNG files (200 dpi) too, and the pictures of cases as files",
     )
     parser.add_argument(
         "--summary",
@@ -150,8 +178,9 @@ def arguments() -> argparse.Namespace:
         ),
     )
     parser.add_argument(
-        "--pdf", action="store_true",
-        help="print the page too, beside it, as PDF; needs Debian's package chromium"
+        "--pdf",
+        action="store_true",
+        help="print the page too, beside it, as PDF; needs Debian's package chromium",
     )
     return parser.parse_args()
 
@@ -171,8 +200,10 @@ def make_summary(folder: Path, earlier: Path | None) -> list[Path]:
     says. Throws as make_report does."""
     run, bench = read_folder(folder)
     page = gather(
-        run, bench, [CaseView(entry, f"case-{file_name(entry.name)}") for entry in run.cases],
-        [StudyView(study, f"study-{file_name(study.name)}", [], [], []) for study in run.studies]
+        run,
+        bench,
+        [CaseView(entry, f"case-{file_name(entry.name)}") for entry in run.cases],
+        [StudyView(study, f"study-{file_name(study.name)}", [], [], []) for study in run.studies],
     )
     since = since_last(row_of(earlier), row_of(folder), str) if earlier else None
     html, markdown = render_summary(page, since)
@@ -182,7 +213,7 @@ def make_summary(folder: Path, earlier: Path | None) -> list[Path]:
     try:
         print_page(outs[0], outs[2])
     except NoBrowser as why:
-        outs[2].unlink(missing_ok=True)   # of an earlier run
+        outs[2].unlink(missing_ok=True)  # of an earlier run
         print(f"make_report: summary.pdf was not written: {why}", file=sys.stderr)
         del outs[2]
     return outs
@@ -227,7 +258,7 @@ def make_page(folder: Path, figures: Path, for_papers: bool, shipped: Path) -> P
         "mutation": load_mutation(folder / "mutation.json"),
         "unended": note_on_unfinished_run(folder / "verdicts.json"),
         "needs": load_needs(folder / "ablation.json", recorded),
-        "errors": load_errors(recorded) if recorded else None
+        "errors": load_errors(recorded) if recorded else None,
     }
     figures.mkdir(parents=True, exist_ok=True)
     return replace(draw(run, bench, figures, for_papers), **beside)
@@ -242,7 +273,11 @@ def read_folder(folder: Path) -> tuple[Run, Run | None]:
     if (folder / "run.h5").is_file():
         run = load_run(folder / "run.h5")
         return replace(run, studies=run.studies + studies, faults=with_record(run.faults)), bench
-    entries = [case_entry_of_file(path) for path in sorted(folder.glob("*.h5")) if path.name not in ("bench.h5", *OF_A_CASE)]
+    entries = [
+        case_entry_of_file(path)
+        for path in sorted(folder.glob("*.h5"))
+        if path.name not in ("bench.h5", *OF_A_CASE)
+    ]
     cases = [entry for entry in entries if entry is not None]
     if not cases and bench is None and not others:
         raise FileNotFoundError(
@@ -254,7 +289,9 @@ def read_folder(folder: Path) -> tuple[Run, Run | None]:
     provenance = (
         common_to([one.about_run for one in simulations])
         if simulations
-        else alone.provenance if alone else {}
+        else alone.provenance
+        if alone
+        else {}
     )
     findings = [finding for one in simulations for finding in one.findings]
     return (
@@ -289,7 +326,7 @@ def draw(run: Run, bench: Run | None, figures: Path, for_papers: bool) -> Page:
     ]
     jobs += [(draw_study, (study, figures)) for study in run.studies + bench_studies]
     drawn = run_jobs(jobs, for_papers)
-    return gather(run, bench, drawn[:len(run.cases)], drawn[len(run.cases):])
+    return gather(run, bench, drawn[: len(run.cases)], drawn[len(run.cases) :])
 
 
 def gather(run: Run, bench: Run | None, cases: list[CaseView], studies: list[StudyView]) -> Page:
@@ -297,19 +334,31 @@ def gather(run: Run, bench: Run | None, cases: list[CaseView], studies: list[Stu
     of the speed measurements last."""
     everything = run.findings + (bench.findings if bench else [])
     for view in studies:
-        view.findings = [finding for finding in everything
-                         if finding.kind in OF_STUDIES and finding.study == view.study.name]
+        view.findings = [
+            finding
+            for finding in everything
+            if finding.kind in OF_STUDIES and finding.study == view.study.name
+        ]
     checks, others, rates = findings_by_section(run, bench)
     for view in cases:
         view.foreign = origin_differs(view, run)
     usual, hard = findings_by_case(run.findings, run.cases, [view.anchor for view in cases])
     return Page(
-        provenance=run.provenance, claims=claim_views(run.claims, everything), checks=checks,
-        studies=studies[: len(run.studies)], other_findings=others, cases=cases, rates=rates,
+        provenance=run.provenance,
+        claims=claim_views(run.claims, everything),
+        checks=checks,
+        studies=studies[: len(run.studies)],
+        other_findings=others,
+        cases=cases,
+        rates=rates,
         bench_studies=studies[len(run.studies) :],
-        bench_provenance=bench.provenance if bench else {}, faults=faults_of(run),
-        tolerances=tolerances_of(run.findings), kinds=kinds_of(run.findings), case_findings=usual,
-        hard_findings=hard, alone=run.path is None
+        bench_provenance=bench.provenance if bench else {},
+        faults=faults_of(run),
+        tolerances=tolerances_of(run.findings),
+        kinds=kinds_of(run.findings),
+        case_findings=usual,
+        hard_findings=hard,
+        alone=run.path is None,
     )
 
 
@@ -334,8 +383,10 @@ def start_worker(for_papers: bool) -> None:
 def draw_study(study: Study, figures: Path) -> StudyView:
     """All figures of one study."""
     name = file_name(study.name)
-    plots = [plot_study_figure(figure, f"{name}-{file_name(figure.name)}", figures)
-             for figure in study.figures]
+    plots = [
+        plot_study_figure(figure, f"{name}-{file_name(figure.name)}", figures)
+        for figure in study.figures
+    ]
     maps = [
         plot_study_map(study_map, f"{name}-{file_name(study_map.name)}", figures)
         for study_map in study.maps

@@ -1,5 +1,5 @@
-"""Outcomes of seeded faults that were run once for all and are shipped, as `scripts/faults --record` keeps them. An
-outcome counts for as long as the fault makes the same edit and asks the same findings and tests."""
+"""Outcomes of seeded faults that are shipped, as `scripts/faults --record` keeps them. An outcome
+counts for as long as the fault makes the same edit and asks the same findings and tests."""
 from __future__ import annotations
 
 import json
@@ -16,8 +16,8 @@ RECORD = Path(__file__).resolve().parents[2] / "verification" / "faults" / "outc
 
 
 def with_record(faults: list[Fault], record: Path = RECORD) -> list[Fault]:
-    """The faults, those that were not run with the results as they are recorded. Without a record, as they are. Throws
-    Unreadable if the record is damaged."""
+    """The faults; those that were not run with the results as they are recorded. Throws Unreadable
+    if the record is damaged."""
     if not record.is_file():
         return faults
     with reading(record):
@@ -28,7 +28,9 @@ def with_record(faults: list[Fault], record: Path = RECORD) -> list[Fault]:
 def _recorded(fault: Fault, row: dict[str, str] | None) -> Fault:
     if fault.outcome not in ("", "not run") or row is None:
         return fault
-    if row["edit"] != edit_digest(fault.file, fault.find, fault.replace, fault.caught_by, fault.caught_by_tests):
+    if row["edit"] != edit_digest(
+        fault.file, fault.find, fault.replace, fault.caught_by, fault.caught_by_tests
+    ):
         return fault
     return replace(fault, outcome=row["outcome"], commit=row["commit"], date=row["date"])
 

@@ -1,5 +1,5 @@
-"""Formulas in sentences as a reader expects them: omega h <= 2/omega^2 becomes ωh ≤ 2/ω². Results keep the plain text;
-pages and plots show it so."""
+"""Formulas in sentences as a reader expects them: omega h <= 2/omega^2 becomes ω h ≤ 2/ω². Results
+keep the plain text; pages and plots show it so."""
 from __future__ import annotations
 
 import re
@@ -9,12 +9,29 @@ from markupsafe import Markup, escape
 
 from data.quantities import MINUS, superscript
 
-GREEK = {"alpha": "α", "beta": "β", "gamma": "γ", "zeta": "ζ", "theta": "θ", "kappa": "κ", "lambda": "λ", "mu": "μ", "pi": "π",
-         "rho": "ρ", "sigma": "σ", "tau": "τ", "phi": "φ", "omega": "ω"}
+GREEK = {
+    "alpha": "α",
+    "beta": "β",
+    "gamma": "γ",
+    "zeta": "ζ",
+    "theta": "θ",
+    "kappa": "κ",
+    "lambda": "λ",
+    "mu": "μ",
+    "pi": "π",
+    "rho": "ρ",
+    "sigma": "σ",
+    "tau": "τ",
+    "phi": "φ",
+    "omega": "ω",
+}
 _LETTERS = "".join(GREEK.values())
 _PLAIN: list[tuple[re.Pattern[str], str | Callable[[re.Match[str]], str]]] = [
     (re.compile(r"\bd\((\w+)\)/dt\b"), r"d\1/dt"),
-    (re.compile(rf"(?<![\w.=])(?<![a-z]-)(d?)({'|'.join(GREEK)})(?![a-z]|-[a-z])"), lambda found: found[1] + GREEK[found[2]]),
+    (
+        re.compile(rf"(?<![\w.=])(?<![a-z]-)(d?)({'|'.join(GREEK)})(?![a-z]|-[a-z])"),
+        lambda found: found[1] + GREEK[found[2]],
+    ),
     (re.compile(r"<="), "≤"),
     (re.compile(r">="), "≥"),
     (re.compile(r"\+-"), "±"),
@@ -22,7 +39,7 @@ _PLAIN: list[tuple[re.Pattern[str], str | Callable[[re.Match[str]], str]]] = [
     (re.compile(r"\bsqrt\("), "√("),
     (re.compile(r"(?<=[a-z]_[a-z])\.(?=[a-z]_[a-z]\b)"), "·"),
     (re.compile(r"(?<=\s[a-z])\.(?=[a-z]_[a-z]\b)"), "·"),
-    (re.compile(r"\b([a-z])\^(?![\w({-])"), "\\1\u0302"),                  # t^ is the unit vector along t
+    (re.compile(r"\b([a-z])\^(?![\w({-])"), "\\1\u0302"),  # t^ is the unit vector along t
     (re.compile(r"(?<![\w.=])\.(?=\d)"), "0."),
 ]
 _POWER = re.compile(r"\^(?:\(([^()]*)\)|\{([^{}]*)\}|(-?\w+?)(?=th\b|\b))")
@@ -31,7 +48,7 @@ _TEN = re.compile(r"(?<![\w.=-])(-?\d+(?:\.\d+)?)e(-?\d+)(?![\w.]\w)")
 
 
 def formula_html(text: object) -> Markup:
-    """The text for a page, with powers and indices raised and lowered. Marked-up text stays as it is."""
+    """The text for a page, powers raised and indices lowered. Marked-up text stays as it is."""
     if isinstance(text, Markup):
         return text
     said = str(escape(_written(str(text))))
@@ -41,7 +58,7 @@ def formula_html(text: object) -> Markup:
 
 
 def formula_text(text: str) -> str:
-    """The text for a plot, in Unicode: powers that are whole numbers are raised, the rest stays as it is."""
+    """The text for a plot, in Unicode: powers that are whole numbers are raised, others stay."""
     said = _TEN.sub(lambda found: _power_of_ten(found, superscript), _written(text))
     return re.sub(r"\^(-?\d+)", lambda found: superscript(found[1]), said)
 

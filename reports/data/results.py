@@ -159,8 +159,8 @@ class Fault:
     caught_by: list[str]
     outcome: str       # "caught" | "SURVIVED" | "not run"
     caught_by_tests: list[str] = field(default_factory=list)   # names of test cases
-    checks: list[FaultCheck] = field(default_factory=list)     # of those that are named; empty if it was not run
-    commit: str = ""   # on which it was run and recorded; "" for one that was run with these results, or not at all
+    checks: list[FaultCheck] = field(default_factory=list)   # of those that are named
+    commit: str = ""   # on which a recorded outcome was found; "" for one of this run, or none
     date: str = ""
 
 

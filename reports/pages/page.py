@@ -43,28 +43,36 @@ from viewer.field_pictures import FieldView
 REPORTS = Path(__file__).resolve().parents[1]
 TEMPLATES = (REPORTS / "pages", REPORTS / "viewer")
 OUTCOMES = ("holds", "fails", "inconclusive", "not applicable")
-WHOLE_TABLE, WHOLE_STUDY_TABLE = 12, 60   # rows; longer tables show FIRST_ROWS and LAST_ROWS
+WHOLE_TABLE, WHOLE_STUDY_TABLE = 12, 60  # rows; longer tables show FIRST_ROWS and LAST_ROWS
 FIRST_ROWS, LAST_ROWS = 7, 3
 FIRST_STUDIES = (
-    "work-precision", "stability-oscillator", "stability-sheet", "variable-step-stability"
+    "work-precision",
+    "stability-oscillator",
+    "stability-sheet",
+    "variable-step-stability",
 )
-MOST_OPEN = 5                       # findings that do not plainly hold, on the first screen
+MOST_OPEN = 5  # findings that do not plainly hold, on the first screen
 STYLES = (
-    "pages/style.css", "viewer/view.css", "pages/opening.css", "pages/print.css",
-    "pages/summary.css", "pages/site.css"
+    "pages/style.css",
+    "viewer/view.css",
+    "pages/opening.css",
+    "pages/print.css",
+    "pages/summary.css",
+    "pages/site.css",
 )
-MOST_WORDS = 450                    # of the page of verdict: two minutes
-BAR_END = 1.25                      # measured / bound at the end of the margin bar
+MOST_WORDS = 450  # of the page of verdict: two minutes
+BAR_END = 1.25  # measured / bound at the end of the margin bar
 
 
 # the kind of findings that compare with something measured, or the continuum
 VALIDATION = "validation"
-OF_STUDIES = ("study", VALIDATION)   # kinds of findings that studies have
+OF_STUDIES = ("study", VALIDATION)  # kinds of findings that studies have
 
 
 @dataclass
 class CaseView:
     """A case with its pictures and plots; `problem` says why there are none."""
+
     entry: CaseEntry
     anchor: str
     case: Case | None = None
@@ -72,12 +80,13 @@ class CaseView:
     turning: FieldView | None = None
     plots: list[tuple[str, Plot]] = field(default_factory=list)
     problem: str = ""
-    foreign: str = ""               # why the file is not the one that the run wrote
+    foreign: str = ""  # why the file is not the one that the run wrote
 
 
 @dataclass
 class StudyView:
     """A study with its plots, in the order of its figures and of its maps, and its findings."""
+
     study: Study
     anchor: str
     plots: list[Plot]
@@ -88,11 +97,12 @@ class StudyView:
 @dataclass
 class Page:
     """All that the template shows."""
+
     provenance: dict[str, Any]
     claims: list[ClaimView]
     checks: list[Finding]
     studies: list[StudyView]
-    other_findings: list[Finding]   # of studies or kinds that have no section of their own
+    other_findings: list[Finding]  # of studies or kinds that have no section of their own
     cases: list[CaseView]
     rates: list[Finding]
     bench_studies: list[StudyView]
@@ -101,14 +111,14 @@ class Page:
     tolerances: Tolerances
     kinds: Kinds
     case_findings: list[CaseFindings] = field(default_factory=list)
-    hard_findings: list[CaseFindings] = field(default_factory=list)   # of cases/hard
+    hard_findings: list[CaseFindings] = field(default_factory=list)  # of cases/hard
     coverage: Coverage | None = None
-    needs: Needs | None = None      # which of its parts each scene needs
-    errors: Errors | None = None    # how large the error of each scene's step is
+    needs: Needs | None = None  # which of its parts each scene needs
+    errors: Errors | None = None  # how large the error of each scene's step is
     variants: Variants | None = None
-    alone: bool = False             # simulations that no run of the verification made
-    unended: str = ""               # why this is not what was run last
-    mutation: Mutation | None = None   # what scripts/mutate found, where that lies beside the run
+    alone: bool = False  # simulations that no run of the verification made
+    unended: str = ""  # why this is not what was run last
+    mutation: Mutation | None = None  # what scripts/mutate found, where that lies beside the run
 
     def validations(self) -> list[StudyView]:
         """The studies whose findings compare with something measured, or with the continuum."""
@@ -181,15 +191,28 @@ def render(page: Page, since: list[Piece] | None = None, cuts: Cuts | None = Non
         sections=ledger.by_section,
         papers=ledger.by_paper,
         cheapest=cheapest_of(view.study for view in page.studies),
-        sketch_of=sketch_of, known_faults={fault.name: fault for fault in page.faults}, caught=CaughtCount(page.faults),
-        by_file=faults_by_file, commits=commits_of(page.faults), fault_outcomes=fault_outcomes, kill_tables=kill_tables(page.faults),
-        known_findings={finding.name for finding in page.all_findings()}, commands=commands_of(page),
+        sketch_of=sketch_of,
+        known_faults={fault.name: fault for fault in page.faults},
+        caught=CaughtCount(page.faults),
+        by_file=faults_by_file,
+        commits=commits_of(page.faults),
+        fault_outcomes=fault_outcomes,
+        kill_tables=kill_tables(page.faults),
+        known_findings={finding.name for finding in page.all_findings()},
+        commands=commands_of(page),
         program=program_of(page),
-        expectations={case.anchor: case for case in page.case_findings + page.hard_findings if case.anchor},
-        of_case={finding.name: case for case in page.case_findings + page.hard_findings
-                 for finding in case.findings}.get)
-    return environment.get_template("page.html.j2").render(page=page, said=page.provenance,
-                                                           summary=summary_of_page(page, since, environment))
+        expectations={
+            case.anchor: case for case in page.case_findings + page.hard_findings if case.anchor
+        },
+        of_case={
+            finding.name: case
+            for case in page.case_findings + page.hard_findings
+            for finding in case.findings
+        }.get,
+    )
+    return environment.get_template("page.html.j2").render(
+        page=page, said=page.provenance, summary=summary_of_page(page, since, environment)
+    )
 
 
 def summary_of_page(page: Page, since: list[Piece] | None, environment: Environment) -> Summary:
@@ -226,8 +249,12 @@ def commands_of(page: Page) -> dict[str, str]:
         for view in page.cases
         if view.case
     }
-    return {finding.name: made_by[group.name] for group in page.case_findings + page.hard_findings
-            for finding in group.findings if made_by.get(group.name)}
+    return {
+        finding.name: made_by[group.name]
+        for group in page.case_findings + page.hard_findings
+        for finding in group.findings
+        if made_by.get(group.name)
+    }
 
 
 def render_comparison(comparison: Comparison) -> str:
@@ -239,14 +266,39 @@ def render_comparison(comparison: Comparison) -> str:
 
 def new_environment() -> Environment:
     """Values shared by all templates."""
-    environment = Environment(loader=FileSystemLoader(TEMPLATES), autoescape=True, undefined=StrictUndefined,
-                              trim_blocks=True, lstrip_blocks=True)
-    environment.filters.update(number=quantities.number_html, known=quantities.known_html, unit=quantities.unit_text,
-                               seconds=quantities.seconds_html, bar_length=length_text, sentence=html_of, measured=measured_html, bound=bound_html,
-                               rule=rule_html, formula=formula_html)
+    environment = Environment(
+        loader=FileSystemLoader(TEMPLATES),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    environment.filters.update(
+        number=quantities.number_html,
+        known=quantities.known_html,
+        unit=quantities.unit_text,
+        seconds=quantities.seconds_html,
+        bar_length=length_text,
+        sentence=html_of,
+        measured=measured_html,
+        bound=bound_html,
+        rule=rule_html,
+        formula=formula_html,
+    )
     environment.globals.update(
-        quantity=quantities.quantity_html, ratio=quantities.ratio_of, isnan=isnan, anchor=Anchors().of,
-        outcome_class=outcome_class, counts=count_outcomes, style=Markup(_text_of(*STYLES)), script=Markup(_text_of("pages/filter.js").replace("{{ greek }}", json.dumps(GREEK, ensure_ascii=False))))
+        quantity=quantities.quantity_html,
+        ratio=quantities.ratio_of,
+        isnan=isnan,
+        anchor=Anchors().of,
+        outcome_class=outcome_class,
+        counts=count_outcomes,
+        style=Markup(_text_of(*STYLES)),
+        script=Markup(
+            _text_of("pages/filter.js").replace(
+                "{{ greek }}", json.dumps(GREEK, ensure_ascii=False)
+            )
+        ),
+    )
     return environment
 
 
@@ -330,7 +382,8 @@ def margin_percent(finding: Finding) -> float | None:
 class ShownTable:
     """A table ready to be set: heads with units, the rows shown first and
     last, and how many lie between."""
-    heads: list[tuple[str, str, bool]]   # name, unit, whether it holds numbers
+
+    heads: list[tuple[str, str, bool]]  # name, unit, whether it holds numbers
     first: list[tuple[Markup, ...]]
     left_out: int
     last: list[tuple[Markup, ...]]
@@ -377,8 +430,11 @@ def findings_by_section(
         finding for finding in findings if finding.kind == "check" and not is_of_case(finding)
     ]
     rates = [finding for finding in findings if finding.kind == "bench"]
-    others = [finding for finding in findings if finding.kind not in ("check", "bench")
-              and finding.study not in known]
+    others = [
+        finding
+        for finding in findings
+        if finding.kind not in ("check", "bench") and finding.study not in known
+    ]
     return checks, others, rates
 
 

@@ -14,20 +14,24 @@ from pages.conclusions import Results, conclusions_of
 from pages.sentences import Conclusion, Number, Piece, Quoted, in_words
 from pages.trust import Tolerances
 
-MARGINS = 5                # bounds shown
+MARGINS = 5  # bounds shown
 # used of a bound; from here on bounds are sharp or count exactly, so that no margin is expected
 ATTAINED = 0.999
-MOST_NAMED = 3             # findings or changes that are named
+MOST_NAMED = 3  # findings or changes that are named
 REFERENCE = "foldproof reference"
 TESTED = (
-    ("subject", "subject"), ("commit", "commit"), ("tier", "tier"), ("date", "date"),
-    ("machine", "cpu")
+    ("subject", "subject"),
+    ("commit", "commit"),
+    ("tier", "tier"),
+    ("date", "date"),
+    ("machine", "cpu"),
 )
 
 
 @dataclass(frozen=True)
 class Margin:
     """A finding and how much of its bound is left."""
+
     finding: Finding
     left: Number
 
@@ -35,31 +39,33 @@ class Margin:
 @dataclass(frozen=True)
 class Summary:
     """All that the page of verdict says."""
+
     tested: list[tuple[str, str]]
     verdict: list[Piece]
-    holds: bool                    # every finding holds or does not apply
+    holds: bool  # every finding holds or does not apply
     asked: list[Piece]
     scope: list[Piece]
     conclusions: list[Conclusion]
     limits: list[list[Piece]]
     margins: list[Margin]
-    attained: list[Piece]          # about bounds that are not among the margins
+    attained: list[Piece]  # about bounds that are not among the margins
     faults: list[Piece]
-    since: list[Piece]             # what changed since the last run
+    since: list[Piece]  # what changed since the last run
 
 
 @dataclass(frozen=True)
 class Judged:
     """What the summary is made from."""
+
     provenance: dict[str, Any]
-    findings: list[Finding]        # all but rates of work
+    findings: list[Finding]  # all but rates of work
     studies: int
     faults: list[Fault]
     tolerances: Tolerances
     results: Results
     since: list[Piece]
-    alone: bool                    # simulations that no run of the verification made
-    is_brief: bool = False         # claims are named, not told
+    alone: bool  # simulations that no run of the verification made
+    is_brief: bool = False  # claims are named, not told
 
 
 def summary_of(judged: Judged) -> Summary:
@@ -108,12 +114,16 @@ def _verdict(judged: Judged) -> list[Piece]:
     counted = Counter(finding.outcome for finding in judged.findings)
     total = Number(len(judged.findings), "1", "findings")
     said: list[Piece] = [
-        _count(counted["holds"], "findings that hold"), " of ", total, " findings hold"
+        _count(counted["holds"], "findings that hold"),
+        " of ",
+        total,
+        " findings hold",
     ]
     others = [
         [
-            _count(count, f"findings: {outcome}"), " ",
-            "fail" if outcome == "fails" and count > 1 else Quoted(outcome, "outcomes")
+            _count(count, f"findings: {outcome}"),
+            " ",
+            "fail" if outcome == "fails" and count > 1 else Quoted(outcome, "outcomes"),
         ]
         for outcome, count in counted.items()
         if outcome != "holds"
@@ -137,8 +147,10 @@ def _asked(judged: Judged) -> list[Piece]:
         one for one in judged.findings if one.kind == "check" and not one.name.startswith("case.")
     ]
     counted = [
-        (len(checks), "check", "checks"), (judged.studies, "study", "studies"),
-        (len(cases), "case", "cases"), (len(judged.results.claims), "claim", "claims")
+        (len(checks), "check", "checks"),
+        (judged.studies, "study", "studies"),
+        (len(cases), "case", "cases"),
+        (len(judged.results.claims), "claim", "claims"),
     ]
     return in_words(
         [
@@ -180,7 +192,7 @@ def _limits(judged: Judged) -> list[list[Piece]]:
             [
                 _count(apart, "findings that do not apply"),
                 " finding does" if apart == 1 else " findings do",
-                " not apply to this subject or mesh."
+                " not apply to this subject or mesh.",
             ]
         )
     ends = [row for row in judged.results.rows("work-precision", "end", "particles")]
@@ -189,14 +201,22 @@ def _limits(judged: Judged) -> list[list[Piece]]:
         last, particles = ([float(row[key]) for row in ends] for key in ("end", "particles"))
         limits.append(
             [
-                "Integrators were priced on at most ", Number(max(last), "s", source), " and ",
-                Number(max(particles), "1", source), " particles; others may rank them differently."
+                "Integrators were priced on at most ",
+                Number(max(last), "s", source),
+                " and ",
+                Number(max(particles), "1", source),
+                " particles; others may rank them differently.",
             ]
         )
     if judged.provenance.get("subject") == REFERENCE:
         if judged.provenance.get("tier") == "quick":
-            limits.append(["The longest cases and finest meshes need ",
-                           Quoted("verify --tier full", "command", is_name=True), "."])
+            limits.append(
+                [
+                    "The longest cases and finest meshes need ",
+                    Quoted("verify --tier full", "command", is_name=True),
+                    ".",
+                ]
+            )
         limits.append(["Not modelled: air drag, several fabrics in one case."])
     return limits
 
@@ -204,9 +224,10 @@ def _limits(judged: Judged) -> list[list[Piece]]:
 def _attained(count: int) -> list[Piece]:
     return (
         [
-            _count(count, "bounds that are attained"), " more with less than ",
+            _count(count, "bounds that are attained"),
+            " more with less than ",
             Number(100 * (1 - ATTAINED), "%", "this page"),
-            " left, as sharp bounds and exact counts have."
+            " left, as sharp bounds and exact counts have.",
         ]
         if count
         else []
@@ -222,14 +243,43 @@ def _faults(faults: list[Fault]) -> list[Piece]:
     run = sum(counted[outcome] for outcome in ("caught", "SURVIVED", "equivalent", "ERROR"))
     total = _count(len(faults), "faults")
     if not run:
-        return [total, " are" if len(faults) != 1 else " is", " listed; none was run with these results. Run ",
-                Quoted("scripts/faults --out DIR/faults.json", "command", is_name=True), "."]
-    said: list[Piece] = ["Of ", total, " seeded faults " if len(faults) != 1 else " seeded fault ", _count(counted["caught"], "faults caught"), " was caught, " if counted["caught"] == 1 else " were caught, ",
-                         _count(counted["SURVIVED"], "faults that survived"), " survived"]
+        return [
+            total,
+            " are" if len(faults) != 1 else " is",
+            " listed; none was run with these results. Run ",
+            Quoted("scripts/faults --out DIR/faults.json", "command", is_name=True),
+            ".",
+        ]
+    said: list[Piece] = [
+        "Of ",
+        total,
+        " seeded faults " if len(faults) != 1 else " seeded fault ",
+        _count(counted["caught"], "faults caught"),
+        " was caught, " if counted["caught"] == 1 else " were caught, ",
+        _count(counted["SURVIVED"], "faults that survived"),
+        " survived",
+    ]
     if recorded:
-        said += [", on commit ", Quoted(recorded[0][0][:10], "record of faults", is_name=True), *([" and others"] if recorded[1:] else []), ", not with these results"]
+        said += [
+            ", on commit ",
+            Quoted(recorded[0][0][:10], "record of faults", is_name=True),
+            *([" and others"] if recorded[1:] else []),
+            ", not with these results",
+        ]
     rest = len(faults) - counted["caught"] - counted["SURVIVED"]
-    return [*said, *([", ", _count(rest, "other faults"), " were not run since they were written, or are equivalent"] if rest else []), "."]
+    return [
+        *said,
+        *(
+            [
+                ", ",
+                _count(rest, "other faults"),
+                " were not run since they were written, or are equivalent",
+            ]
+            if rest
+            else []
+        ),
+        ".",
+    ]
 
 
 def since_last(
@@ -244,7 +294,10 @@ def since_last(
     if len(rows) < 2:
         return ["The two runs are the same run."]
     return [
-        *_label(rows[0]), ": ", *_changed(changes(rows), anchor), *_closer(margin_changes(rows))
+        *_label(rows[0]),
+        ": ",
+        *_changed(changes(rows), anchor),
+        *_closer(margin_changes(rows)),
     ]
 
 
@@ -257,8 +310,10 @@ def _changed(found: list[Change], anchor: Callable[[str], str]) -> list[Piece]:
         return ["no verdict and no ruling changed"]
     worse = [change for change in found if change.is_regression]
     said: list[Piece] = [
-        _count(len(worse), "changes for the worse"), " worse, ",
-        _count(len(found) - len(worse), "other changes"), " new or changed otherwise"
+        _count(len(worse), "changes for the worse"),
+        " worse, ",
+        _count(len(found) - len(worse), "other changes"),
+        " new or changed otherwise",
     ]
     if not worse:
         return said
@@ -266,8 +321,10 @@ def _changed(found: list[Change], anchor: Callable[[str], str]) -> list[Piece]:
         [
             [
                 Quoted(
-                    change.name, f"finding {change.name}",
-                    anchor(change.name) if change.after else "", is_name=True
+                    change.name,
+                    f"finding {change.name}",
+                    anchor(change.name) if change.after else "",
+                    is_name=True,
                 )
             ]
             for change in worse[:MOST_NAMED]
@@ -280,5 +337,3 @@ def _closer(found: list[MarginChange]) -> list[Piece]:
     if not found:
         return ["; no margin halved."]
     return ["; ", _count(len(found), "margins that halved"), " margins halved."]
-
-

@@ -1,5 +1,5 @@
-"""Small drawings of what a study sets up: cloth, held particles, bodies, motions. They are not to scale and show no
-result. Lengths are those of a box of 200 x 110."""
+"""Small drawings of what a study sets up: cloth, held particles, bodies, motions. They are not
+to scale and show no result. Lengths are those of a box of 200 x 110."""
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
@@ -15,6 +15,7 @@ Point = tuple[float, float]
 @dataclass(frozen=True)
 class Sketch:
     """A drawing as SVG, and what it shows in words."""
+
     svg: Markup
     words: str
 
@@ -25,8 +26,12 @@ def sketch_of(study: str) -> Sketch | None:
         return None
     words, draw = _DRAWN[study]
     marks = "".join(draw())
-    return Sketch(Markup('<svg class="sketch" viewBox="0 0 {} {}" role="img" aria-label="{}">{}</svg>').format(
-        WIDTH, HEIGHT, words, Markup(marks)), words)
+    return Sketch(
+        Markup(
+            '<svg class="sketch" viewBox="0 0 {} {}" role="img" aria-label="{}">{}</svg>'
+        ).format(WIDTH, HEIGHT, words, Markup(marks)),
+        words,
+    )
 
 
 def drawn_studies() -> list[str]:
@@ -34,7 +39,7 @@ def drawn_studies() -> list[str]:
     return list(_DRAWN)
 
 
-# ---- marks ---------------------------------------------------------------------------------------------
+# ---- marks ----
 
 
 def _line(points: Iterable[Point], kind: str = "cloth", closed: bool = False) -> str:
@@ -49,8 +54,10 @@ def _dot(at: Point, kind: str = "held") -> str:
 def _arrow(start: Point, end: Point) -> str:
     length = hypot(end[0] - start[0], end[1] - start[1])
     along = ((end[0] - start[0]) / length, (end[1] - start[1]) / length)
+
     def back(side: float) -> Point:
         return end[0] - 6 * along[0] - side * along[1], end[1] - 6 * along[1] + side * along[0]
+
     return _line([start, end], "motion") + _line([back(2.8), end, back(-2.8)], "motion")
 
 
@@ -60,7 +67,9 @@ def _label(at: Point, text: str, anchor: str = "middle") -> str:
 
 def _clamp(x: float, top: float, bottom: float, side: int) -> str:
     """A wall with hatching on its `side`, -1 left or 1 right."""
-    rungs = "".join(_line([(x, y), (x + 5 * side, y + 5)], "wall") for y in range(int(top), int(bottom), 6))
+    rungs = "".join(
+        _line([(x, y), (x + 5 * side, y + 5)], "wall") for y in range(int(top), int(bottom), 6)
+    )
     return _line([(x, top), (x, bottom)], "wall") + rungs
 
 
@@ -76,39 +85,74 @@ def _arc(centre: Point, radius: float, start: float, end: float, steps: int = 40
 
 def _wave(left: float, right: float, y: float, height: float, periods: float) -> list[Point]:
     """Leaves both ends level, as clamps ask."""
-    return [(left + (right - left) * k / 80, y - height * sin(pi * k / 80) * sin(2 * pi * periods * k / 80)) for k in range(81)]
+    return [
+        (
+            left + (right - left) * k / 80,
+            y - height * sin(pi * k / 80) * sin(2 * pi * periods * k / 80),
+        )
+        for k in range(81)
+    ]
 
 
 def _grid(left: float, top: float, right: float, bottom: float, cells: int) -> str:
     across = [left + (right - left) * k / cells for k in range(cells + 1)]
     down = [top + (bottom - top) * k / cells for k in range(cells + 1)]
-    return ("".join(_line([(x, top), (x, bottom)], "mesh") for x in across)
-            + "".join(_line([(left, y), (right, y)], "mesh") for y in down)
-            + "".join(_line([(across[i], down[j]), (across[i + 1], down[j + 1])], "mesh") for i in range(cells) for j in range(cells))
-            + _line([(left, top), (right, top), (right, bottom), (left, bottom)], "cloth", closed=True))
+    return (
+        "".join(_line([(x, top), (x, bottom)], "mesh") for x in across)
+        + "".join(_line([(left, y), (right, y)], "mesh") for y in down)
+        + "".join(
+            _line([(across[i], down[j]), (across[i + 1], down[j + 1])], "mesh")
+            for i in range(cells)
+            for j in range(cells)
+        )
+        + _line([(left, top), (right, top), (right, bottom), (left, bottom)], "cloth", closed=True)
+    )
 
 
-# ---- set-ups -------------------------------------------------------------------------------------------
+# ---- set-ups ----
 
 
 def _hinge() -> list[str]:
     top, bottom, held, free = (100.0, 14.0), (100.0, 96.0), (34.0, 62.0), (160.0, 44.0)
-    return [_line([top, bottom, held], closed=True), _line([top, bottom, free], closed=True), *map(_dot, (top, bottom, held)),
-            _dot(free, "free")]
+    return [
+        _line([top, bottom, held], closed=True),
+        _line([top, bottom, free], closed=True),
+        *map(_dot, (top, bottom, held)),
+        _dot(free, "free"),
+    ]
 
 
 def _driven_hinge() -> list[str]:
-    return [*_hinge(), _line(_arc((34, 62), 15, 0.6, 1.4), "path"), _arrow((29.4, 48), (36, 46)), _label((2, 34), "prescribed", "start"),
-            _label((160, 34), "free"), _gravity((184, 70))]
+    return [
+        *_hinge(),
+        _line(_arc((34, 62), 15, 0.6, 1.4), "path"),
+        _arrow((29.4, 48), (36, 46)),
+        _label((2, 34), "prescribed", "start"),
+        _label((160, 34), "free"),
+        _gravity((184, 70)),
+    ]
 
 
 def _oscillator() -> list[str]:
-    return [*_hinge(), _arrow((160, 44), (160, 16)), _arrow((160, 44), (160, 72)), _label((182, 48), "free")]
+    return [
+        *_hinge(),
+        _arrow((160, 44), (160, 16)),
+        _arrow((160, 44), (160, 72)),
+        _label((182, 48), "free"),
+    ]
 
 
 def _hung_by_corners() -> list[str]:
-    return [_grid(56, 26, 136, 98, 5), _dot((56, 26)), _dot((136, 26)), _arrow((56, 18), (40, 18)), _arrow((56, 18), (72, 18)),
-            _arrow((136, 18), (120, 18)), _arrow((136, 18), (152, 18)), _gravity((176, 46))]
+    return [
+        _grid(56, 26, 136, 98, 5),
+        _dot((56, 26)),
+        _dot((136, 26)),
+        _arrow((56, 18), (40, 18)),
+        _arrow((56, 18), (72, 18)),
+        _arrow((136, 18), (120, 18)),
+        _arrow((136, 18), (152, 18)),
+        _gravity((176, 46)),
+    ]
 
 
 def _hung_by_edge(arrow: bool) -> list[str]:
@@ -120,81 +164,183 @@ def _hung_by_edge(arrow: bool) -> list[str]:
 
 def _cantilever() -> list[str]:
     strip = [(30 + 110 * s, 26 + 58 * s * s * (1.5 - 0.5 * s)) for s in (k / 30 for k in range(31))]
-    return [_clamp(22, 8, 46, -1), _line([(22, 26), *strip]), _dot((22, 26)), _dot((30, 26)), _gravity((170, 30)),
-            _label((96, 18), "weight or tip load"), _line([(22, 26), (150, 26)], "path")]
+    return [
+        _clamp(22, 8, 46, -1),
+        _line([(22, 26), *strip]),
+        _dot((22, 26)),
+        _dot((30, 26)),
+        _gravity((170, 30)),
+        _label((96, 18), "weight or tip load"),
+        _line([(22, 26), (150, 26)], "path"),
+    ]
 
 
 def _buckling() -> list[str]:
-    return [_clamp(24, 30, 76, -1), _line(_wave(24, 176, 53, 16, 1.5)), _clamp(176, 30, 76, 1), _arrow((194, 92), (168, 92)),
-            _arrow((6, 92), (32, 92)), _line([(24, 53), (176, 53)], "path")]
+    return [
+        _clamp(24, 30, 76, -1),
+        _line(_wave(24, 176, 53, 16, 1.5)),
+        _clamp(176, 30, 76, 1),
+        _arrow((194, 92), (168, 92)),
+        _arrow((6, 92), (32, 92)),
+        _line([(24, 53), (176, 53)], "path"),
+    ]
 
 
 def _pulled_strip() -> list[str]:
-    return [_clamp(24, 30, 76, -1), _line([(24, 44), (150, 44), (150, 62), (24, 62)], closed=True),
-            *[_line([(x, 44), (x, 62)], "mesh") for x in range(45, 150, 21)], _arrow((154, 53), (190, 53)), _label((88, 92), "largest load at the clamp")]
+    return [
+        _clamp(24, 30, 76, -1),
+        _line([(24, 44), (150, 44), (150, 62), (24, 62)], closed=True),
+        *[_line([(x, 44), (x, 62)], "mesh") for x in range(45, 150, 21)],
+        _arrow((154, 53), (190, 53)),
+        _label((88, 92), "largest load at the clamp"),
+    ]
 
 
 def _forecast() -> list[str]:
     body = _arc((88, 150), 84, 0.82, 0.18)
-    return [_line(body, "body"), _dot((64, 36), "free"), _arrow((64, 36), (104, 52)), _line([(104, 52), (130, 62)], "path"),
-            _arrow((88, 66), (88, 40)), _label((96, 44), "N", "start"), _label((84, 26), "v, over τ", "start"), _label((88, 96), "φ < 0")]
+    return [
+        _line(body, "body"),
+        _dot((64, 36), "free"),
+        _arrow((64, 36), (104, 52)),
+        _line([(104, 52), (130, 62)], "path"),
+        _arrow((88, 66), (88, 40)),
+        _label((96, 44), "N", "start"),
+        _label((84, 26), "v, over τ", "start"),
+        _label((88, 96), "φ < 0"),
+    ]
 
 
 def _pointwise() -> list[str]:
     points = [(30.0, 60.0), (70.0, 34.0), (130.0, 34.0), (170.0, 60.0)]
-    return [_line([(100, 24), (190, 110), (10, 110)], "body", closed=True), _line(points), *[_dot(at, "free") for at in points],
-            _label((100, 100), "object")]
+    return [
+        _line([(100, 24), (190, 110), (10, 110)], "body", closed=True),
+        _line(points),
+        *[_dot(at, "free") for at in points],
+        _label((100, 100), "object"),
+    ]
 
 
 def _wrinkles() -> list[str]:
-    return [_line([(10, 60), (190, 60), (190, 104), (10, 104)], "body", closed=True), _line(_wave(20, 180, 60, 18, 3)),
-            _label((100, 98), "half inside")]
+    return [
+        _line([(10, 60), (190, 60), (190, 104), (10, 104)], "body", closed=True),
+        _line(_wave(20, 180, 60, 18, 3)),
+        _label((100, 98), "half inside"),
+    ]
 
 
 def _on_cylinder() -> list[str]:
-    return [_line(_arc((100, 150), 92, 0.8, 0.2), "body"), _line(_arc((100, 150), 97, 0.8, 0.2)), _arrow((100, 110), (164, 68)),
-            _label((140, 104), "radius R")]
+    return [
+        _line(_arc((100, 150), 92, 0.8, 0.2), "body"),
+        _line(_arc((100, 150), 97, 0.8, 0.2)),
+        _arrow((100, 110), (164, 68)),
+        _label((140, 104), "radius R"),
+    ]
 
 
 def _bond() -> list[str]:
-    zigzag = [(50.0, 60.0), (62.0, 60.0), *[(66.0 + 8 * k, 60.0 + (9 if k % 2 else -9)) for k in range(8)], (128.0, 60.0), (140.0, 60.0)]
-    return [_line(zigzag, "mesh"), _dot((50, 60), "free"), _dot((140, 60)), _arrow((140, 40), (178, 40)), _label((50, 82), "particle"),
-            _label((140, 82), "target"), _label((158, 30), "moves")]
+    zigzag = [
+        (50.0, 60.0),
+        (62.0, 60.0),
+        *[(66.0 + 8 * k, 60.0 + (9 if k % 2 else -9)) for k in range(8)],
+        (128.0, 60.0),
+        (140.0, 60.0),
+    ]
+    return [
+        _line(zigzag, "mesh"),
+        _dot((50, 60), "free"),
+        _dot((140, 60)),
+        _arrow((140, 40), (178, 40)),
+        _label((50, 82), "particle"),
+        _label((140, 82), "target"),
+        _label((158, 30), "moves"),
+    ]
 
 
 def _falls_on_ball() -> list[str]:
-    return [_line(_arc((100, 78), 28, 0, 2, 60), "body", closed=True), _line([(30, 18), (170, 18)]), _arrow((56, 24), (56, 44)),
-            _arrow((144, 24), (144, 44)), _line([(52, 100), *_arc((100, 78), 32, 0.9, 0.1), (148, 100)], "path")]
+    return [
+        _line(_arc((100, 78), 28, 0, 2, 60), "body", closed=True),
+        _line([(30, 18), (170, 18)]),
+        _arrow((56, 24), (56, 44)),
+        _arrow((144, 24), (144, 44)),
+        _line([(52, 100), *_arc((100, 78), 32, 0.9, 0.1), (148, 100)], "path"),
+    ]
 
 
 def _free_flight() -> list[str]:
     corners = [(62.0, 34.0), (134.0, 24.0), (146.0, 80.0), (54.0, 88.0)]
-    return [_line([corners[0], *_bent(corners[0], corners[1], -8), *_bent(corners[1], corners[2], 7), *_bent(corners[2], corners[3], 9),
-                   *_bent(corners[3], corners[0], 6)], closed=True), _line(_arc((100, 56), 46, 0.15, 0.62), "motion"),
-            _arrow((92.6, 10.6), (80, 14.3)), _label((100, 62), "no outer force")]
+    return [
+        _line(
+            [
+                corners[0],
+                *_bent(corners[0], corners[1], -8),
+                *_bent(corners[1], corners[2], 7),
+                *_bent(corners[2], corners[3], 9),
+                *_bent(corners[3], corners[0], 6),
+            ],
+            closed=True,
+        ),
+        _line(_arc((100, 56), 46, 0.15, 0.62), "motion"),
+        _arrow((92.6, 10.6), (80, 14.3)),
+        _label((100, 62), "no outer force"),
+    ]
 
 
 def _bent(a: Point, b: Point, bow: float) -> list[Point]:
     length = hypot(b[0] - a[0], b[1] - a[1])
     normal = (-(b[1] - a[1]) / length, (b[0] - a[0]) / length)
-    return [(a[0] + (b[0] - a[0]) * s + bow * sin(pi * s) * normal[0], a[1] + (b[1] - a[1]) * s + bow * sin(pi * s) * normal[1])
-            for s in (k / 12 for k in range(1, 13))]
+    return [
+        (
+            a[0] + (b[0] - a[0]) * s + bow * sin(pi * s) * normal[0],
+            a[1] + (b[1] - a[1]) * s + bow * sin(pi * s) * normal[1],
+        )
+        for s in (k / 12 for k in range(1, 13))
+    ]
 
 
 _DRAWN: dict[str, tuple[str, Callable[[], list[str]]]] = {
-    "time-order.hinge": ("Two triangles share an edge that is held; one corner is moved, the other is free.", _driven_hinge),
-    "stability-oscillator": ("Three corners of a hinge are held; the fourth moves across its plane.", _oscillator),
-    "variable-step-stability": ("Three corners of a hinge are held; the fourth moves across its plane.", _oscillator),
-    "time-order.sheet": ("A sheet hangs by its two upper corners, which are moved to and fro.", _hung_by_corners),
-    "mesh-error": ("A sheet held along its upper edge swings out of its plane.", lambda: _hung_by_edge(arrow=False)),
-    "strain-sweeps": ("A sheet held along its upper edge; all below starts downwards.", lambda: _hung_by_edge(arrow=True)),
-    "cantilever": ("A strip is clamped level at one end and bends under its weight, or a load at its tip.", _cantilever),
+    "time-order.hinge": (
+        "Two triangles share an edge that is held; one corner is moved, the other is free.",
+        _driven_hinge,
+    ),
+    "stability-oscillator": (
+        "Three corners of a hinge are held; the fourth moves across its plane.",
+        _oscillator,
+    ),
+    "variable-step-stability": (
+        "Three corners of a hinge are held; the fourth moves across its plane.",
+        _oscillator,
+    ),
+    "time-order.sheet": (
+        "A sheet hangs by its two upper corners, which are moved to and fro.",
+        _hung_by_corners,
+    ),
+    "mesh-error": (
+        "A sheet held along its upper edge swings out of its plane.",
+        lambda: _hung_by_edge(arrow=False),
+    ),
+    "strain-sweeps": (
+        "A sheet held along its upper edge; all below starts downwards.",
+        lambda: _hung_by_edge(arrow=True),
+    ),
+    "cantilever": (
+        "A strip is clamped level at one end and bends under its weight, or a load at its tip.",
+        _cantilever,
+    ),
     "buckling": ("A strip between two clamps that approach each other.", _buckling),
     "folding": ("A strip between two clamps that approach each other.", _buckling),
     "biphasic": ("A strip is clamped at one end and pulled by the other.", _pulled_strip),
-    "forecast-time": ("A point above a curved body, its velocity and the body's normal.", _forecast),
-    "pointwise-contact": ("Particles stay outside; triangles between them may still cut an edge of the object.", _pointwise),
-    "wrinkle-preservation": ("A wrinkled strip lies half inside a body before it is projected.", _wrinkles),
+    "forecast-time": (
+        "A point above a curved body, its velocity and the body's normal.",
+        _forecast,
+    ),
+    "pointwise-contact": (
+        "Particles stay outside; triangles between them may still cut an edge of the object.",
+        _pointwise,
+    ),
+    "wrinkle-preservation": (
+        "A wrinkled strip lies half inside a body before it is projected.",
+        _wrinkles,
+    ),
     "bending-rigidity": ("A flat sheet is laid on a cylinder.", _on_cylinder),
     "bending-scaling": ("A sheet is rolled on a cylinder whose curvature grows.", _on_cylinder),
     "sticking-lag": ("A particle is bound to a moving target by a spring without length.", _bond),

@@ -18,16 +18,25 @@ from data.quantities import number_text
 from data.formulas import formula_text
 from data.results import Curve, StudyMap
 from plots.plot_style import (
-    INK, MUTED, PAPER, Plot, finish, label_axes, level_text, new_figure, say_in_the_middle,
-    scale_axis, with_unit
+    INK,
+    MUTED,
+    PAPER,
+    Plot,
+    finish,
+    label_axes,
+    level_text,
+    new_figure,
+    say_in_the_middle,
+    scale_axis,
+    with_unit,
 )
 
-WIDTH, HEIGHT = 5.6, 4.0            # [inch]
+WIDTH, HEIGHT = 5.6, 4.0  # [inch]
 # perceptually uniform, readable without colour vision, and in grey
 COLOURS_OF_VALUES = "viridis"
 DASHES = ("solid", (0, (5, 2)), (0, (1.5, 1.5)), (0, (6, 2, 1.5, 2)))
-MOST_ROWS = 8                       # of a map whose rows are all named
-LABEL_WIDTH = 30                    # characters of a line of a label
+MOST_ROWS = 8  # of a map whose rows are all named
+LABEL_WIDTH = 30  # characters of a line of a label
 
 
 def plot_study_map(study_map: StudyMap, name: str, folder: Path) -> Plot:
@@ -58,8 +67,11 @@ def map_notes(study_map: StudyMap) -> list[str]:
     hatched = int((~_drawable(study_map)).sum())
     if not hatched:
         return []
-    why = "NaN, infinite, or not positive on a logarithmic scale" if study_map.scale == "log" \
+    why = (
+        "NaN, infinite, or not positive on a logarithmic scale"
+        if study_map.scale == "log"
         else "NaN or infinite"
+    )
     return [
         f"Hatched: {number_text(hatched)} of {number_text(study_map.values.size)} points without a"
         f" value ({why})."
@@ -75,7 +87,7 @@ def edges_of(places: np.ndarray, scale: str) -> np.ndarray:
     else:
         middles = 0.5 * (at[1:] + at[:-1])
         borders = np.concatenate([[2 * at[0] - middles[0]], middles, [2 * at[-1] - middles[-1]]])
-    return 10.0 ** borders if scale == "log" else borders
+    return 10.0**borders if scale == "log" else borders
 
 
 def _drawable(study_map: StudyMap) -> np.ndarray:
@@ -100,14 +112,26 @@ def _draw_values(axes: Axes, study_map: StudyMap, drawable: np.ndarray) -> Scala
     if not drawable.all():
         axes.add_patch(
             Rectangle(
-                (0, 0), 1, 1, transform=axes.transAxes, facecolor="none", edgecolor=MUTED,
-                hatch="/////", linewidth=0.0, zorder=0.5
+                (0, 0),
+                1,
+                1,
+                transform=axes.transAxes,
+                facecolor="none",
+                edgecolor=MUTED,
+                hatch="/////",
+                linewidth=0.0,
+                zorder=0.5,
             )
         )
     values = np.ma.masked_where(~drawable, study_map.values)
     return axes.pcolormesh(
-        x, y, values, cmap=COLOURS_OF_VALUES, norm=_norm(values.compressed(), study_map.scale),
-        rasterized=True, zorder=1
+        x,
+        y,
+        values,
+        cmap=COLOURS_OF_VALUES,
+        norm=_norm(values.compressed(), study_map.scale),
+        rasterized=True,
+        zorder=1,
     )
 
 
@@ -127,8 +151,15 @@ def _draw_colour_bar(canvas: Figure, study_map: StudyMap, colours: ScalarMappabl
     scale_axis(axes, "y", study_map.scale, np.array(limits))
     axes.set_ylim(*limits)
     axes.annotate(
-        with_unit(study_map.quantity, study_map.unit), (1.0, 1.0), xycoords="axes fraction",
-        xytext=(38, 6), textcoords="offset points", ha="right", va="bottom", fontsize=8.0, color=INK
+        with_unit(study_map.quantity, study_map.unit),
+        (1.0, 1.0),
+        xycoords="axes fraction",
+        xytext=(38, 6),
+        textcoords="offset points",
+        ha="right",
+        va="bottom",
+        fontsize=8.0,
+        color=INK,
     )
 
 
@@ -145,12 +176,25 @@ def _draw_curves(axes: Axes, curves: list[Curve]) -> None:
         paths.append(_path(axes, x, y))
     names: list[np.ndarray] = []
     for index, (curve, path) in enumerate(zip(curves, paths)):
-        place = _place_of_name(path, names, paths[:index] + paths[index + 1:])
+        place = _place_of_name(path, names, paths[:index] + paths[index + 1 :])
         if place is not None:
             names.append(place)
-            axes.text(*place, fill(formula_text(curve.label), LABEL_WIDTH), transform=axes.transAxes, ha="center", va="center",
-                      fontsize=7.4, color=INK, zorder=6,
-                      bbox={"facecolor": PAPER, "edgecolor": "none", "boxstyle": "round,pad=0.25", "alpha": 0.9})
+            axes.text(
+                *place,
+                fill(formula_text(curve.label), LABEL_WIDTH),
+                transform=axes.transAxes,
+                ha="center",
+                va="center",
+                fontsize=7.4,
+                color=INK,
+                zorder=6,
+                bbox={
+                    "facecolor": PAPER,
+                    "edgecolor": "none",
+                    "boxstyle": "round,pad=0.25",
+                    "alpha": 0.9,
+                },
+            )
 
 
 def _place_of_name(

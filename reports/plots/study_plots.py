@@ -246,7 +246,8 @@ def _label_curves(axes: Axes, curves: list[Curve], pens: list[Pen], shown: list[
     ends = [tuple(to_axes.transform((x[x.argmax()], y[x.argmax()]))) if len(x) else (0.0, -1.0)
             for x, y in shown]
     labels = [fill(formula_text(curve.label), LABEL_WIDTH) for curve in curves]
-    step = min(LABEL_STEP * max(1 + label.count("\n") for label in labels), 1.06 / max(len(curves), 1))
+    lines = max(1 + label.count("\n") for label in labels)
+    step = min(LABEL_STEP * lines, 1.06 / max(len(curves), 1))
     heights = spread([end[1] for end in ends], step)
     size = 7.6 if step >= LABEL_STEP else 6.4
     for label, pen, end, height in zip(labels, pens, ends, heights):

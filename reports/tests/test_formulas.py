@@ -23,17 +23,31 @@ from pictures.sketches import HEIGHT, WIDTH, drawn_studies, sketch_of  # noqa: E
 
 class Formulas(unittest.TestCase):
     def test_powers_indices_and_greek_letters_are_set(self) -> None:
-        for plain, shown in (("h of order dx^2 rho/kd", "h of order dx<sup>2</sup> ρ/kd"),
-                             ("d(theta)/dt = sum of u_i.v_i", "dθ/dt = sum of u<sub>i</sub>·v<sub>i</sub>"),
-                             ("sqrt(tau_s^2 + 4/omega^2)", "√(τ<sub>s</sub><sup>2</sup> + 4/ω<sup>2</sup>)"),
-                             ("e^(mu turn), M^{-1/2}", "e<sup>μ turn</sup>, M<sup>−1/2</sup>"),
-                             ("x <= 1e-12, 2.5e-7 +- .1", "x ≤ 10<sup>−12</sup>, 2.5\u200a×\u200a10<sup>−7</sup> ± 0.1"),
-                             ("t^ and d^.", "t\u0302 and d\u0302."), ("m E_kin, h/h_limit", "m E<sub>kin</sub>, h/h<sub>limit</sub>")):
+        for plain, shown in (
+            ("h of order dx^2 rho/kd", "h of order dx<sup>2</sup> ρ/kd"),
+            ("d(theta)/dt = sum of u_i.v_i", "dθ/dt = sum of u<sub>i</sub>·v<sub>i</sub>"),
+            ("sqrt(tau_s^2 + 4/omega^2)", "√(τ<sub>s</sub><sup>2</sup> + 4/ω<sup>2</sup>)"),
+            ("e^(mu turn), M^{-1/2}", "e<sup>μ turn</sup>, M<sup>−1/2</sup>"),
+            (
+                "x <= 1e-12, 2.5e-7 +- .1",
+                "x ≤ 10<sup>−12</sup>, 2.5\u200a×\u200a10<sup>−7</sup> ± 0.1",
+            ),
+            ("t^ and d^.", "t\u0302 and d\u0302."),
+            ("m E_kin, h/h_limit", "m E<sub>kin</sub>, h/h<sub>limit</sub>"),
+        ):
             self.assertEqual(formula_html(plain), shown)
 
     def test_words_names_and_settings_stay(self) -> None:
-        for text in ("a picture of a method", "stays-within-strain-limits", "drape_sphere", "bending.stiffness=3e-4",
-                     "rhombus, taut, picks", "cases/hinge.toml", "v0.2.0", "pi-rate.x"):
+        for text in (
+            "a picture of a method",
+            "stays-within-strain-limits",
+            "drape_sphere",
+            "bending.stiffness=3e-4",
+            "rhombus, taut, picks",
+            "cases/hinge.toml",
+            "v0.2.0",
+            "pi-rate.x",
+        ):
             self.assertEqual(formula_html(text), text)
 
     def test_text_is_escaped_once(self) -> None:
@@ -41,7 +55,9 @@ class Formulas(unittest.TestCase):
         self.assertEqual(formula_html(formula_html("a < b^2")), "a &lt; b<sup>2</sup>")
 
     def test_plots_have_unicode(self) -> None:
-        self.assertEqual(formula_text("largest stable omega h, dx^-3, 1e-9"), "largest stable ω h, dx⁻³, 10⁻⁹")
+        self.assertEqual(
+            formula_text("largest stable omega h, dx^-3, 1e-9"), "largest stable ω h, dx⁻³, 10⁻⁹"
+        )
 
 
 class FaultRecord(unittest.TestCase):
@@ -49,11 +65,35 @@ class FaultRecord(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.file = Path(folder.name) / "outcomes.json"
-        self.fault = Fault("slip", "reference/types.h", "a + b", "a - b", "sums", ["sums.add-up"], "not run", ["a test"])
+        self.fault = Fault(
+            "slip",
+            "reference/types.h",
+            "a + b",
+            "a - b",
+            "sums",
+            ["sums.add-up"],
+            "not run",
+            ["a test"],
+        )
 
     def record(self, fault: Fault) -> None:
-        edit = edit_digest(fault.file, fault.find, fault.replace, fault.caught_by, fault.caught_by_tests)
-        self.file.write_text(json.dumps({"faults": {"slip": {"outcome": "caught", "commit": "abc", "date": "2026-01-02", "edit": edit}}}))
+        edit = edit_digest(
+            fault.file, fault.find, fault.replace, fault.caught_by, fault.caught_by_tests
+        )
+        self.file.write_text(
+            json.dumps(
+                {
+                    "faults": {
+                        "slip": {
+                            "outcome": "caught",
+                            "commit": "abc",
+                            "date": "2026-01-02",
+                            "edit": edit,
+                        }
+                    }
+                }
+            )
+        )
 
     def test_an_outcome_is_recalled_with_its_commit(self) -> None:
         self.record(self.fault)
@@ -63,7 +103,13 @@ class FaultRecord(unittest.TestCase):
 
     def test_a_fault_that_was_edited_since_was_not_run(self) -> None:
         self.record(self.fault)
-        for key, value in (("find", "a * b"), ("replace", "b - a"), ("file", "reference/math.h"), ("caught_by", []), ("caught_by_tests", [])):
+        for key, value in (
+            ("find", "a * b"),
+            ("replace", "b - a"),
+            ("file", "reference/math.h"),
+            ("caught_by", []),
+            ("caught_by_tests", []),
+        ):
             other = Fault(**{**self.fault.__dict__, key: value})
             self.assertEqual(with_record([other], self.file), [other])
 

@@ -77,9 +77,11 @@ class Order(MadeUpPage):
         self.assertEqual(places, sorted(places))
 
     def test_a_claim_says_where_the_paper_makes_it_where_the_file_knows(self) -> None:
-        self.assertIn("The paper, section 3, paragraph 4: &ldquo;Sums add up &hellip;&rdquo;", self.text)
-        self.assertIn("Printed: <span class=\"formula\">a - b</span>. Restored: <span class=\"formula\">a + b</span>.", self.text)
-        self.assertEqual(self.text.count('<p class="cited">'), 2)  # none of T17, from an older program
+        self.assertIn(
+            "The paper, section 3, paragraph 4: &ldquo;Sums add up &hellip;&rdquo;", self.text)
+        self.assertIn('Printed: <span class="formula">a - b</span>. '
+            'Restored: <span class="formula">a + b</span>.', self.text)
+        self.assertEqual(self.text.count('<p class="cited">'), 2)  # T17 is of an older program
 
     def test_what_was_not_asked_shows_its_reason_and_no_numbers(self) -> None:
         row = re.search(

@@ -469,9 +469,12 @@ class PartsMissing(unittest.TestCase):
         self.assertEqual(run.faults[0].caught_by, [NAMES[0], NAMES[2], "gone.check"])
 
 
-def load_tests(loader: unittest.TestLoader, tests: unittest.TestSuite, _: str | None) -> unittest.TestSuite:
-    """This file's tests, and those of the page, of runs compared, of what scenes need, of the pieces, of the page of verdict, of formulas, and of what other programs get."""
-    tests.addTests(loader.loadTestsFromNames([f"tests.test_{name}" for name in ("page", "compare", "history", "needs", "errors", "pieces", "results", "summary", "site", "formulas")]))
+def load_tests(loader: unittest.TestLoader, tests: unittest.TestSuite,
+               _: str | None) -> unittest.TestSuite:
+    """This file's tests, and those of the files named here, which are run with it."""
+    names = ("page", "compare", "history", "needs", "errors", "pieces", "results", "summary",
+             "site", "formulas")
+    tests.addTests(loader.loadTestsFromNames([f"tests.test_{name}" for name in names]))
     return tests
 
 
