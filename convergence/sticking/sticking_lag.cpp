@@ -305,8 +305,8 @@ StudyResult run_sticking_lag(const Subject& subject, Tier tier, const Progress& 
 
 Study sticking_lag_study() {
   return {"sticking-lag",
-          "What sticks lags by m a/k; forecasts end its swinging and, in scheme C, free the step "
-          "of its stiffness.",
+          "What sticks lags by m a/k, in scheme C by more the longer the step; forecasts end its "
+          "swinging and, in scheme C, free the step of its stiffness.",
           "BMF03 section 6",
           "A bond is a spring without length between where a particle and its target are forecast "
           "to be. Forecasting both adds a damping of their relative velocity, which the schemes "

@@ -160,7 +160,7 @@ NamedFinding bar_finding(const PulledStrip& run) {
 NamedFinding phases_finding(const PulledStrip& run) {
   return {"biphasic.gives-way-then-holds",
           "Beyond three times the load at which it begins to reach its limits, the strip gives way "
-          "a twelfth as much as it did before.",
+          "at most an eighth as much as it did before.",
           {{late_over_early(run), 0.125, 0, "1",
             "a bar gives way (full load/load)^2 as much: between 1/9 and 1/16, 1/12 on average; "
             "half as much again"},
@@ -245,8 +245,8 @@ StudyResult run_biphasic(const Subject&, Tier tier, const Progress& progress) {
 
 Study biphasic_study() {
   return {"biphasic",
-          "Weak springs with limits give way to a load at first and then no more, in steps that "
-          "springs without limits, as stiff as they have to be, cannot take.",
+          "Weak springs with limits give way to a load at first and then at most an eighth as "
+          "much; springs without limits that stretch as little take twice as many steps.",
           "BMF03 section 3, after Provot 1995",
           "A strip without weight is pulled by one end with an acceleration that grows from "
           "nothing: the load at its clamp is its mass times that. Its largest load is four times "
