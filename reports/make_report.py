@@ -37,6 +37,7 @@ from pages.compare import compare, read_side  # noqa: E402
 from pages.hard_cases import findings_by_case  # noqa: E402
 from pages.kill_matrix import load_mutation  # noqa: E402
 from pages.ledger import claim_views  # noqa: E402
+from pages.errors import load_errors  # noqa: E402
 from pages.needs import load_needs  # noqa: E402
 from pages.page import CaseView, Page, StudyView, faults_of, findings_by_section, render, render_comparison, render_site  # noqa: E402
 from pages.printed import print_page  # noqa: E402
@@ -171,9 +172,10 @@ def make_report(folder: Path, out: Path, figures: Path, for_papers: bool = False
 def make_page(folder: Path, figures: Path, for_papers: bool, shipped: Path) -> Page:
     """The report of a folder, with its pictures and plots."""
     run, bench = read_folder(folder)
+    recorded = shipped if run.path and run.provenance.get("subject", REFERENCE) == REFERENCE else None
     beside = {"coverage": load_coverage(folder / "coverage.json"), "variants": load_variants(folder / "variants.json"),
               "mutation": load_mutation(folder / "mutation.json"), "unended": note_on_unfinished_run(folder / "verdicts.json"),
-              "needs": load_needs(folder / "ablation.json", shipped if run.path and run.provenance.get("subject", REFERENCE) == REFERENCE else None)}
+              "needs": load_needs(folder / "ablation.json", recorded), "errors": load_errors(recorded) if recorded else None}
     figures.mkdir(parents=True, exist_ok=True)
     return replace(draw(run, bench, figures, for_papers), **beside)
 

@@ -1,5 +1,6 @@
 #include "convergence/any_case/converge.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "convergence/any_case/distances.h"
@@ -11,6 +12,12 @@ namespace {
 
 /// Rounding of a number of this size over a run: differences below are no discretization error.
 double rounding_floor(double size) { return 1e3 * epsilon * size; }
+
+/// Whole numbers at every level are counts, which have no rounding.
+double value_floor(const std::vector<double>& values) {
+  const bool is_count = std::ranges::all_of(values, [](double v) { return v == std::round(v); });
+  return is_count ? 0 : rounding_floor(std::abs(values.back()));
+}
 
 double sum_of(const std::vector<double>& values) {
   double sum = 0;
@@ -42,8 +49,7 @@ QuantityOverLevels value_over_levels(const Measurement& of, size_t m,
   for (const LevelRun& run : runs) over.values.push_back(run.stopped.empty() ? run.values[m] : nan);
   for (size_t k = 0; k + 1 < over.values.size(); ++k)
     over.differences.push_back(over.values[k + 1] - over.values[k]);
-  over.bar =
-      error_bar({over.values, {}, 2, formal_order, rounding_floor(std::abs(over.values.back()))});
+  over.bar = error_bar({over.values, {}, 2, formal_order, value_floor(over.values)});
   over.first_error = std::abs(over.values.back() - over.values.front()) + over.bar.half_width;
   return over;
 }

@@ -46,7 +46,8 @@ struct QuantityOverLevels {
 QuantityOverLevels positions_over_levels(const Scene& scene, const std::vector<LevelRun>& runs,
                                          double formal_order);
 
-/// The m-th measurement, `of`, over the levels.
+/// The m-th measurement, `of`, over the levels. Differences at or below 1000 roundings of the
+/// finest value have no order; of counts, whole at every level, only a difference of 0.
 QuantityOverLevels value_over_levels(const Measurement& of, size_t m,
                                      const std::vector<LevelRun>& runs, double formal_order);
 

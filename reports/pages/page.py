@@ -22,6 +22,7 @@ from pages.figure_words import figure_keys, figure_notes, order_table
 from pages.hard_cases import STUDIES as HARD_STUDIES, CaseFindings, is_of_case
 from pages.kill_matrix import Mutation, kill_tables
 from pages.ledger import ClaimView
+from pages.errors import Errors
 from pages.needs import Needs
 from pages.said import bound_html, measured_html, rule_html
 from pages.sentences import Piece, html_of
@@ -89,6 +90,7 @@ class Page:
     hard_findings: list[CaseFindings] = field(default_factory=list)   # of cases/hard
     coverage: Coverage | None = None
     needs: Needs | None = None      # which of its parts each scene needs
+    errors: Errors | None = None    # how large the error of each scene's step is
     variants: Variants | None = None
     alone: bool = False             # simulations that no run of the verification made
     unended: str = ""               # why this is not what was run last

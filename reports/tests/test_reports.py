@@ -392,7 +392,7 @@ class PartsMissing(unittest.TestCase):
 
 def load_tests(loader: unittest.TestLoader, tests: unittest.TestSuite, _: str | None) -> unittest.TestSuite:
     """This file's tests, and those of the page, of runs compared, of what scenes need, of the pieces, of the page of verdict, and of what other programs get."""
-    tests.addTests(loader.loadTestsFromNames([f"tests.test_{name}" for name in ("page", "compare", "history", "needs", "pieces", "results", "summary", "site")]))
+    tests.addTests(loader.loadTestsFromNames([f"tests.test_{name}" for name in ("page", "compare", "history", "needs", "errors", "pieces", "results", "summary", "site")]))
     return tests
 
 

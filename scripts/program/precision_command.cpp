@@ -10,6 +10,7 @@
 #include "scripts/program/command_line/out_folder.h"
 #include "scripts/program/commands.h"
 #include "scripts/program/json_text.h"
+#include "scripts/program/program_json.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
 #include "scripts/program/run_case.h"
@@ -159,6 +160,16 @@ json to_json(const PrecisionAnswer& answer) {
   return told;
 }
 
+/// The answer, with the program, and how the case was asked.
+json to_json(const PrecisionAnswer& answer, const Options& options) {
+  json all = to_json(answer);
+  all["end"] = read_case(case_file(options.file), options.overrides).scene.schedule.end;
+  all["asked_end"] = answer.plan.input_case.scene.schedule.end;
+  all["overrides"] = options.overrides;
+  all["program"] = program_json(options.command);
+  return all;
+}
+
 bool is_answered(const PrecisionAnswer& answer) {
   return std::ranges::all_of(answer.lists, [](const PriceList& list) {
     return !std::isnan(list.prices.front().price.applications);
@@ -183,7 +194,7 @@ int precision(const Options& options) {
   run.studies = {precision_record(answer, seconds)};
   write_run(options.out + "/precision.h5", run);
   if (options.json)
-    fmt::print("{}\n", json_text(to_json(answer)));
+    fmt::print("{}\n", json_text(to_json(answer, options)));
   else
     print(answer);
   return is_answered(answer) ? all_hold : some_fail;

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 ROOT = Path(__file__).resolve().parents[2]
-NEEDED = ("scripts/record_needs", "reports/data/case_digest.py", "reports/data/unreadable.py",
+NEEDED = ("scripts/record_needs", "scripts/case_records.py", "reports/data/case_digest.py", "reports/data/unreadable.py",
           "reports/data/whole_file.py")
 
 

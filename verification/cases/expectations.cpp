@@ -37,6 +37,9 @@ Expectation read_entry(const KeyTable& expect, const std::string& key, const Sce
   if (quantity->sense == Sense::at_least && !(expectation.bound > 0))
     throw InputError(entry->where(bound) +
                      ": at_least must be > 0, for nothing falls short of less");
+  if (entry->has("despite_error") && entry->text("despite_error").empty())
+    throw InputError(entry->where("despite_error") +
+                     ": 'despite_error' is empty; say why the bound is narrower than the error");
   if (expectation.why.empty())
     throw InputError(entry->where("why") + ": 'why' is empty; a bound carries its reason in words");
   return expectation;
