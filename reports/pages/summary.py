@@ -89,6 +89,8 @@ def _verdict(judged: Judged) -> list[Piece]:
     counted = Counter(finding.outcome for finding in judged.findings)
     total = Number(len(judged.findings), "1", "findings")
     said: list[Piece] = [_count(counted["holds"], "findings that hold"), " of ", total, " findings hold"]
+    if generic := sum(one.scope == "generic" and one.outcome == "holds" for one in judged.findings):
+        said += [", ", _count(generic, "generic findings that hold"), " of them generic"]
     others = [[_count(count, f"findings: {outcome}"), " ", "fail" if outcome == "fails" and count > 1 else Quoted(outcome, "outcomes")]
               for outcome, count in counted.items() if outcome != "holds"]
     said += ["; ", *in_words(others)] if others else []
