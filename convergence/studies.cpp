@@ -9,6 +9,7 @@
 #include "convergence/stability/studies.h"
 #include "convergence/sticking/studies.h"
 #include "convergence/strain/studies.h"
+#include "convergence/validation/studies.h"
 #include "convergence/work_precision/studies.h"
 
 namespace foldproof {
@@ -53,7 +54,9 @@ std::vector<Study> all_studies() {
           strain_momentum_study(),
           biphasic_study(),
           folding_study(),
-          sticking_lag_study()};
+          sticking_lag_study(),
+          heavy_cantilever_study(),
+          strip_tests_study()};
 }
 
 }  // namespace foldproof

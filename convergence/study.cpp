@@ -28,7 +28,8 @@ std::pair<std::vector<Record>, StudyRecord> run_study(const Study& study, const 
       study.name, study.claim, study.source, study.about + words_of_headline(study.name),
       0,          {},          {},           {}};
   std::vector<Record> records;
-  const Record blank{study.name, "study", study.name, study.claim, study.source, {}, {}, "", 0, {}};
+  const Record blank{study.name, study.kind, study.name, study.claim, study.source,
+                     {},         {},         "",         0,           {}};
   StudyResult result;
   const Record run = judge(blank, [&] {
     result = study.run(subject, tier, progress);

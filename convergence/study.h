@@ -28,6 +28,9 @@ struct Study {
   std::string name, claim, source;
   std::string about;  // a paragraph for the report
   std::function<StudyResult(const Subject&, Tier, const Progress&)> run;
+  // of its findings: "study", or "validation" for one that compares with something measured, or
+  // with the continuum that the paper means
+  std::string kind = "study";
 };
 
 /// Runs a study: one record for each of its findings; one that failed, with the

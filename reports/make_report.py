@@ -39,7 +39,7 @@ from pages.kill_matrix import load_mutation  # noqa: E402
 from pages.ledger import claim_views  # noqa: E402
 from pages.errors import load_errors  # noqa: E402
 from pages.needs import load_needs  # noqa: E402
-from pages.page import CaseView, Page, StudyView, faults_of, findings_by_section, render, render_comparison, render_site  # noqa: E402
+from pages.page import CaseView, Page, StudyView, faults_of, OF_STUDIES, findings_by_section, render, render_comparison, render_site  # noqa: E402
 from pages.printed import print_page  # noqa: E402
 from pages.summary import REFERENCE, since_last  # noqa: E402
 from pages.summary_page import render_summary  # noqa: E402
@@ -228,7 +228,7 @@ def gather(run: Run, bench: Run | None, cases: list[CaseView], studies: list[Stu
     everything = run.findings + (bench.findings if bench else [])
     for view in studies:
         view.findings = [finding for finding in everything
-                         if finding.kind == "study" and finding.study == view.study.name]
+                         if finding.kind in OF_STUDIES and finding.study == view.study.name]
     checks, others, rates = findings_by_section(run, bench)
     for view in cases:
         view.foreign = origin_differs(view, run)

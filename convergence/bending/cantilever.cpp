@@ -65,7 +65,7 @@ Refined refined_tip(const Subject& subject, const LoadCase& load, const StripPat
                     const std::vector<int>& sizes) {
   Refined refined{load, {}};
   const auto run = [&](int panels) {
-    const RowStrip strip(subject, pattern, panels, load.load);
+    const RowStrip strip(subject, pattern, panels, load.load, {});
     const StripAtRest rest = at_rest(strip, level(strip));
     update_worst(refined.floor,
                  rest.strain + rest.last_step + load.drop.uncertainty + load.reach.uncertainty);
@@ -165,7 +165,7 @@ NamedFinding patterns_agree(const Subject& subject, const LoadCase& load) {
   Worst spread, uncertainty;
   Table tips{{"pattern", ""}, {"drop over L", "1"}, {"reach over L", "1"}};
   for (const StripPattern& pattern : strip_patterns()) {
-    const RowStrip strip(subject, pattern, panels, load.load);
+    const RowStrip strip(subject, pattern, panels, load.load, {});
     const StripAtRest rest = at_rest(strip, level(strip));
     tips.row(pattern.words, rest.drop / strip_length, rest.reach / strip_length);
     for (const char* column : {"drop over L", "reach over L"})

@@ -27,34 +27,75 @@ Scene strip_scene(const StripPattern& pattern, int panels, double spacing, const
   return scene;
 }
 
+Eigen::Vector2d direction(double slope) { return {std::cos(slope), std::sin(slope)}; }
+
 /// Generalised forces: turning a panel [N m] carries all rows behind it, stretching it [N] too.
 /// Slopes first, then strains (forces times the spacing [N m]).
 Eigen::VectorXd generalised_forces(const RowStrip& strip, const Eigen::VectorXd& unknowns) {
   const Eigen::Index n = strip.panels();
-  const Eigen::VectorXd slopes = unknowns.head(n), lengths = strip.spacing() * unknowns.tail(n);
+  const Eigen::VectorXd slopes = unknowns.head(n),
+                        lengths = strip.spacing() * unknowns.segment(n, n);
   const Eigen::Matrix2Xd force = strip.forces(strip.rows(slopes, lengths));
   Eigen::VectorXd generalised(2 * n);
   Eigen::Vector2d behind = Eigen::Vector2d::Zero();
   for (Eigen::Index k = n - 1; k >= 0; --k) {
     behind += force.col(k + 2);
-    const Eigen::Vector2d along(std::cos(slopes[k]), std::sin(slopes[k])),
-        across(-along.y(), along.x());
+    const Eigen::Vector2d along = direction(slopes[k]), across(-along.y(), along.x());
     generalised[k] = lengths[k] * across.dot(behind);
     generalised[n + k] = strip.spacing() * along.dot(behind);
   }
   return generalised;
 }
 
+/// How the last panel's slope [rad] and its middle's place [m] change with slopes and strains:
+/// 3 x 2 n.
+Eigen::Matrix3Xd motion_of_end(const RowStrip& strip, const Eigen::VectorXd& unknowns) {
+  const Eigen::Index n = strip.panels();
+  Eigen::Matrix3Xd motion = Eigen::Matrix3Xd::Zero(3, 2 * n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const double part = k + 1 < n ? 1 : 0.5;  // of the panel, before the last one's middle
+    const Eigen::Vector2d along = part * strip.spacing() * direction(unknowns[k]);
+    motion.col(k).tail(2) = unknowns[n + k] * Eigen::Vector2d(-along.y(), along.x());
+    motion.col(n + k).tail(2) = along;
+  }
+  motion(0, n - 1) = 1;
+  return motion;
+}
+
+/// How far the last panel is from where it is held: slope [rad], place [m].
+Eigen::Vector3d miss_of_end(const RowStrip& strip, const Eigen::VectorXd& unknowns) {
+  const Eigen::Index n = strip.panels();
+  const Eigen::Matrix2Xd rows =
+      strip.rows(unknowns.head(n), strip.spacing() * unknowns.segment(n, n));
+  Eigen::Vector3d miss;
+  miss << unknowns[n - 1] - strip.hold().last->slope,
+      (rows.col(n) + rows.col(n + 1)) / 2 - rows.col(1) / 2 - strip.hold().last->place;
+  return miss;
+}
+
+/// What must vanish at rest: generalised forces, those that hold the last panel included, and that
+/// panel's misses. The unknowns are slopes, strains, and the holding moment and force.
+Eigen::VectorXd imbalance(const RowStrip& strip, const Eigen::VectorXd& unknowns) {
+  if (!strip.hold().last) return generalised_forces(strip, unknowns);
+  const Eigen::Index n = 2 * strip.panels();
+  Eigen::VectorXd all(n + 3);
+  all << generalised_forces(strip, unknowns.head(n)) +
+             motion_of_end(strip, unknowns).transpose() * unknowns.tail(3),
+      miss_of_end(strip, unknowns);
+  return all;
+}
+
 Eigen::MatrixXd jacobian(const RowStrip& strip, const Eigen::VectorXd& unknowns) {
   constexpr double change = 1e-6;  // rad and strain
-  Eigen::MatrixXd matrix(unknowns.size(), unknowns.size());
-  for (Eigen::Index k = 0; k < unknowns.size(); ++k) {
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(unknowns.size(), unknowns.size());
+  const Eigen::Index n = 2 * strip.panels();
+  for (Eigen::Index k = 0; k < n; ++k) {
     Eigen::VectorXd ahead = unknowns, behind = unknowns;
     ahead[k] += change;
     behind[k] -= change;
-    matrix.col(k) =
-        (generalised_forces(strip, ahead) - generalised_forces(strip, behind)) / (2 * change);
+    matrix.col(k) = (imbalance(strip, ahead) - imbalance(strip, behind)) / (2 * change);
   }
+  if (strip.hold().last) matrix.topRightCorner(n, 3) = motion_of_end(strip, unknowns).transpose();
   return matrix;
 }
 
@@ -70,10 +111,11 @@ const std::vector<StripPattern>& strip_patterns() {
 }
 
 RowStrip::RowStrip(const Subject& subject, const StripPattern& pattern, int panels,
-                   const StripLoad& load)
+                   const StripLoad& load, const StripHold& hold)
     : pattern_(pattern),
       panels_(panels),
-      spacing_(strip_length / (panels + 0.5)),
+      hold_(hold),
+      spacing_(strip_length / (hold.last ? panels : panels + 0.5)),
       width_(cells_across * spacing_ / pattern.spacing_over_edge),
       load_(load),
       scene_(strip_scene(pattern, panels, spacing_, load)),
@@ -85,10 +127,9 @@ RowStrip::RowStrip(const Subject& subject, const StripPattern& pattern, int pane
 Eigen::Matrix2Xd RowStrip::rows(const Eigen::VectorXd& slopes,
                                 const Eigen::VectorXd& lengths) const {
   Eigen::Matrix2Xd places = Eigen::Matrix2Xd::Zero(2, panels_ + 2);
-  places(0, 1) = spacing_;
+  places.col(1) = spacing_ * direction(hold_.slope);
   for (int k = 0; k < panels_; ++k)
-    places.col(k + 2) =
-        places.col(k + 1) + lengths[k] * Eigen::Vector2d(std::cos(slopes[k]), std::sin(slopes[k]));
+    places.col(k + 2) = places.col(k + 1) + lengths[k] * direction(slopes[k]);
   return places;
 }
 
@@ -108,7 +149,7 @@ Eigen::Matrix2Xd RowStrip::forces(const Eigen::Matrix2Xd& rows) const {
 
 StripAtRest level(const RowStrip& strip) {
   StripAtRest flat;
-  flat.slopes = Eigen::VectorXd::Zero(strip.panels());
+  flat.slopes = Eigen::VectorXd::Constant(strip.panels(), strip.hold().slope);
   flat.lengths = Eigen::VectorXd::Constant(strip.panels(), strip.spacing());
   return flat;
 }
@@ -117,14 +158,14 @@ StripAtRest at_rest(const RowStrip& strip, StripAtRest start) {
   constexpr int most_steps = 40;
   constexpr double longest = 0.3;  // of one step [rad]: keeps the chain from folding on its way
   const Eigen::Index n = strip.panels();
-  Eigen::VectorXd unknowns(2 * n);
-  unknowns << start.slopes, start.lengths / strip.spacing();
+  Eigen::VectorXd unknowns = Eigen::VectorXd::Zero(2 * n + (strip.hold().last ? 3 : 0));
+  unknowns.head(2 * n) << start.slopes, start.lengths / strip.spacing();
   double before = std::numeric_limits<double>::infinity();
   for (int i = 0; i < most_steps; ++i) {
     const Eigen::VectorXd step =
-        oracles::solve_linear(jacobian(strip, unknowns), -generalised_forces(strip, unknowns));
+        oracles::solve_linear(jacobian(strip, unknowns), -imbalance(strip, unknowns));
     Worst largest;
-    for (const double change : step) largest.observe(std::abs(change));
+    for (const double change : step.head(2 * n)) largest.observe(std::abs(change));
     const double size = largest.value();
     unknowns += (size > longest ? longest / size : 1.0) * step;
     start.last_step = size;
@@ -132,10 +173,10 @@ StripAtRest at_rest(const RowStrip& strip, StripAtRest start) {
     before = size;
   }
   start.slopes = unknowns.head(n);
-  start.lengths = strip.spacing() * unknowns.tail(n);
+  start.lengths = strip.spacing() * unknowns.segment(n, n);
   const Eigen::Matrix2Xd places = strip.rows(start.slopes, start.lengths);
-  start.reach = places(0, n + 1) - strip.spacing() / 2;
-  start.drop = -places(1, n + 1);
+  start.reach = places(0, n + 1) - places(0, 1) / 2;
+  start.drop = places(1, 1) / 2 - places(1, n + 1);
   Worst strain;
   for (Eigen::Index k = 0; k < n; ++k) strain.observe(std::abs(unknowns[n + k] - 1));
   start.strain = strain.value();

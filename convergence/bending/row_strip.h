@@ -3,6 +3,7 @@
 // forces, summed over each row: by virtual work, those of the constrained strip.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,14 +34,28 @@ struct StripLoad {
   double stretch = 0;  // Y of the springs [N/m]; 0: none
 };
 
-/// Rows 0 and 1 are held level: the hinges of row 1 stand for the curvature from half a cell before
-/// to half a cell behind them, so that the strip is clamped half a cell before row 1. There are
-/// `panels` free ones, and L = (panels + 1/2) spacings.
+/// How the strip is held: its first panel (rows 0 and 1) has a slope (upward positive
+/// [rad]); the last one is free, or has a slope too, and its middle is at a place from the
+/// first one's middle [m].
+struct StripHold {
+  struct End {
+    double slope;
+    Eigen::Vector2d place;  // along and up
+  };
+  double slope = 0;
+  std::optional<End> last;
+};
+
+/// The hinges of a held row stand for the curvature from half a cell before to half a cell behind
+/// them, so that the strip is clamped in the middle of its held panels. There are `panels` more
+/// than the first; L is (panels + 1/2) spacings with a free end, else `panels` spacings.
 class RowStrip {
  public:
-  RowStrip(const Subject& subject, const StripPattern& pattern, int panels, const StripLoad& load);
+  RowStrip(const Subject& subject, const StripPattern& pattern, int panels, const StripLoad& load,
+           const StripHold& hold);
 
   int panels() const { return panels_; }
+  const StripHold& hold() const { return hold_; }
   double spacing() const { return spacing_; }  // of the rows at rest [m]
   double width() const { return width_; }      // [m]
 
@@ -54,6 +69,7 @@ class RowStrip {
  private:
   StripPattern pattern_;
   int panels_;
+  StripHold hold_;
   double spacing_, width_;
   StripLoad load_;
   Scene scene_;
@@ -71,11 +87,11 @@ struct StripAtRest {
 };
 
 /// For a strip with springs: Newton's method on slopes and lengths from a start, with a Jacobian by
-/// central differences. It ends when steps no longer shrink; a strip not at rest after 40 has a
-/// last_step that says so.
+/// central differences; force and moment that hold the last panel are unknowns, too. It ends when
+/// steps no longer shrink; a strip not at rest after 40 has a last_step that says so.
 StripAtRest at_rest(const RowStrip& strip, StripAtRest start);
 
-/// The flat strip, as a start.
+/// The flat strip, as a start; at the slope of its first panel.
 StripAtRest level(const RowStrip& strip);
 
 }  // namespace foldproof

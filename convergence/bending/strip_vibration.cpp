@@ -201,7 +201,7 @@ std::array<Table, 2> refined_modes(const Subject& subject, const std::vector<int
   const Table empty{{"spacing of the rows", "m"}, {"omega", "rad/s"}, {"relative error", "1"}};
   std::array<Table, 2> modes = {empty, empty};
   for (const int panels : sizes) {
-    const RowStrip strip(subject, strip_patterns()[0], panels, {});
+    const RowStrip strip(subject, strip_patterns()[0], panels, {}, {});
     const Eigen::Vector2d omega = frequencies(strip);
     for (const int mode : {0, 1})
       modes[size_t(mode)].row(strip.spacing(), omega[mode],

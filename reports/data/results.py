@@ -28,7 +28,7 @@ class Finding:
     """One answered question. It held iff measured + uncertainty <= bound; `outcome` says so, as written by
     the program."""
     name: str
-    kind: str          # "check" | "study" | "bench"
+    kind: str          # "check" | "study" | "validation" | "bench"
     study: str
     claim: str
     source: str

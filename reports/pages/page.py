@@ -48,6 +48,10 @@ MOST_WORDS = 450                    # of the page of verdict: two minutes
 BAR_END = 1.25                      # measured / bound at the end of the margin bar
 
 
+VALIDATION = "validation"            # the kind of findings that compare with something measured, or the continuum
+OF_STUDIES = ("study", VALIDATION)   # kinds of findings that studies have
+
+
 @dataclass
 class CaseView:
     """A case with its pictures and plots; `problem` says why there are none."""
@@ -96,6 +100,10 @@ class Page:
     unended: str = ""               # why this is not what was run last
     mutation: Mutation | None = None   # what scripts/mutate found, where that lies beside the run
 
+    def validations(self) -> list[StudyView]:
+        """The studies whose findings compare with something measured, or with the continuum."""
+        return [view for view in self.studies if any(finding.kind == VALIDATION for finding in view.findings)]
+
     def first_studies(self) -> list[StudyView]:
         """The studies that help to choose an integrator, in the order of FIRST_STUDIES."""
         wanted = [view for view in self.studies if view.study.name in FIRST_STUDIES]
@@ -107,7 +115,8 @@ class Page:
 
     def other_studies(self) -> list[StudyView]:
         """All other studies, as the run lists them."""
-        return [view for view in self.studies if view.study.name not in FIRST_STUDIES + HARD_STUDIES]
+        elsewhere = [view.study.name for view in self.validations()]
+        return [view for view in self.studies if view.study.name not in [*FIRST_STUDIES, *HARD_STUDIES, *elsewhere]]
 
     def errors_alone(self) -> bool:
         """Is this what `foldproof converge` found, and nothing else?"""

@@ -56,8 +56,9 @@ def plot_study_figure(figure: StudyFigure, name: str, folder: Path) -> Plot:
 
 
 def is_geometry(figure: StudyFigure) -> bool:
-    """Whether a figure shows shapes: lengths over lengths, each on a linear axis."""
-    return figure.x_unit == figure.y_unit == "m" and figure.x_scale == figure.y_scale == "linear"
+    """Whether a figure shows shapes: lengths over lengths (of m, or of a strip's own L), each on a linear axis."""
+    return (figure.x_unit == figure.y_unit and figure.x_unit in ("m", "L")
+            and figure.x_scale == figure.y_scale == "linear")
 
 
 def points_left_out(figure: StudyFigure) -> int:
@@ -150,9 +151,10 @@ def _coincide(one: Curve, other: Curve) -> bool:
 
 
 def _draw_curve(axes: Axes, figure: StudyFigure, curve: Curve, pen: Pen, layer: int) -> None:
-    """Line and markers. Where some runs of a figure are marked, hollow means that a solve did not finish."""
+    """Line and markers. Where some runs of a figure are marked, hollow means that a solve did not finish. The line
+    goes from left to right; that of a shape goes from point to point, so that loops can close."""
     good = np.flatnonzero(_is_drawable(curve, figure))
-    order = good[np.argsort(curve.x[good], kind="stable")]
+    order = good if is_geometry(figure) else good[np.argsort(curve.x[good], kind="stable")]
     x, y = curve.x[order], clip_levels(curve, curve.y[order])
     axes.plot(x, y, color=pen.colour, linewidth=pen.width, zorder=3 + 0.01 * layer)
     if not pen.marker:

@@ -11,6 +11,7 @@ import unittest
 from html.parser import HTMLParser
 from pathlib import Path
 
+import h5py
 import numpy as np
 
 from data.results import Column, Study, Table
@@ -91,6 +92,18 @@ class Order(MadeUpPage):
         for part in ("200 roundings", 'href="#fault-flipped-sign"', 'href="#case-fold"', "cases/fold.toml",
                      f"build/foldproof check '{NAMES[6]}'", "Evidence"):
             self.assertIn(part, row)
+
+    def test_a_validation_has_a_section_of_its_own(self) -> None:
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            put_run(folder)
+            with h5py.File(folder / "run.h5", "r+") as file:
+                file[f"findings/{NAMES[3]}"].attrs["kind"] = "validation"
+            text = make_report(folder, folder / "report.html", folder / "figures").read_text(encoding="utf-8")
+        section = text[text.index('<section id="validation">'):]
+        self.assertIn(f"Claim of {NAMES[3]}.", section[:section.index('<section id="faults"')])
+        self.assertIn('id="not-validated"', section)
+        self.assertNotIn('<section id="validation">', self.text)
 
     def test_a_hard_case_stands_with_the_hard_ones(self) -> None:
         self.assertLess(self.text.index('<section id="hard"'), self.text.index(f'id="{NAMES[7]}"'))

@@ -12,6 +12,7 @@
 #include "verification/oracles/driven_hinge.h"
 #include "verification/oracles/exact_solutions.h"
 #include "verification/oracles/gsl.h"
+#include "verification/oracles/elastica.h"
 #include "verification/oracles/heavy_cantilever.h"
 
 using namespace foldproof;
@@ -177,6 +178,28 @@ TEST_CASE("the heavy cantilever's tip is the table's, and that of shooting from 
   const Estimate gamma =
       bracketed_root([&](double g) { return slope(g) - test_angle; }, 7, 9, 1e-9);
   CHECK(std::abs(gamma.value - 8.004197) < 5.1e-7);
+}
+
+TEST_CASE("loops without weight are as high as Peirce printed") {
+  const std::array<double, 1> middle{.5};
+  const auto height = [&](double first_slope, double turn) {
+    const StripShape shape =
+        strip_by_collocation({0, first_slope, {{first_slope + turn, 0, 0}}, 0}, middle);
+    return -shape.points[0].up;
+  };
+  CHECK(std::abs(height(0, -2 * pi) - 1 / pi) < 1e-11);       // ring: a circle
+  CHECK(std::abs(height(-pi / 2, -pi) - .4243) < 5e-5);       // pear loop
+  CHECK(std::abs(height(pi / 2, -3 * pi) - .1337) < 2.5e-4);  // heart loop; ours is .13386
+}
+
+TEST_CASE("the strip of the elastica refuses weights and ends that it does not know") {
+  const std::array<double, 1> middle{.5};
+  CHECK_THROWS_AS(strip_by_collocation({-1, 0, {}, 0}, middle), InputError);
+  CHECK_THROWS_AS(strip_by_collocation({2e5, 0, {}, 0}, middle), InputError);
+  CHECK_THROWS_AS(strip_by_collocation({std::nan(""), 0, {}, 0}, middle), InputError);
+  CHECK_THROWS_AS(strip_by_shooting({1, 0, {}, 0}, middle), InputError);
+  // ends farther apart than the strip is long
+  CHECK_THROWS_AS(strip_by_collocation({0, 0, {{0, 1.2, 0}}, 0}, middle), std::runtime_error);
 }
 
 namespace {

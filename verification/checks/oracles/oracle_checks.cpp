@@ -82,6 +82,10 @@ constexpr Comparison comparisons[] = {
      "The oracle's loaded strip by elliptic integrals is that by GSL's shooting and that by power "
      "series.",
      loaded_tips_agree},
+    {"oracle.bent-strips-agree",
+     "The oracle's strips by collocation are those by GSL's shooting from the clamp, and from the "
+     "tip where one end is free.",
+     bent_strips_agree},
     {"oracle.rigidities-agree",
      "The oracle's rigidities of a periodic cell are those of a patch of hinges, and of the same "
      "mesh turned by 45 degrees.",

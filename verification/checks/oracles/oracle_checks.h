@@ -32,6 +32,7 @@ Table limited_springs_agree();
 // oracle_static_checks.cpp
 Table heavy_cantilevers_agree();
 Table loaded_tips_agree();
+Table bent_strips_agree();
 Table rigidities_agree();
 Table depth_maps_agree();
 Table dense_algebra_agrees();

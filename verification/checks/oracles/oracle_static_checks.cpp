@@ -6,6 +6,7 @@
 #include "verification/evidence.h"
 #include "verification/oracles/dense_algebra.h"
 #include "verification/oracles/depth_maps.h"
+#include "verification/oracles/elastica.h"
 #include "verification/oracles/gsl.h"
 #include "verification/oracles/heavy_cantilever.h"
 #include "verification/oracles/homogenised_bending.h"
@@ -182,6 +183,40 @@ Table loaded_tips_agree() {
                   {{elliptic.drop, shooting.drop}, {elliptic.reach, shooting.reach}});
     compare_worst(answers, name + ", elliptic integrals and series",
                   {{elliptic.drop, series.drop}, {elliptic.reach, series.reach}});
+  }
+  return answers;
+}
+
+Table bent_strips_agree() {
+  using oracles::HeavyStrip;
+  Table answers = no_answers();
+  const std::array<double, 3> s{.13, .5, .81};
+  const std::array<std::pair<const char*, HeavyStrip>, 6> strips{
+      {{"heart loop", {37, pi / 2, {{-5 * pi / 2, 0, 0}}, 0}},
+       {"pear loop", {110, -pi / 2, {{-3 * pi / 2, 0, 0}}, 0}},
+       {"hanging ring", {53, 0, {{-2 * pi, 0, 0}}, 0}},
+       {"standing ring", {71, 0, {{2 * pi, 0, 0}}, 0}},
+       {"standing wrinkle", {29, 0, {{0, .7, 0}}, 1}},
+       {"slanting wrinkle", {17, .2, {{-.3, .85, .11}}, .9}}}};
+  for (const auto& [name, strip] : strips) {
+    const oracles::StripShape one = oracles::strip_by_collocation(strip, s),
+                              other = oracles::strip_by_shooting(strip, s);
+    std::vector<std::pair<Estimate, Estimate>> pairs;
+    for (std::size_t i = 0; i < s.size(); ++i)
+      for (const auto part :
+           {&oracles::StripPoint::slope, &oracles::StripPoint::across, &oracles::StripPoint::up})
+        pairs.push_back(
+            {{one.points[i].*part, one.uncertainty}, {other.points[i].*part, other.uncertainty}});
+    compare_worst(answers, std::string(name) + ", collocation and shooting", pairs);
+  }
+  for (const double gamma : {.1, 13., 700., 1e4}) {
+    const oracles::StripShape shape =
+        oracles::strip_by_collocation({gamma, 0, {}, 0}, std::array<double, 1>{1});
+    const oracles::CantileverTip tip = oracles::heavy_cantilever(gamma);
+    compare_worst(answers,
+                  "free end, collocation and shooting from the tip, gamma " + std::to_string(gamma),
+                  {{{-shape.points[0].up, shape.uncertainty}, tip.drop},
+                   {{shape.points[0].across, shape.uncertainty}, tip.reach}});
   }
   return answers;
 }

@@ -1,0 +1,39 @@
+// One test of a strip on finer and finer meshes, beside the elastica.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "convergence/order.h"
+#include "verification/oracles/elastica.h"
+#include "verification/subject.h"
+
+namespace foldproof {
+
+/// A strip that is held and hangs as the oracle's does. Its measured length is how high the point
+/// at `measured_at` (arc length over L) is above or below the first end, over L.
+struct StripTest {
+  std::string name, words;
+  std::string kind;  // tests of a kind share a figure
+  oracles::HeavyStrip strip;
+  double measured_at;  // 1: the last end
+};
+
+/// A test on meshes of so many panels.
+struct StripLadder {
+  Table levels;  // spacing of the rows over L, height, reach, largest distance from the elastica
+  oracles::StripShape elastica;             // 201 points at equal arc lengths
+  std::vector<oracles::StripPoint> points;  // rows of the finest mesh, from the first end over L
+  oracles::Estimate height, reach;          // of the elastica's measured point
+  double floor = 0;  // of all of them: stretch, unfinished solves, the oracle's uncertainty [1]
+};
+
+constexpr const char *height_column = "height over L", *reach_column = "reach over L",
+                     *distance_column = "largest distance from the elastica over L";
+
+/// panels: ascending. The strip has the rigidity of its mesh, held cylindrical. Newton's method
+/// starts from the elastica's slopes, which choose the branch.
+StripLadder strip_ladder(const Subject& subject, const StripTest& test,
+                         const std::vector<int>& panels);
+
+}  // namespace foldproof

@@ -1,0 +1,131 @@
+// strip-tests: the shapes into which a textile laboratory bends a strip, against the elastica.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "convergence/validation/comparison.h"
+#include "convergence/validation/strip_ladder.h"
+#include "convergence/validation/studies.h"
+
+namespace foldproof {
+
+namespace {
+
+constexpr double resolution = 0.01;  // of the measured length [1]
+
+/// gamma of each bends the weightless shape by a tenth and more.
+std::vector<StripTest> strip_tests() {
+  const double down = -pi / 2, up = pi / 2;
+  return {
+      {"heart-loop", "heart loop", "loops", {60, up, {{up - 3 * pi, 0, 0}}}, 0.5},
+      {"pear-loop", "pear loop", "loops", {200, down, {{down - pi, 0, 0}}}, 0.5},
+      {"hanging-ring", "hanging ring", "rings", {120, 0, {{-2 * pi, 0, 0}}}, 0.5},
+      {"standing-ring", "standing ring", "rings", {90, 0, {{2 * pi, 0, 0}}}, 0.5},
+      {"hanging-wrinkle", "hanging wrinkle", "wrinkles", {150, 0, {{0, 0.8, 0}}, -1}, 0.5},
+      {"standing-wrinkle", "standing wrinkle", "wrinkles", {80, 0, {{0, 0.8, 0}}, 1}, 0.5},
+  };
+}
+
+Ladder height_ladder(const StripLadder& levels) {
+  Ladder ladder;
+  ladder.values = levels.levels.numbers(height_column);
+  ladder.floor = levels.floor;
+  return ladder;
+}
+
+NamedFinding height_agrees(const StripTest& test, const StripLadder& levels) {
+  const double scale = std::abs(levels.height.value) * resolution;
+  Table table = no_comparisons("1");
+  add_comparison(
+      table, compare_ladder("height of the middle over L", height_ladder(levels), levels.height),
+      scale);
+  return {fmt::format("strip-tests.height-agrees.{}", test.name),
+          fmt::format("The height of a {} is the elastica's within one percent.", test.words),
+          judge_comparisons(table, scale, "a laboratory reads the height to one percent of it",
+                            "S at the finest mesh")};
+}
+
+NamedFinding shape_agrees(const StripTest& test, const StripLadder& levels) {
+  const Verdict verdict{levels.levels.numbers(distance_column).back(), resolution, levels.floor,
+                        "1", "a hundredth of the strip's length, for every point"};
+  return {fmt::format("strip-tests.shape-agrees.{}", test.name),
+          fmt::format("At the finest mesh no row of a {} is farther than one percent of the "
+                      "strip's length from the elastica.",
+                      test.words),
+          {verdict, levels.levels, ""}};
+}
+
+NamedFinding order_of(const StripTest& test, const StripLadder& levels) {
+  Convergence errors = convergence_of(levels.levels, distance_column);
+  errors.floor = levels.floor;
+  const oracles::Estimate deviation = order_deviation(errors, 2, 1);
+  Table evidence = levels.levels;
+  evidence.add({"order", "1", row_orders(errors)});
+  const Verdict verdict{deviation.value, same_order, deviation.uncertainty, "1",
+                        "orders closer than this are taken for the same; a clamp on the hinge line "
+                        "would be off by 1"};
+  return {fmt::format("strip-tests.is-second-order.{}", test.name),
+          fmt::format("The shape of a {} tends to the elastica's with second order.", test.words),
+          {verdict, std::move(evidence), ""}};
+}
+
+void show(const StripTest& test, const StripLadder& levels, Figure& figure) {
+  Curve elastica{test.words + ", elastica", {}, {}, nan, {}};
+  for (const oracles::StripPoint& point : levels.elastica.points)
+    elastica.point(point.across, point.up);
+  Curve simulated{test.words + ", simulated", {}, {}, nan, {}};
+  for (std::size_t i = 0; i + 1 < levels.points.size(); i += 4)
+    simulated.point(levels.points[i].across, levels.points[i].up);
+  figure.curves.push_back(elastica);
+  figure.curves.push_back(simulated);
+}
+
+Figure shapes_of(const std::string& kind) {
+  return {
+      kind,
+      "Strips as a laboratory bends them: " + kind,
+      {"across from the first clamp", "L", Scale::linear},
+      {"height over the first clamp", "L", Scale::linear},
+      nan,
+      "Every fourth row of the finest mesh beside the elastica, to scale; L is the strip's length.",
+      {}};
+}
+
+StudyResult run_strip_tests(const Subject& subject, Tier tier, const Progress& progress) {
+  const std::vector<int> panels =
+      tier == Tier::full ? std::vector{16, 32, 64, 128} : std::vector{16, 32, 64};
+  StudyResult result;
+  const std::vector<StripTest> tests = strip_tests();
+  for (std::size_t i = 0; i < tests.size(); ++i) {
+    const StripLadder levels = strip_ladder(subject, tests[i], panels);
+    result.findings.push_back(height_agrees(tests[i], levels));
+    result.findings.push_back(shape_agrees(tests[i], levels));
+    result.findings.push_back(order_of(tests[i], levels));
+    if (result.figures.empty() || result.figures.back().name != tests[i].kind)
+      result.figures.push_back(shapes_of(tests[i].kind));
+    show(tests[i], levels, result.figures.back());
+    progress(double(i + 1) / double(tests.size()));
+  }
+  return result;
+}
+
+}  // namespace
+
+Study strip_tests_study() {
+  return {
+      "strip-tests",
+      "Strips that are bent as in a textile laboratory take the shape of the elastica with the "
+      "mesh's own rigidity, to second order.",
+      "Peirce 1930; Plaut 2015",
+      "Each strip is clamped at both ends, half a cell inside its held rows; a ring is a strip "
+      "whose ends are clamped level at one place. Rows across move as one, so that the rigidity is "
+      "the homogenised cell's. The measured length is the height of the strip's middle over its "
+      "clamp. S is what is simulated on the finest of three meshes (four in the full tier) of 16, "
+      "32, 64 panels, with the error bar of the ladder; D is the elastica by collocation, which a "
+      "check holds against shooting. Standing ring and wrinkle stand on their clamps: they weigh "
+      "less than what would press them flat on a floor.",
+      run_strip_tests,
+      "validation"};
+}
+
+}  // namespace foldproof

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace foldproof::oracles {
+
+/// A clamped end: its slope, and its place from the first end.
+struct StripEnd {
+  double slope;       // of the direction along the strip, upward positive; whole turns count [rad]
+  double across, up;  // over L [1]
+};
+
+/// An inextensible strip of length L, bent in a vertical plane by its weight and its ends (the
+/// heavy elastica). With s the arc length over L and theta the slope above the horizontal,
+///   theta'' = F_x sin(theta) - (F_y - gamma (1 - s)) cos(theta),   theta(0) = first_slope,
+/// where (F_x, F_y) B/L^2 is what holds the last end. That end is clamped, or free: then F = 0
+/// and theta'(1) = 0.
+struct HeavyStrip {
+  double gamma;                  // rho_A g L^3/B >= 0 [1]
+  double first_slope;            // rad
+  std::optional<StripEnd> last;  // none: free
+  // Of several equilibria the one is wanted that grows, as gamma does from 0, out of the one
+  // nearest to slopes that change evenly from end to end, plus bulge sin(2 pi s) [rad].
+  double bulge = 0;
+};
+
+struct StripPoint {
+  double slope;       // rad
+  double across, up;  // from the first end over L [1]
+};
+
+/// Points of a strip at the arc lengths asked for.
+struct StripShape {
+  std::vector<StripPoint> points;
+  double uncertainty;  // of any of their numbers
+};
+
+/// By collocation: theta is a polynomial through Chebyshev's nodes, and Newton's method solves
+/// the equation at the nodes. 48 nodes and half as many again, until two answers agree to
+/// 1e-11 or there are more than 300; the uncertainty is their difference and the rounding.
+/// arc_lengths: over L, in [0, 1]. InputError for gamma not in [0, 1e5]; std::runtime_error if
+/// there is no equilibrium.
+StripShape strip_by_collocation(const HeavyStrip& strip, std::span<const double> arc_lengths);
+
+/// A strip clamped at both ends, by shooting from the first with GSL's ODE solver: curvature and
+/// force there are found by Newton's method. They start from what collocation found, which chooses
+/// the branch and no more. arc_lengths ascend. InputError for a free end.
+StripShape strip_by_shooting(const HeavyStrip& strip, std::span<const double> arc_lengths);
+
+}  // namespace foldproof::oracles
