@@ -42,6 +42,8 @@ const std::vector<Headline>& headlines() {
         "irregular.excess-persists-under-refinement"}},
       {"cantilever", {"is-second-order", "matches-the-elastica"}},
       {"strip-vibration", {"is-second-order", "matches-the-beam"}},
+      {"heavy-cantilever", {"tip-agrees", "shape-agrees"}},
+      {"strip-tests", {"height-agrees", "shape-agrees", "is-second-order"}},
       {"shape-recovery", {"shell-returns-to-its-shape", "flat-rest-angles-do-not-restore-it"}},
       {"hard-limits",
        {"is-two-over-omega", "damped-limit-is-as-derived", "energy-is-bounded-across-a-step-jump"}},
