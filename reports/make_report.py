@@ -201,7 +201,7 @@ def read_folder(folder: Path) -> tuple[Run, Run | None]:
 
 
 def load_if_readable(path: Path) -> Case | None:
-    """One simulation; None for a damaged file, of which the page will say so."""
+    """One simulation; None for a damaged file; the page says so."""
     try:
         return load_case(path)
     except Unreadable:

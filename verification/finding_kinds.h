@@ -1,5 +1,5 @@
-// What a finding shows and how well its number is known, as files and pages label it. Labels are
-// derived from the finding; outcomes do not depend on them.
+// Labels of findings in files and on pages: the kind of result, and how well its number is known.
+// Labels are derived from the finding; outcomes do not depend on them.
 #pragma once
 
 #include <string_view>

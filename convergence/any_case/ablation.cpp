@@ -113,7 +113,7 @@ std::string_view name_of(Need need) {
     case Need::no_effect:
       break;
   }
-  return "not missed here";
+  return "no effect if added";
 }
 
 ObservedRun observe_run(const Case& input_case, const LevelSetProvider& level_sets, int particles) {

@@ -30,7 +30,7 @@ struct ScenePart {
 /// limits with them, and a part its damping.
 std::vector<ScenePart> parts_of(const Scene& scene);
 
-// Only what a scene needs: what each part of a scene changes, held against the scene's own error,
+// Only what a scene needs: what each part of a scene changes, compared with the scene's own error,
 // and what it costs.
 
 /// The results by which runs of the same cloth are compared, over the frames that were reached.
@@ -63,7 +63,7 @@ double position_difference(const ObservedRun& a, const ObservedRun& b, const Per
 
 enum class Need { needed, not_needed, missing, no_effect };
 
-// "needed", "not needed here", "missing here", "not missed here"
+// "needed", "not needed here", "missing here", "no effect if added"
 std::string_view name_of(Need need);
 
 /// A part of a case, run without it if it is there, else with it.
@@ -77,7 +77,8 @@ struct JudgedPart {
   std::string declared;        // why the case has it, or leaves it out, all the same; or ""
   ObservedRun run;
 
-  /// It is there and needed, or absent and not missed; or else declared, and only else.
+  /// It is there and needed, or absent without effect; otherwise a reason is declared. A reason
+  /// that is not needed is not justified.
   bool is_justified() const;
 };
 

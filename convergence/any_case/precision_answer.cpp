@@ -24,7 +24,7 @@ std::string why_not_reached(const MethodCurve& curve) {
   for (size_t k = curve.stopped.size(); k-- > 0;)
     if (const double error = curve.curve.runs[k].error; !std::isnan(error))
       return fmt::format(
-          "with {} steps a frame it errs by {:.2g} %; for less, its work would exceed the budget, "
+          "with {} steps a frame its error is {:.2g} %; less would need more work than the budget, "
           "or {:.0f} times the cheapest method's",
           curve.parts[k], 100 * error, dearest);
   if (curve.stopped.empty()) return "its work exceeds the budget at every step";

@@ -110,8 +110,8 @@ NamedFinding refining_does_not_cure(const std::string& name, const std::string& 
   }
   const Verdict verdict{
       drift / difference.value(), 0.01, 0, "1",
-      "a difference of 100 times what halving the cells still changes will not vanish by "
-      "refinement; a property of the material alone would leave nothing but that change"};
+      "a difference 100 times the change from halving the cells will not vanish by refinement; a "
+      "property of the material alone would leave only that change"};
   return {name,
           claim,
           {verdict,
@@ -156,11 +156,11 @@ NamedFinding free_strip(const Subject& subject, const RegularPattern& pattern) {
   const Verdict verdict{std::abs(measured / exact - 1),
                         std::pow(2 * cells * width * 3 * curvature, 2), 0, "1",
                         "the surfaces' slopes, at most 3 times curvature times the sheets' side, "
-                        "change angles by their square"};
+                        "change angles by the square of the slope"};
   return {
       "bending-rigidity.free-strip-is-softer." + pattern.name,
       "A narrow strip of " + pattern.words +
-          " with free edges yields more than a forced cylinder: it curves across and twists.",
+          " with free edges is softer than a forced cylinder: it curves across and twists.",
       {verdict,
        Table{{"B/ke of the strip", "1"}, {"oracle", "1"}, {"D/ke of the cylinder", "1"}}.with_row(
            measured, exact,
@@ -193,14 +193,14 @@ Table rigidity_table(const std::vector<Table>& all) {
 }
 
 Figure direction_figure(const std::vector<Table>& all) {
-  Figure figure{
-      "direction",
-      "Flexural rigidity by the direction of the curvature",
-      {"direction of the curvature, from x", "degree", Scale::linear},
-      {"D/ke", "1", Scale::log},
-      nan,
-      "Vertices free to settle within a cell. A property of the material would be one level line.",
-      {}};
+  Figure figure{"direction",
+                "Flexural rigidity by the direction of the curvature",
+                {"direction of the curvature, from x", "degree", Scale::linear},
+                {"D/ke", "1", Scale::log},
+                nan,
+                "Vertices within a cell are free to settle. A property of the material would be "
+                "one horizontal line.",
+                {}};
   for (size_t p = 0; p < all.size(); ++p)
     figure.curves.push_back(curve_of(regular_patterns()[p].words, all[p],
                                      "direction of the curvature", "D/ke, relaxed"));
@@ -256,11 +256,11 @@ Study bending_rigidity_study() {
   return {"bending-rigidity",
           "ke does not depend on the size of the triangles, but the sheet's flexural rigidity "
           "depends on their pattern and on the direction, and refinement does not remove that.",
-          "BMF03 section 4: |E|^2/(|N1| + |N2|) makes the look independent of remeshing",
+          "BMF03 section 4: |E|^2/(|N1| + |N2|) makes the cloth's look independent of remeshing",
           "Flat sheets of many meshes are laid on cylinders, and the bending energy per area gives "
           "the flexural rigidity D. The oracle knows only how a hinge is defined: it adds up the "
-          "hinges of one cell. Regular patterns keep their rigidity at every size; what it is "
-          "depends on the pattern and the direction, from 0.13 to 2.8 ke.",
+          "hinges of one cell. Regular patterns keep their rigidity at every size; it depends on "
+          "the pattern and the direction, from 0.13 to 2.8 ke.",
           run_bending_rigidity};
 }
 

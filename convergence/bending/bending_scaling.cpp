@@ -72,8 +72,8 @@ NamedFinding finding_of(const Factor& factor, Table measured, const Convergence&
   measured.add({"order of the pair", "1", row_orders(errors)});
   const Verdict verdict{
       deviation.value, 0.05, 0, "1",
-      "the border has no hinges, which takes a share of about one cell in the sheet's width: at "
-      "the finest meshes that share, and with it the order's error, is below a twentieth"};
+      "the border has no hinges, so about one cell of the sheet's width is missing: on the finest "
+      "meshes that share, and the order's error with it, is below a twentieth"};
   Finding finding{verdict, std::move(measured), "measured is |order - expected| of the last pair"};
   const std::string claim = factor.expected == 1
                                 ? "With the factor |E| as printed, the dissipation at a given rate "

@@ -150,8 +150,8 @@ NamedFinding load_finding(const Table& found) {
           "A strip of equilateral triangles between clamps buckles at Euler's load 4 pi^2 D/L^2, "
           "its rigidity D between 2/9 ke (free edges) and 1/4 ke (bent to a cylinder).",
           {{outside.value(), discrete, 0, "ke",
-            "outside of the two rigidities by no more than n rows miss of a cosine's curvature, (2 "
-            "pi/(n - 1))^2/12 of it, on the finest mesh"},
+            "outside the two rigidities by at most the share of a cosine's curvature that n rows "
+            "miss, (2 pi/(n - 1))^2/12, on the finest mesh"},
            found,
            "measured is the distance from the range, 0 within it"}};
 }
@@ -185,8 +185,8 @@ Growth growth_beyond(const Subject& subject, const Strip& strip) {
 
 NamedFinding growth_finding(const Growth& growth) {
   return {"buckling.grows-at-the-linearised-rate",
-          "Beyond the critical load a disturbance grows as exp(sigma t), -sigma^2 the negative "
-          "eigenvalue of the linearised forces.",
+          "Beyond the critical load a disturbance grows as exp(sigma t), where -sigma^2 is the "
+          "negative eigenvalue of the linearised forces.",
           {{std::abs(growth.measured / growth.expected - 1), 0.01, 0, "1",
             "a wrong mass, load or rigidity shifts the rate by more; the schemes add (sigma "
             "h)^2/24, a millionth"},
@@ -233,13 +233,13 @@ StudyResult run_buckling(const Subject& subject, Tier tier, const Progress& prog
 
 Study buckling_study() {
   return {"buckling",
-          "A compressed strip leaves its plane at Euler's load with the mesh's own rigidity, and "
-          "grows beyond it at the rate of the linearised forces.",
+          "A compressed strip buckles out of its plane at Euler's load with the mesh's own "
+          "rigidity; beyond that load the buckle grows at the rate of the linearised forces.",
           "our test of BMF03 section 4",
-          "A strip of equilateral triangles between two clamps is shortened; motion in its plane "
-          "is left to die out, none leaves it. Central differences of the forces across the plane "
-          "give the stiffness against buckling, and the strain at which it vanishes; the clamp's "
-          "force there is the critical load.",
+          "A strip of equilateral triangles is shortened between two clamps; motion in its plane "
+          "dies out, and none leaves it. Central differences of the forces normal to the plane "
+          "give the stiffness against buckling. The critical load is the clamp's force at the "
+          "strain where this stiffness vanishes.",
           run_buckling};
 }
 

@@ -97,8 +97,8 @@ NamedFinding order_of(const Refined& refined) {
   Table evidence = refined.tips;
   evidence.add({"order of the distance", "1", row_orders(tip)});
   const Verdict verdict{deviation.value, 0.1, deviation.uncertainty, "1",
-                        "a whole order would be off by 1; the third term of the error is smaller "
-                        "than the second by the panels' number"};
+                        "another order is off by 1; the third term of the error is smaller than "
+                        "the second by the number of panels"};
   return {"cantilever.is-second-order." + refined.load.name,
           "The tip of a strip held cylindrical, " + refined.load.words +
               ", tends to the elastica's with second order.",
@@ -123,9 +123,8 @@ NamedFinding within_one_percent(const std::vector<Refined>& all) {
     worst.observe(last(reach_error) / load.reach.value);
     uncertainty.observe(refined.floor / load.drop.value);
   }
-  const Verdict verdict{
-      worst.value(), 0.01, uncertainty.value(), "1",
-      "what a fabric laboratory's bending test resolves: a hundredth of the length"};
+  const Verdict verdict{worst.value(), 0.01, uncertainty.value(), "1",
+                        "a fabric laboratory's bending test resolves a hundredth of the length"};
   return {"cantilever.matches-the-elastica",
           "At the finest mesh, drop and reach of every clamped strip are the elastica's within one "
           "percent, with the rigidity that the homogenised mesh has.",
@@ -152,8 +151,8 @@ NamedFinding clamp_is_half_a_cell_before(const Refined& refined) {
   naive.add({"order", "1", row_orders(errors)});
   const Estimate deviation = order_deviation(errors, 1, 1);
   const Verdict verdict{deviation.value, 0.1, deviation.uncertainty, "1",
-                        "a whole order would be off by 1; the second term is smaller than the "
-                        "first by the panels' number"};
+                        "another order is off by 1; the second term is smaller than the first by "
+                        "the number of panels"};
   return {"cantilever.clamp-on-the-hinges-is-first-order",
           "With the length counted from the first line of hinges instead of half a cell before it, "
           "the same strip is first order only.",
@@ -174,7 +173,7 @@ NamedFinding patterns_agree(const Subject& subject, const LoadCase& load) {
   }
   const Verdict verdict{spread.value(), 10 * stretch_share, uncertainty.value(), "1",
                         "the patterns stretch differently, by a few times the strain that the "
-                        "springs were made for; hinges across the strip are the same"};
+                        "springs were chosen for; hinges across the strip are the same"};
   return {"cantilever.patterns-agree",
           "Held cylindrical, with rows of edges across it, a strip of any pattern hangs alike.",
           {verdict, tips, load.words}};

@@ -159,8 +159,8 @@ NamedFinding excess_stays(const Row& row) {
   means.add({"D/ke, forced, mean", "1", row.samples.numbers("forced")});
   means.add(row.samples.column("standard error"));
   const Verdict verdict{excess > 0 ? change / excess : nan, 0.5, uncertainty / excess, "1",
-                        "an excess that vanished in proportion to the width would change by its "
-                        "own size when the cells are halved; half of that tells the two apart"};
+                        "an excess proportional to the width would change by its own size when the "
+                        "cells are halved; half of that separates the two"};
   return {"bending-rigidity.irregular.excess-persists-under-refinement." + row.disorder.name,
           "The excess of D over that of equilateral triangles stays when the cells are halved: " +
               row.disorder.words + ".",

@@ -73,8 +73,9 @@ Eigen::Vector3d miss_of_end(const RowStrip& strip, const Eigen::VectorXd& unknow
   return miss;
 }
 
-/// What must vanish at rest: generalised forces, those that hold the last panel included, and that
-/// panel's misses. The unknowns are slopes, strains, and the holding moment and force.
+/// The residual, which vanishes at rest: generalised forces, those that hold the last panel
+/// included, and that panel's misses. The unknowns are slopes, strains, and the holding
+/// moment and force.
 Eigen::VectorXd imbalance(const RowStrip& strip, const Eigen::VectorXd& unknowns) {
   if (!strip.hold().last) return generalised_forces(strip, unknowns);
   const Eigen::Index n = 2 * strip.panels();

@@ -119,8 +119,8 @@ NamedFinding comes_back(const std::vector<Shell>& shells, const std::vector<Retu
   }
   const Verdict verdict{
       worst.value(), 1e-3, 0, "of the start",
-      "another place of rest, a dent or a wrong angle, is a tenth of the disturbance away or more; "
-      "motion that has not died yet would show in the last tenth of the time"};
+      "another rest shape, a dent or a wrong angle, is at least a tenth of the disturbance away; "
+      "motion that has not died out would show in the last tenth of the time"};
   return {"shape-recovery.shell-returns-to-its-shape",
           "With its own angles as rest angles, a shell pulled out of shape by about a tenth of its "
           "size returns to it, on coarse and fine meshes.",
@@ -133,8 +133,7 @@ NamedFinding angles_matter(const Shell& shell, const Return& own, const Return& 
                         "rest angles, and the ratio would be 1"};
   return {
       "shape-recovery.flat-rest-angles-do-not-restore-it",
-      "The same shell with flat rest angles does not return: its rest angles keep the shape, not "
-      "its springs alone.",
+      "The same shell with flat rest angles does not return: springs alone do not keep the shape.",
       {verdict,
        Table{
            {"shell", ""}, {"distance with its own angles", "m"}, {"distance with flat angles", "m"}}
@@ -176,8 +175,8 @@ Study shape_return_study() {
           "angles are its rest angles, and does not if they are flat.",
           "BMF03 section 4: non-zero rest angles",
           "A closed shell with bumps is squeezed, sheared and dented by about a tenth of its size, "
-          "let go and damped. Its distance from the rest shape falls until nothing is left to see, "
-          "on coarse and fine meshes alike; with flat rest angles it settles elsewhere.",
+          "released and damped. Its distance from the rest shape falls until it is invisible, on "
+          "coarse and fine meshes alike; with flat rest angles it settles elsewhere.",
           run_shape_return};
 }
 

@@ -77,8 +77,8 @@ NamedFinding order_of(int mode, Table modes) {
   const Estimate deviation = order_deviation(error, 2, 1);
   modes.add({"order", "1", row_orders(error)});
   const Verdict verdict{deviation.value, 0.1, deviation.uncertainty, "1",
-                        "a whole order would be off by 1; the third term of the error is smaller "
-                        "than the second by the panels' number over the mode's"};
+                        "another order is off by 1; the third term of the error is smaller than "
+                        "the second by the number of panels over the mode's number"};
   const std::string number = std::to_string(mode);
   return {
       "strip-vibration.is-second-order.mode-" + number,
@@ -92,9 +92,9 @@ NamedFinding is_the_beam(const std::array<Table, 2>& modes) {
   for (const size_t mode : {0, 1})
     frequencies.row(modes[mode].numbers("omega").back(), exact_frequency(int(mode) + 1));
   const double worst = largest_deviation(frequencies, "omega", "clamped-free beam");
-  const Verdict verdict{worst, 0.01, 0, "1",
-                        "a rigidity off by a fiftieth would show; the least difference between "
-                        "meshes of the table of rigidities is larger"};
+  const Verdict verdict{
+      worst, 0.01, 0, "1",
+      "a rigidity off by a fiftieth would show; meshes in the table of rigidities differ by more"};
   return {"strip-vibration.matches-the-beam",
           "At the finest mesh the first two frequencies of a clamped strip are the beam's within "
           "one percent.",
@@ -189,8 +189,8 @@ NamedFinding steps_keep_the_frequency(const Subject& subject) {
           "oscillates with that mode's frequency, lowered or raised only as the scheme's exact "
           "solution says.",
           judge_worst(differences, 1e-5,
-                      "the strip's slopes are about 1e-4 of 1 and turn what is linear to their "
-                      "square; forces by differences are good to 1e-6",
+                      "the strip's slopes are about 1e-4, so nonlinearity enters at their square; "
+                      "differenced forces are good to 1e-6",
                       "exact for schemes A, B and C without damping: x_n = x_0 cos(2 n asin(omega "
                       "h/2)), one and a half periods")};
 }

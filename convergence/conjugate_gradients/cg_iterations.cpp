@@ -190,7 +190,7 @@ std::vector<Figure> figures_of(const std::vector<Sweep>& measured) {
                          {sweep.label, sweep.unit, Scale::log},
                          {"iterations a solve", "1", Scale::linear},
                          nan,
-                         "Each curve says what its residual is compared with. The other things are "
+                         "Each curve names what its residual is compared with. Everything else is "
                          "as in the table.",
                          {}});
       figure = figures.end() - 1;
@@ -239,10 +239,10 @@ Study cg_iterations_study() {
       "takes fewer than ten iterations of conjugate gradients, at every tolerance tried; at a "
       "fixed damping ratio a finer mesh needs no more.",
       "BMF03 section 3",
-      "A hanging sheet moves with waves and noise. Solves are counted under schemes A and B, each "
-      "of which has one a step; C has both. Tolerance, damping, step and mesh size are varied one "
-      "at a time. The damping ratio is zeta = (damping/stiffness) omega/2, for springs kd_s/Y and "
-      "for hinges kd |E|/(ke c/2), with omega from the elastic limit of the step.",
+      "A hanging sheet moves with waves and noise. Solves are counted under schemes A and B, which "
+      "solve once a step; C solves twice. Tolerance, damping, step and mesh size are varied one at "
+      "a time. The damping ratio is zeta = (damping/stiffness) omega/2, for springs kd_s/Y and for "
+      "hinges kd |E|/(ke c/2), with omega from the elastic limit of the step.",
       run_cg_iterations};
 }
 

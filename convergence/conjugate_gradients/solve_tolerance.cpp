@@ -101,7 +101,7 @@ NamedFinding order_is_kept(const std::vector<SchemeRuns>& schemes, double tolera
     }
   }
   const Verdict verdict{orders.rows() == 0 ? nan : worst.value(), order_kept / 10, 0, "1",
-                        "a tenth of what the order studies allow an order to be off, so that they "
+                        "a tenth of the error that the order studies allow an order, so that they "
                         "judge the scheme and not its solves"};
   return {"solve-tolerance." + whose + "-tolerance-preserves-the-order",
           "With the " + whose +
@@ -146,15 +146,14 @@ Table all_runs(const std::vector<SchemeRuns>& schemes) {
 
 /// A curve for each scheme and each of the coarsest and the finest step.
 Figure figure_of(const std::vector<SchemeRuns>& schemes) {
-  Figure figure{
-      "error-against-tolerance",
-      "Error against the tolerance of the solves",
-      {"tolerance", "1", Scale::log},
-      {"position error over the motion", "%", Scale::log},
-      nan,
-      "Largest position error at the end, with the coarsest and with the finest step. Where a "
-      "curve is level the step decides on the error, where it rises the solves do.",
-      {}};
+  Figure figure{"error-against-tolerance",
+                "Error against the tolerance of the solves",
+                {"tolerance", "1", Scale::log},
+                {"position error over the motion", "%", Scale::log},
+                nan,
+                "Largest position error at the end, with the coarsest and with the finest step. "
+                "Where a curve is level the step decides the error; where it rises the solves do.",
+                {}};
   const size_t finest = schemes.front().front().runs.rows() - 1;
   const std::array<std::pair<size_t, const char*>, 2> levels = {
       {{0, "coarsest"}, {finest, "finest"}}};

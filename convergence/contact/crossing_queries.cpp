@@ -118,7 +118,7 @@ NamedFinding misses_none(const std::string& of, const std::string& words,
   return {"crossing-queries.no-meeting-is-missed." + of,
           "No meeting of moving features is missed: " + words + ".",
           {{misses(tallies), 0, 0, "queries",
-            "a plane that parts them until the end is a proof that they do not meet"},
+            "a plane that separates them until the end proves that they do not meet"},
            table_of(tallies),
            ""}};
 }
@@ -183,12 +183,12 @@ NamedFinding tells_near_ones_only(const std::vector<Alarms>& all) {
   // only the 50 digits of the distance tell 1 from the roundings of the moved coordinates
   constexpr double roundings = 1e-10;
   return {"crossing-queries.false-alarms-are-near-misses",
-          "Features that are reported although they never meet are, at the time told, as near as "
-          "was promised.",
+          "Features that are reported although they never meet are as near as promised at the "
+          "reported time.",
           {{worst.value(), 1 + roundings, 0, "1",
-            "distance over half as much again as what is to be kept, or three quarters of the "
-            "start's distance; coordinates of 10 m are rounded by 1e-15 m, a 10^12th of the least "
-            "distance to be kept"},
+            "distance over 1.5 times the distance to keep, or over three quarters of the distance "
+            "at the start; coordinates of 10 m are rounded by 1e-15 m, a 10^12th of the least "
+            "distance to keep"},
            stacked({"queries", ""}, told),
            ""}};
 }
@@ -199,8 +199,8 @@ Figure alarms_figure(const std::vector<Alarms>& all) {
                 {"distance to be kept", "m", Scale::log},
                 {"share of the pairs that do not meet", "1", Scale::log},
                 1,
-                "Coordinates up to 10 m. What comes near is to be reported: a share in proportion "
-                "to the distance.",
+                "Coordinates up to 10 m. Features that come near are to be reported: a share "
+                "proportional to the distance.",
                 {}};
   for (const Alarms& alarms : all) {
     Curve curve{name_of(alarms.kind), {}, {}, nan, {}};
@@ -246,8 +246,8 @@ Study crossing_queries_study() {
           "Bridson, Fedkiw and Anderson (2002), section 6",
           "A vertex and a triangle, or two edges, move in straight lines between points of small "
           "whole coordinates. Whether they ever meet is decided in whole numbers by the signs of "
-          "polynomials, and compared with what the reference says. What it reports although they "
-          "stay apart came near.",
+          "polynomials, and compared with the reference's answer. Pairs that it reports although "
+          "they stay apart must have come near.",
           run_crossing_queries};
 }
 

@@ -23,7 +23,7 @@ const Vector3 half_extents(0.3125, 0.40625, 0.28125);  // of the box [m]
 struct Body {
   std::string name, words;
   Solid solid;
-  double size;                                  // of which edges are fractions [m]
+  double size;                                  // edges are fractions of it [m]
   Vector3 normal;                               // of the sheet's plane
   std::function<Vector3(double edge)> through;  // a point of it [m]
   std::function<bool(const oracles::TriangleSoup& cloth)> is_clear;
@@ -128,7 +128,7 @@ NamedFinding order_finding(const Body& body, const Table& range) {
   return {"required-eps.order-is-as-derived." + body.name,
           "On the " + body.words + " the eps that is needed grows as " + power + ".",
           {{deviation.value, 0.01, 0, "1",
-            "eps is sought to 5e-4 of itself, which is 0.0015 of an order; the next term of "
+            "eps is found to 5e-4 of itself, which is 0.0015 of an order; the next term of "
             "sqrt(R^2 + L^2/3) - R is L^2/(12 R^2) of the first, below 0.003 in the last pairs; "
             "along an edge every scale looks alike"},
            range,
@@ -137,13 +137,12 @@ NamedFinding order_finding(const Body& body, const Table& range) {
 
 NamedFinding bound_finding(const Body& body, const Table& range) {
   const std::string bound = body.order == 2 ? "L^2/(6 R)" : "L/sqrt(3)";
-  return {
-      "required-eps.derived-eps-suffices." + body.name,
-      "On the " + body.words + " an eps of " + bound + " suffices, L the longest edge.",
-      judge_worst(
-          range, 1.001,
-          "the farthest point of a triangle from its corners is L/sqrt(3) from them at most; on a "
-          "ball its depth below them is at most (L/sqrt(3))^2/(2 R). A thousandth for the search")};
+  return {"required-eps.derived-eps-suffices." + body.name,
+          "On the " + body.words + " an eps of " + bound + " suffices, L the longest edge.",
+          judge_worst(range, 1.001,
+                      "the farthest point of a triangle from its corners is L/sqrt(3) from them at "
+                      "most; on a ball its depth below them is at most (L/sqrt(3))^2/(2 R). The "
+                      "search may err by a thousandth")};
 }
 
 StudyResult run_eps_needed(const Subject&, Tier tier, const Progress& progress) {

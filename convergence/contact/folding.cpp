@@ -168,8 +168,7 @@ NamedFinding wavelength_finding(const std::vector<WrinkledSheet>& runs) {
           "With 0 % compression, a strip on an elastic bed folds into waves of length 2 pi "
           "(D/K)^(1/4), those of the least energy.",
           {{worst.value(), 1. / 6, 0, "1",
-            "the spectrum knows whole waves only, five and three of them in the strip: half a wave "
-            "in three"},
+            "the spectrum has whole waves only, five and three in the strip: half a wave in three"},
            evidence_of(runs),
            "waves lower than a millimetre count as none"}};
 }
@@ -192,7 +191,7 @@ NamedFinding area_finding(const std::vector<FoldedSheet>& runs) {
           "With 0 % compression, a strip between ends that move together loses none of its area.",
           {{worst.value(), 2 * tolerance, 0, "of the area",
             "an acute triangle whose edges are no shorter than at rest, and no longer by more than "
-            "a tenth, is no smaller; each edge may lack the tolerance of the sweeps"},
+            "a tenth, is no smaller; each edge may be short by the tolerance of the sweeps"},
            evidence_of(runs),
            ""}};
 }
@@ -231,11 +230,11 @@ NamedFinding height_finding(const std::vector<FoldedSheet>& runs) {
   const FoldedSheet& run = runs[0];  // stiff hinges, 0 %
   const double expected = cosine_height(clear, nearer);
   return {"folding.arc-height-matches-its-length",
-          "With 0 % compression, a strip of stiff hinges rises in one arc, as high as one that is "
-          "as long as the strip at rest.",
+          "With 0 % compression, a strip of stiff hinges rises in one arc, as high as an arc of "
+          "the strip's rest length.",
           {{std::abs(run.height / expected - 1), edge / (2 * clear), 0, "1",
-            "the clamps, two columns of offset rows, leave the clear length open by half an edge; "
-            "the arc is taken for a cosine. A strip that is compressed stays flat"},
+            "the clamps, two columns of offset rows, leave the free length uncertain by half an "
+            "edge; the arc is approximated by a cosine. A strip that is compressed stays flat"},
            evidence_of(std::vector{run}),
            ""}};
 }
@@ -266,8 +265,8 @@ Study folding_study() {
           "compressed where its hinges are stiffer than its springs.",
           "BMF03 section 3, after Provot 1995",
           "The clamped ends of a strip are moved together by a fifth of its length within half a "
-          "second. With stiff hinges Euler's strain 4 pi^2 D/(Y L^2) is a quarter: the strip would "
-          "rather be compressed. With soft ones it folds anyway. Wavelengths are those of the "
+          "second. With stiff hinges Euler's strain 4 pi^2 D/(Y L^2) is a quarter: the strip "
+          "prefers compression. With soft ones it folds anyway. Wavelengths are those of the "
           "largest Fourier coefficient along the middle of the strip, in lengths at rest.",
           run_folding};
 }

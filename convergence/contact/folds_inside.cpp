@@ -129,20 +129,21 @@ NamedFinding tube_finding(const Table& folds) {
       "Cloth that starts partly inside of a drum and is pushed together has fewer folds if it is "
       "brought to the surface at once than if it may stay inside.",
       {{crests.front() / crests.back(), 0.5, 0, "1",
-        "a surface that bars one side bars the folds to that side: at most half of them are left"},
+        "a surface that blocks one side blocks folds to that side: at most half of them are left"},
        folds,
-       "measured are the crests of a turn with a forecast time of a step over those with one of "
-       "ten thousand, after the projection into [0, 0.01 m]"}};
+       "measured is the number of crests around the tube with a forecast time of one step over the "
+       "number with ten thousand steps, after the projection into [0, 0.01 m]"}};
 }
 
 NamedFinding ball_finding(const Table& folds) {
   const std::vector<double>& angles = folds.numbers("mean fold");
   return {
       "folding-inside-objects.same-folds-over-a-ball",
-      "Cloth that falls on a ball from outside folds as much whatever the forecast time.",
+      "Cloth that falls on a ball from outside folds as much with every forecast time.",
       {{std::abs(angles.back() / angles.front() - 1), 0.1, 0, "1",
-        "which folds it finds is chance; the mean of some four hundred hinges that fold by as much "
-        "as they differ is known to a twentieth, the ratio of two to less than a tenth"},
+        "which folds form is chance; the mean over some four hundred hinges, whose angles scatter "
+        "by as much as their mean, is known to a twentieth, and the ratio of two means to less "
+        "than a tenth"},
        with_columns(folds, {"forecast time", "deepest particle", "mean fold"}),
        "measured is the change of the mean fold angle from the first forecast time to the last"}};
 }

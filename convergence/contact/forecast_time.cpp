@@ -105,7 +105,8 @@ NamedFinding order_finding(const Setting& setting, const Table& misses) {
           "On " + setting.words + ", it misses the surface by the square of the step.",
           {{deviation.value, 0.1, deviation.uncertainty, "1",
             "a first-order miss would be off by one: the forecast has then the wrong direction or "
-            "velocity; the next term is smaller by the way of a step over the radius, a hundredth"},
+            "velocity; the next term is smaller by the distance moved in a step over the radius, a "
+            "hundredth"},
            misses,
            "measured is |order - 2| of the last two pairs"}};
 }
@@ -153,8 +154,8 @@ NamedFinding next_step_finding(const Subject& subject) {
           "With a forecast time of five steps a point is still above a floor that it would have "
           "passed at the next step.",
           {{std::abs(after[1]) / after[0], 1e-6, 0, "1",
-            "on the floor but for rounding, against four fifths of the height: there is nothing "
-            "between"},
+            "otherwise it would be on the floor up to rounding; with forecasts four fifths of the "
+            "height are left"},
            heights,
            "measured is the height with the next step's object over that with the forecast"}};
 }
@@ -182,15 +183,16 @@ StudyResult run_forecast_time(const Subject& subject, Tier tier, const Progress&
   }
   result.figures.push_back(figure);
 
-  Figure approach{"approach",
-                  "A point comes down on a floor",
-                  {"time", "s", Scale::linear},
-                  {"height", "m", Scale::linear},
-                  nan,
-                  "At 0.9 m/s, steps of 4 ms. The height is multiplied by 1 - h/tau in every step: "
-                  "a longer forecast time is a softer landing. One that is shorter than the step "
-                  "overshoots: the point is inside after it, and is thrown off by the way out.",
-                  {}};
+  Figure approach{
+      "approach",
+      "A point comes down on a floor",
+      {"time", "s", Scale::linear},
+      {"height", "m", Scale::linear},
+      nan,
+      "At 0.9 m/s, steps of 4 ms. The height is multiplied by 1 - h/tau in every step: a longer "
+      "forecast time is a softer landing. A forecast time shorter than the step overshoots: the "
+      "point is inside after it, and the push outwards throws it off.",
+      {}};
   Table decays{{"forecast time over the step", "1"}, {"off", "1"}};
   const Decay thrown = decay_of(subject, 0.7);
   approach.curves.push_back(curve_of("tau = 0.7 h", thrown.heights, "time", "phi"));
@@ -218,10 +220,10 @@ Study forecast_time_study() {
   return {"forecast-time",
           "A forecast is exact on planes and of second order on curved and turning objects.",
           "BMF03 section 5.2",
-          "The response makes a point's forecast exact: phi + tau (v_p - v).N = 0. Where the point "
-          "is after that time is another matter: the surface curves away under a point that "
-          "slides, and the object's normals turn. And the forecast time need not be the step: it "
-          "is the time in which a point comes to the surface.",
+          "The response makes a point's forecast exact: phi + tau (v_p - v).N = 0. The point's "
+          "true place after that time may differ: the surface curves away under a sliding point, "
+          "and the object's normals turn. The forecast time need not be the step: it is the time a "
+          "point takes to reach the surface.",
           run_forecast_time};
 }
 

@@ -82,8 +82,8 @@ NamedFinding held_finding(const Table& particles, const Table& faces) {
   return {"pointwise-contact.centres-help-coarse-cloth",
           "With midpoints and centres as points, the centres of coarse triangles stay out.",
           {{held / alone, 0.1, 0, "1",
-            "what a step leaves on a curved surface, the square of its way, is far below a tenth "
-            "of a chord's depth"},
+            "a step's error on a curved surface, the square of its displacement over the radius, "
+            "is far below a tenth of a chord's depth"},
            Table{{"edge", "m"}, {"particles alone", "m"}, {"centres too", "m"}}.with_row(
                faces.numbers("edge").front(), alone, held),
            "of the coarsest mesh"}};

@@ -119,7 +119,7 @@ Study resting_contact_study() {
       "pushed out, and as much as if it is projected after each step.",
       "BMF03 section 5.2",
       "A sheet falls on a ball and hangs over it. The paper's response corrects velocities before "
-      "the cloth moves; the two it is compared with look at where the cloth has come to.",
+      "the cloth moves; the two responses compared with it act on positions after the move.",
       run_resting_contact};
 }
 

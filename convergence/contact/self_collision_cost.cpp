@@ -84,7 +84,7 @@ void add_searches(Tier tier, StudyResult& result) {
   const SearchGrowth found = growth(by_size);
   result.findings.push_back(
       {"self-collision-cost.search-time-is-nearly-linear",
-       "The search for close pairs takes time in proportion to the particles, but for little.",
+       "The search for close pairs takes time nearly proportional to the number of particles.",
        {{found.exponent, 1.2, found.uncertainty, "1",
          "empirical: each particle has the same number of neighbours, and a tree is as deep as the "
          "logarithm of their number, an exponent of 1.1 at most from a thousand on; memory beyond "
@@ -120,8 +120,8 @@ void add_zones(const Subject& subject, StudyResult& result) {
   result.findings.push_back({"self-collision-cost.impulse-rounds-reduce-rigid-zones",
                              "Rounds of impulses leave less to rigid zones.",
                              {{particles[3] / particles[0], 0.5, 0, "1",
-                               "each round answers pairs that would else be joined to zones: eight "
-                               "leave less than half of what one does"},
+                               "each round resolves pairs that would otherwise be merged into "
+                               "zones: eight rounds leave less than half of what one leaves"},
                               rounds,
                               "Three steps of four layers of 42 particles each that fly through "
                               "each other at 3 m/s, 4 ms long."}});
@@ -158,17 +158,16 @@ void add_rest(const Subject& subject, StudyResult& result) {
       {"self-collision-cost.sheet-rests-within-the-thickness",
        "A sheet comes to rest on another at half of the thickness or more, and at no more than it.",
        {{outside.value(), 1, 0, "1",
-         "above the thickness nothing carries it; the springs of repulsion carry its weight at a "
-         "small part of the overlap, and half of it is left for what falling adds"},
+         "above the thickness nothing supports it; repulsion springs carry its weight at a small "
+         "part of the overlap, and half of the overlap is left for the impact"},
         gaps,
         ""}});
   result.findings.push_back(
       {"self-collision-cost.gap-does-not-depend-on-the-step",
        "The gap at which a sheet rests on another does not depend on the step.",
        {{spread.value(), 0.05, 0, "1",
-         "what one step's fall adds is g h^2, .02 of the least thickness for the longest step; "
-         "with that and again as much for where in its last bounce the sheet is it is .04, rounded "
-         "up"},
+         "one step of free fall adds g h^2, 0.02 of the least thickness for the longest step; as "
+         "much again for the phase of the last bounce makes 0.04, rounded up"},
         gaps,
         ""}});
 }
@@ -180,9 +179,9 @@ Study self_collision_cost_study() {
           "With two layers the search for close pairs takes time nearly in proportion to the "
           "particles; layers come to rest between half and the whole of the thickness apart.",
           "BMF03 section 5; Bridson, Fedkiw, Anderson 2002",
-          "Sheets in layers: what the search for close pairs costs against particles and layers, "
-          "how much rounds of impulses leave to rigid zones, and at what distance layers come to "
-          "rest against thickness and step.",
+          "Sheets in layers: the cost of the search for close pairs by particles and layers, how "
+          "much rounds of impulses leave to rigid zones, and the distance at which layers come to "
+          "rest by thickness and step.",
           [](const Subject& subject, Tier tier, const Progress& progress) {
             StudyResult result;
             add_searches(tier, result);

@@ -112,14 +112,15 @@ NamedFinding blend_keeps_its_share(const AllKept& blend) {
   for (const auto& [name, kept] : blend)
     for (size_t k = 0; k < kept.rows(); ++k)
       worst.observe(least_slope(kept.numbers("tau")[k]) / kept.numbers(share_column)[k]);
-  return {"wrinkle-preservation.blend-keeps-a-share-of-depths",
-          "The blend leaves at least (tau - w/2)/(tau + t^ - w/2) of the deviation of depths that "
-          "were inside.",
-          {{worst.value(), 1 + 1e-9, 0, "1",
-            "its slope is nowhere less, so that no two depths come closer than by that factor; "
-            "1e-9 for the tolerance of 1e-12 m over deviations of a millimetre"},
-           evidence(blend),
-           "measured is that share over the one found"}};
+  return {
+      "wrinkle-preservation.blend-keeps-a-share-of-depths",
+      "The blend leaves at least (tau - w/2)/(tau + t^ - w/2) of the deviation of depths that were "
+      "inside.",
+      {{worst.value(), 1 + 1e-9, 0, "1",
+        "its slope is nowhere less, so the distance of two depths never shrinks by more than that "
+        "factor; 1e-9 allows for the tolerance of 1e-12 m over deviations of a millimetre"},
+       evidence(blend),
+       "measured is that share over the one found"}};
 }
 
 /// Of the deeper half of the penetrations.
@@ -139,8 +140,8 @@ NamedFinding power_crushes_the_deep(const std::vector<SunkCloth>& sheets) {
           "With tau a fifth of the deepest penetration the power law leaves the deeper half of the "
           "wrinkles less than a tenth of what the blend leaves.",
           {{largest_ratio(shares, by_power, by_blend), 0.1, 0, "1",
-            "the power law's slope is at most (tau/(tau + t^)) p u^(p-1) = .0126 from the middle "
-            "depth down, with p = 6 and u = 5/12; the blend's is .1304 there"},
+            "the power law's slope is at most (tau/(tau + t^)) p u^(p-1) = 0.0126 from the middle "
+            "depth down, with p = 6 and u = 5/12; the blend's is 0.1304 there"},
            shares,
            ""}};
 }
@@ -153,7 +154,7 @@ NamedFinding wavelength_stays(const std::string& map, const AllKept& kept) {
   return {"wrinkle-preservation.wavelength-is-preserved." + map,
           "The dominant wavelength of the depths stays that of the wrinkles.",
           {{worst.value(), wavelength * wavelength / width, 0, "m",
-            "wavelengths that the sheet's length can tell apart: lambda^2 over that length"},
+            "the spacing of wavelengths that fit the sheet's length: lambda^2 over that length"},
            evidence(kept),
            "as found after the projection by map '" + map + "'"}};
 }
@@ -191,13 +192,14 @@ Figure before_and_after(const SunkCloth& cloth, const DepthMap& map, double reac
 }
 
 Figure shares(const std::vector<std::pair<std::string, AllKept>>& by_map) {
-  Figure figure{"share",
-                "What is left of the wrinkles that were inside",
-                {"tau over t^", "1", Scale::log},
-                {"deviation of their depths, after over before", "1", Scale::linear},
-                nan,
-                "Half inside a ball. t^, the deepest penetration told apart, is 14 mm.",
-                {}};
+  Figure figure{
+      "share",
+      "What is left of the wrinkles that were inside",
+      {"tau over t^", "1", Scale::log},
+      {"deviation of their depths, after over before", "1", Scale::linear},
+      nan,
+      "Half inside a ball. t^, the deepest penetration that the map still resolves, is 14 mm.",
+      {}};
   for (const auto& [map, all] : by_map) {
     Curve curve{
         std::string(depth_map_named(map).title), {}, all[1].second.numbers(share_column), nan, {}};
@@ -237,8 +239,8 @@ Map slice_of_union() {
           "m",
           Scale::linear,
           "A slice through the centres. Points inside both balls are pinched: N points out of the "
-          "one in which they are deeper, and turns round across the surface between; the "
-          "projection leaves them alone.",
+          "ball in which they are deeper, and reverses across the surface between; the projection "
+          "leaves them alone.",
           {circle("first ball", -0.15, 0.24), circle("second ball", 0.17, 0.2)}};
   for (int i = 0; i < across; ++i) map.x_values.push_back(-0.45 + 0.9 * i / (across - 1));
   for (int k = 0; k < up; ++k) map.y_values.push_back(-0.3 + 0.6 * k / (up - 1));

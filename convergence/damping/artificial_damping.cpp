@@ -58,8 +58,8 @@ NamedFinding as_derived(const VibratingSheet& sheet, const Response& response) {
   }
   return {"artificial-damping.mode-factors-are-as-derived." + name,
           "A step of " + name +
-              " multiplies each vibration of a sheet, damped or not, by the factors derived from "
-              "the method.",
+              " multiplies each vibration of a sheet, damped or not, by the factor derived for the "
+              "method.",
           judge_worst(factors_seen, factor_noise, why_factor_noise)};
 }
 
@@ -195,11 +195,11 @@ StudyResult run_artificial_damping(const Subject& subject, Tier tier, const Prog
 Study artificial_damping_study() {
   return {
       "artificial-damping",
-      "Schemes A, B and C add no artificial damping; backward Euler damps every vibration, the "
-      "faster the more.",
+      "Schemes A, B and C add no artificial damping; backward Euler damps every vibration, fast "
+      "ones most.",
       "BMF03 section 3",
-      "All vibrations of a flat, free sheet are excited at once, and what a step of each method "
-      "makes of each of them is held against the factor derived from the method. Then a crumpling "
+      "All vibrations of a flat, free sheet are excited at once, and the factor by which a step of "
+      "each method multiplies each of them is compared with the derived factor. Then a crumpling "
       "sheet vibrates for a hundred periods of its slowest mode: does its energy have a trend?",
       run_artificial_damping};
 }

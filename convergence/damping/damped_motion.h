@@ -59,7 +59,7 @@ double largest_progress(const DampedRun& run);
 /// progress never falls.
 double largest_reversal(const DampedRun& run);
 
-/// Turning back or overshooting, whatever is worse, over the whole way.
+/// Turning back or overshooting, the worse of the two, over the whole displacement.
 double worst_overshoot_or_reversal(const DampedRun& run);
 
 }  // namespace foldproof

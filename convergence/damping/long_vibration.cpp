@@ -151,7 +151,7 @@ NamedFinding has_no_trend(const Run& run) {
           "Over a hundred periods the energy of an undamped crumpling sheet has no trend under " +
               run.method + ": its slope is zero within three standard errors.",
           {{std::abs(trend.slope) / trend.error, 3, 0, "standard errors",
-            "20 blocks of five periods, their spread corrected for what neighbours have in common: "
+            "20 blocks of five periods, their spread corrected for the correlation of neighbours: "
             "without a trend three standard errors are exceeded once in a hundred runs"},
            {{"block", "periods", trend.times}, {"mean energy", "of the start's", trend.means}},
            "The slope is " + std::to_string(trend.slope * periods) + " +- " +
@@ -175,12 +175,12 @@ NamedFinding stays_bounded(const Run& run) {
   Worst worst;
   for (const double energy : run.energies()) worst.observe(std::abs(std::log(energy)));
   return {"artificial-damping.energy-stays-bounded." + run.method,
-          "Over a hundred periods the energy of an undamped crumpling sheet stays within what the "
-          "fastest mode's swings allow under " +
+          "Over a hundred periods the energy of an undamped crumpling sheet stays within the range "
+          "that the fastest mode's oscillation allows under " +
               run.method + ".",
           {{run.whole ? worst.value() : nan, -std::log(kept), 0, "|ln(energy/start)|",
             "a linear mode's energy lies between 1 and 1 - (omega h/2)^2 of a number that the "
-            "scheme keeps; omega h/2 is at most a half"},
+            "scheme conserves; omega h/2 is at most a half"},
            thinned_history(run),
            ""}};
 }
@@ -267,14 +267,13 @@ void add_long_vibrations(const Subject& subject, Tier tier, StudyResult& result)
                     "Means over two periods; all steps are half the elastic limit. Curves that end "
                     "have left the picture: upwards when the energy passed ten times the start's.",
                     same_step));
-  result.figures.push_back(
-      energy_figure("energy-at-equal-cost", "Energy of an undamped sheet, equal cost",
-                    "As above, with each method's step chosen such that it makes as many "
-                    "evaluations of the forces, or products with their derivative, as scheme A "
-                    "does at half the elastic limit: the step nearest to A's, judged by the first "
-                    "periods. The table has the cost of the whole run; a method that longer steps "
-                    "make no cheaper before it is as cheap as A stays at the cheapest of them.",
-                    same_cost));
+  result.figures.push_back(energy_figure(
+      "energy-at-equal-cost", "Energy of an undamped sheet, equal cost",
+      "As above, with each method's step chosen such that it makes as many evaluations of the "
+      "forces, or products with their derivative, as scheme A does at half the elastic limit: the "
+      "step nearest to A's, judged by the first periods. The table has the cost of the whole run; "
+      "a method that no step makes as cheap as A runs at its cheapest step.",
+      same_cost));
   result.tables.push_back(energy_table(vibration, same_step, same_cost));
 }
 

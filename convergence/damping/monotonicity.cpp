@@ -14,12 +14,12 @@ namespace {
 
 constexpr double rounding = 1e-8;  // of the way
 constexpr const char* why_rounding =
-    "the way is a millionth of the triangle's size, so that each of up to 500 steps rounds by some "
-    "1e-10 of it; in nothing else does a linear motion differ from the derived one";
+    "the displacement is a millionth of the triangle's size, so that each of up to 500 steps "
+    "rounds by some 1e-10 of it; a linear motion differs from the derived one in nothing else";
 constexpr double turning = 1e-5;  // of the way
 constexpr const char* why_turning =
-    "the ways on the sheet are nanometres, to which positions are rounded by 1e-8, and which leave "
-    "1e-7 of nonlinearity; a method that overshoots does so by a good part of the way";
+    "displacements on the sheet are nanometres: positions round by 1e-8 of them, nonlinearity is "
+    "1e-7; a method that overshoots does so by a large part of the displacement";
 
 // ---- the derived ways of schemes A, B and C (pure damping, r = (1 - a)/(1 + a) a step)
 
@@ -33,8 +33,9 @@ Paths derived_paths(const std::string& scheme, double a) {
 }
 
 std::string ways_in_words(const std::string& scheme) {
-  return scheme == "A" ? "2a(1 - a) of its way in the first step and 1 - a^2 of it in all"
-                       : "2a/(1 + a) of its way in the first step and all of it in the end";
+  return scheme == "A"
+             ? "2a(1 - a) of its displacement in the first step and 1 - a^2 of it in all"
+             : "2a/(1 + a) of its displacement in the first step and all of it in the end";
 }
 
 NamedFinding goes_its_derived_way(const Subject& subject, const DampedMotions& motions,
@@ -69,9 +70,10 @@ NamedFinding overshoots(const Subject& subject, const DampedMotions& motions) {
   }
   return {"monotonicity.overshoots.A",
           "Scheme A is not monotone: at h c/2 = 10 its explicit half step throws the cloth back by "
-          "more than a hundred times the way that it should go.",
+          "more than a hundred times the displacement it should make.",
           {{worst.value(), 1, 0, "1",
-            "measured is a hundred over the way back; derived are 2a(a - 1) = 180 in one step"},
+            "measured is a hundred over the displacement back; 2a(a - 1) = 180 is derived for one "
+            "step"},
            rows,
            ""}};
 }
@@ -89,15 +91,15 @@ NamedFinding is_stable(const Subject& subject, const DampedMotions& motions) {
       worst.observe(largest.value());
       rows.row(motion->name, a, largest.value());
     }
-  return {
-      "monotonicity.stable-under-any-damping.A",
-      "Scheme A is stable under damping however large: linear motions never have more kinetic "
-      "energy than at the start.",
-      {{worst.value(), 1, 0, "of the start's energy",
-        "each step multiplies the speed of a mode by (1 - a)/(1 + a), whose size is below 1"},
-       rows,
-       "Judged in the energy of all modes together: thrown twenty thousand ways off (2 a^2 at a = "
-       "100), the fast modes leak into the slow ones, since the sheet is not quite linear."}};
+  return {"monotonicity.stable-under-any-damping.A",
+          "Scheme A is stable under damping however large: linear motions never have more kinetic "
+          "energy than at the start.",
+          {{worst.value(), 1, 0, "of the start's energy",
+            "each step multiplies the speed of a mode by (1 - a)/(1 + a), whose size is below 1"},
+           rows,
+           "Judged in the energy of all modes together: thrown off by twenty thousand times the "
+           "displacement (2 a^2 at a = 100), the fast modes leak into the slow ones, since the "
+           "sheet is not quite linear."}};
 }
 
 // ---- schemes B and C
@@ -110,14 +112,14 @@ NamedFinding is_bounded(const Subject& subject, const DampedMotions& motions,
       const double far = largest_progress(run_damped(subject, *motion, scheme, a, 30));
       rows.row(motion->name, a, far);
     }
-  return {
-      "monotonicity.overshoot-is-bounded." + scheme,
-      "Scheme " + scheme +
-          " overshoots a linear motion by no more than the way itself, however large the damping.",
-      {{rows.worst("farthest"), 2, 0, "ways",
-        "derived: the farthest is 2a/(1 + a) of the way, in the first step"},
-       rows,
-       ""}};
+  return {"monotonicity.overshoot-is-bounded." + scheme,
+          "Scheme " + scheme +
+              " overshoots a linear motion by no more than its displacement, however large the "
+              "damping.",
+          {{rows.worst("farthest"), 2, 0, "ways",
+            "derived: it goes at most 2a/(1 + a) of the displacement, in the first step"},
+           rows,
+           ""}};
 }
 
 NamedFinding alternates(const Subject& subject, const DampedMotions& motions,
@@ -194,14 +196,14 @@ std::vector<NamedFinding> bdf2_findings(const Subject& subject, const DampedMoti
     error.observe(std::abs(far - farthest_by_bdf2(a, 30)));
     rows.row(motions.triangle.name, a, far);
   }
-  return {
-      {"monotonicity.overshoots.BDF2",
-       "BDF2, started exactly, is not monotone at large steps: it overshoots by more than a "
-       "hundredth of the way.",
-       {{least.value(), 1, 0, "1", "measured is a hundredth over the overshoot"}, rows, ""}},
-      {"monotonicity.distance-is-as-derived.BDF2",
-       "BDF2, started exactly, overshoots as its recurrence says, by a tenth of the way at most.",
-       {{error.value(), rounding, 0, "of the way", why_rounding}, rows, ""}}};
+  return {{"monotonicity.overshoots.BDF2",
+           "BDF2, started exactly, is not monotone at large steps: it overshoots by more than a "
+           "hundredth of the displacement.",
+           {{least.value(), 1, 0, "1", "measured is a hundredth over the overshoot"}, rows, ""}},
+          {"monotonicity.distance-is-as-derived.BDF2",
+           "BDF2, started exactly, overshoots as its recurrence says, by at most a tenth of the "
+           "displacement.",
+           {{error.value(), rounding, 0, "of the way", why_rounding}, rows, ""}}};
 }
 
 StudyResult run_monotonicity(const Subject& subject, Tier tier, const Progress& progress) {
@@ -242,8 +244,8 @@ Study monotonicity_study() {
           "BMF03 section 3",
           "Three motions that damping alone brings to rest: a triangle that expands (linear, known "
           "exactly), a hinge that folds (nonlinear, known by an oracle), a sheet whose modes all "
-          "move. How far does each method go over the way, and does it turn back? c is the damping "
-          "rate of the fastest motion, h the step.",
+          "move. How far does each method overshoot, and does it turn back? c is the damping rate "
+          "of the fastest motion, h the step.",
           run_monotonicity};
 }
 

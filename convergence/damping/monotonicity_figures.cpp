@@ -12,14 +12,15 @@ namespace {
 constexpr double least_shown = 1e-6;  // of the way
 
 Figure first_step_figure(const Subject& subject, const DampedMotions& motions) {
-  Figure figure{"first-step",
-                "First step of a damped motion",
-                {"h c/2", "1", Scale::log},
-                {"|first step| over the whole way", "1", Scale::log},
-                nan,
-                "The exact motion goes 1 - exp(-h c) of its way. Above h c/2 = 1 the steps of A "
-                "and RK2 lead backwards. BDF2 is left out: its first step is another method's.",
-                {}};
+  Figure figure{
+      "first-step",
+      "First step of a damped motion",
+      {"h c/2", "1", Scale::log},
+      {"|first step| over the whole way", "1", Scale::log},
+      nan,
+      "The exact motion covers 1 - exp(-h c) of its displacement. Above h c/2 = 1 the steps of A "
+      "and RK2 go backwards. BDF2 is left out: its first step is another method's.",
+      {}};
   const std::vector<double> as = geometric_range(0.05, 40, 16);
   for (const Integrator& method : integrators()) {
     if (method.history > 1) continue;
@@ -44,7 +45,7 @@ Figure distance_figure(const Subject& subject, const DampedMotions& motions) {
                 {"distance from the exact place of rest, over the way", "1", Scale::log},
                 nan,
                 "The exact motion is over before the first step ends. Explicit methods are "
-                "unstable here; A comes to rest a hundred ways off.",
+                "unstable here; A comes to rest a hundred displacements away.",
                 {}};
   for (const Integrator& method : integrators()) {
     Curve curve{std::string(method.name), {}, {}, nan, {}};
@@ -65,17 +66,15 @@ struct Shown {
 };
 
 Shown shown_of_triangle() {
-  return {
-      {"B", "C", "implicit-midpoint", "BDF2", "backward-euler"},
-      "Those methods whose motion stays near: B, C and the implicit midpoint rule swing about the "
-      "place of rest, BDF2 (started exactly) passes it once, backward Euler comes from one side."};
+  return {{"B", "C", "implicit-midpoint", "BDF2", "backward-euler"},
+          "Methods whose motion stays bounded: B, C and the implicit midpoint rule oscillate about "
+          "rest, BDF2 (started exactly) overshoots once, backward Euler approaches from one side."};
 }
 
 Shown shown_of_hinge() {
-  return {
-      {"B", "C", "linear-backward-euler"},
-      "Those methods all of whose solves succeed; the table has the others. The hinge's damping "
-      "falls as it unfolds: C, which takes the explicit part first, does not come back."};
+  return {{"B", "C", "linear-backward-euler"},
+          "Methods whose solves all succeed; the table has the others. The hinge's damping falls "
+          "as it unfolds: C, which takes the explicit part first, does not come back."};
 }
 
 Figure history_figure(const Subject& subject, const DampedMotion& motion, const Shown& shown) {

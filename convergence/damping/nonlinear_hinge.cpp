@@ -15,15 +15,14 @@ NamedFinding passes_the_bound(const Subject& subject, const DampedMotion& hinge)
     rows.row(hinge.name, a, far);
   }
   return {"monotonicity.overshoot-exceeds-the-bound-on-a-hinge.C",
-          "On a hinge whose damping falls as it unfolds, scheme C overshoots by more than the way "
-          "itself.",
+          "On a hinge whose damping falls as it unfolds, scheme C overshoots by more than the "
+          "displacement itself.",
           {{worst.value(), 1, 0, "1",
-            "measured is the bound of linear motions over the farthest. C's last velocity comes "
-            "from the damping at the step's start, explicitly, and is tamed by that at its end: (1 "
-            "- a)/(1 + a') has no bound when a' < a"},
+            "measured is the bound for linear motions over the farthest point. C's last velocity "
+            "takes the damping at the step's start explicitly and the damping at its end "
+            "implicitly: (1 - a)/(1 + a') has no bound when a' < a"},
            rows,
-           "Scheme B takes both at the step's ends the other way round: 1.6 ways here, see the "
-           "table."}};
+           "Scheme B takes the two in the opposite order: 1.6 displacements here, see the table."}};
 }
 
 NamedFinding is_monotone_on_a_hinge(const Subject& subject, const DampedMotion& hinge,
@@ -39,7 +38,7 @@ NamedFinding is_monotone_on_a_hinge(const Subject& subject, const DampedMotion& 
           "On a nonlinear hinge too motion is monotone under " + method +
               ", as nearly as the exact motion is.",
           {{rows.worst("overshoot or way back"), 0.004, 0, "ways",
-            "the exact motion passes its place of rest by 0.4 % and returns"},
+            "the exact motion overshoots its rest angle by 0.4 % and returns"},
            rows,
            "A solve that did not finish would count as NaN."}};
 }
@@ -57,10 +56,11 @@ NamedFinding passes_its_place(const Subject& subject, const DampedMotion& hinge)
   return {
       "monotonicity.overshoots-on-a-hinge.backward-euler",
       "On a hinge without stiffness, whose damping changes as it folds, fully implicit backward "
-      "Euler goes farther than the exact motion by more than a tenth of the way.",
+      "Euler goes farther than the exact motion by more than a tenth of the displacement.",
       {{worst.value(), 1, 0, "1",
-        "measured is 1.1 ways over the farthest; the damping at a step's end, where the hinge is "
-        "folded farther, is less than that on the way. Without stiffness nothing brings it back"},
+        "measured is 1.1 displacements over the farthest point; the damping at a step's end, where "
+        "the hinge is folded farther, is less than during the step. Without stiffness nothing "
+        "brings it back"},
        rows,
        "A solve that did not finish would count as NaN. In steps longer still the step's equation "
        "has several solutions, and Newton's method does not always find one: see the table."}};

@@ -53,8 +53,8 @@ NamedFinding damps_everything(const OneSided& springs, const OneSided& hinges) {
   Worst worst;
   for (const OneSided& one : {springs, hinges}) worst.observe(0.1 / one.worst);
   return {"artificial-damping.damps-every-motion.backward-euler",
-          "Backward Euler damps motions that nothing damps: at half the elastic limit the fastest "
-          "of them loses more than a tenth of its amplitude in a period.",
+          "Backward Euler damps undamped motions: at half the elastic limit the fastest of them "
+          "loses more than a tenth of its amplitude in a period.",
           {{worst.value(), 1, 0, "1",
             "measured is a tenth over the loss; the derived loss is pi omega h"},
            evidence_of(springs, hinges),

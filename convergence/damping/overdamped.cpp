@@ -14,8 +14,8 @@ constexpr double least_shown = 1e-6;  // of the way
 constexpr double most_shown = 1e6;    // ways
 constexpr double turning = 1e-5;      // of the way
 constexpr const char* why_turning =
-    "the ways are nanometres, to which positions are rounded by 1e-8, and which leave 1e-7 of "
-    "nonlinearity; a method that overshoots does so by a good part of the way";
+    "displacements are nanometres: positions round by 1e-8 of them, nonlinearity is 1e-7; a method "
+    "that overshoots does so by a large part of the displacement";
 
 /// How far a velocity points away from rest at most, or rises again, over that at the start.
 double velocity_misconduct(const DampedRun& run) {
@@ -70,10 +70,10 @@ NamedFinding sheet_is_thrown_back(const Subject& subject, const DampedMotion& sh
   const Table rows = sheet_at_steps(subject, sheet, "A", {10}, 12);
   return {"monotonicity.overdamped-sheet.overshoots.A",
           "On an overdamped sheet with stiffness scheme A throws a mode back by more than fifty "
-          "times its way at h c/2 = 10, a step at which it is stable.",
+          "times its displacement at h c/2 = 10, a step at which it is stable.",
           {{50 / rows.numbers("positions").front(), 1, 0, "1",
-            "measured is fifty over the way back; derived for half of the way fast is a^2 - a = 90 "
-            "in the first step"},
+            "measured is fifty over the displacement back; if half of the displacement decays "
+            "fast, a^2 - a = 90 is derived for the first step"},
            rows,
            ""}};
 }
@@ -83,12 +83,12 @@ NamedFinding sheet_is_bounded(const Subject& subject, const DampedMotion& sheet,
   const Table rows = sheet_at_steps(subject, sheet, scheme, {0.7, 2.2, 4.3, 7.0, 12.0}, 30);
   return {"monotonicity.overdamped-sheet.overshoot-is-bounded." + scheme,
           "On an overdamped sheet with stiffness scheme " + scheme +
-              " overshoots or turns back by less than the way itself, in positions, and less than "
-              "twice the speed of the start, in velocities.",
+              " overshoots or turns back by less than the displacement in positions, and by less "
+              "than twice the starting speed in velocities.",
           {{worst_of_both(rows), 2, 0, "ways or speeds",
-            "derived without stiffness: a velocity is multiplied by (1 - a)/(1 + a), more than -1, "
-            "so that it swings by less than twice its size; that part of a position that decays "
-            "fast overshoots by less than itself"},
+            "derived without stiffness: a velocity is multiplied by (1 - a)/(1 + a) > -1, so it "
+            "changes by less than twice its size; the part of a position that decays fast "
+            "overshoots by less than itself"},
            rows,
            ""}};
 }
@@ -102,8 +102,8 @@ NamedFinding sheet_swings(const Subject& subject, const DampedMotion& sheet,
           "On an overdamped sheet with stiffness velocities change sign under " + scheme +
               " at steps with h c/2 > 2, by more than a tenth of those at the start.",
           {{worst.value(), 1, 0, "1",
-            "each swing is to be a tenth of the velocity at the start or more: measured is a tenth "
-            "over the smallest of the four"},
+            "each reversal must reach a tenth of the starting velocity: measured is a tenth over "
+            "the smallest of the four"},
            rows,
            ""}};
 }
@@ -135,8 +135,8 @@ Figure sheet_figure(const std::string& name, const std::string& of) {
           {"h c/2 of the fastest mode", "1", Scale::log},
           {"largest overshoot or way back of a mode, over its start", "1", Scale::log},
           nan,
-          "Every mode starts displaced and on its way to rest. All modes are damped at least four "
-          "times critically. Curves of methods that are monotone everywhere are empty and left "
+          "Every mode starts displaced and moving towards rest. All modes have at least four times "
+          "the critical damping. Curves of methods that are monotone everywhere are empty and left "
           "out; where one ends to the right, the method is unstable. BDF2 is started exactly.",
           {}};
 }
@@ -182,9 +182,7 @@ Table closing_table(const Subject& subject, const DampedMotion& hinge) {
                 run.work.unfinished_solves);
     }
   return {"closing-hinge",
-          "An overdamped hinge that closes by nearly two radians: what fully implicit methods make "
-          "of it",
-          table};
+          "Fully implicit methods on an overdamped hinge that closes by nearly two radians", table};
 }
 
 }  // namespace

@@ -64,7 +64,7 @@ double decay_of(const oracles::Factors& factors);
 constexpr double factor_noise = 1e-7;
 constexpr const char* why_factor_noise =
     "a thousand times the solver's tolerance of 1e-10, which is of the momentum of all modes "
-    "together; displacements of 1e-7 m leave slopes of 1e-6, the square of which is lost in that";
+    "together; displacements of 1e-7 m leave slopes of 1e-6, whose square is lost in that";
 
 /// The undamped sheet of a study.
 struct VibratingSheet {

@@ -33,7 +33,7 @@ Trend trend_of(const std::vector<double>& times, const std::vector<double>& valu
   if (times.size() != values.size() || blocks < 3 || times.empty() ||
       !(times.back() > times.front()))
     throw InputError(
-        "trend_of: needs as many times as values, ascending, and three blocks at least");
+        "trend_of: needs as many times as values, in ascending order, and at least three blocks");
   Trend trend;
   average(times, values, blocks, trend);
 

@@ -91,17 +91,17 @@ StudyResult run_hinge_order(const Subject& subject, Tier tier, const Progress& p
 }  // namespace
 
 Study hinge_time_order_study() {
-  return {"time-order.hinge",
-          "Schemes A, B and C are second order in x and v on a nonlinear, damped, driven hinge, "
-          "with constant, alternating and random steps.",
-          "BMF03 section 3",
-          "Two triangles share a fixed edge; one opposite corner follows a periodic path, the "
-          "other is free. Springs and bending are both damped, gravity pulls, and the angle goes "
-          "through a large part of its range, so that nothing is linear and the forces depend on "
-          "time. Each scheme runs with constant, alternating and random steps; a finer level "
-          "halves every step of the coarser one. The end is compared with a solution by GSL, which "
-          "shares no formula with the solver.",
-          run_hinge_order};
+  return {
+      "time-order.hinge",
+      "Schemes A, B and C are second order in x and v on a nonlinear, damped, driven hinge, with "
+      "constant, alternating and random steps.",
+      "BMF03 section 3",
+      "Two triangles share a fixed edge; one opposite corner follows a periodic path, the other is "
+      "free. Springs and bending are both damped, gravity pulls, and the angle covers a large part "
+      "of its range, so that nothing is linear and the forces depend on time. Each scheme runs "
+      "with constant, alternating and random steps; a finer level halves every step of the coarser "
+      "one. The end is compared with a solution by GSL, which shares no formula with the solver.",
+      run_hinge_order};
 }
 
 }  // namespace foldproof

@@ -98,13 +98,13 @@ NamedFinding finding_of(const Table& rounding, const Table& seeded) {
                  own[i] / (epsilon * side * steps[i] * grown.value()));
   }
   return {"mirror-symmetry.only-rounding-breaks-it",
-          "A symmetric sheet stays symmetric but for rounding, which grows no faster than a "
-          "disturbance put in by hand.",
+          "A symmetric sheet stays symmetric up to rounding, which grows no faster than a "
+          "deliberate disturbance.",
           {{evidence.worst("rounding over epsilon * side * steps * growth"), 16, 0,
             "epsilon * side * steps * growth",
             "a step rounds x, v and the dozen forces on a particle in their last digits; sixteen "
-            "is all of these erring to one side, and each grows from then on as the disturbance "
-            "has grown from the start"},
+            "assumes that all err to the same side, and each error grows from then on as the "
+            "disturbance grows from the start"},
            evidence,
            "the disturbance grows by " + std::to_string(growth_rate(seeded)) +
                " per second in the exponent"}};
@@ -135,8 +135,7 @@ StudyResult run_mirror_symmetry(const Subject& subject, Tier tier, const Progres
 
 Study mirror_symmetry_study() {
   return {"mirror-symmetry",
-          "What is symmetric stays so, but for rounding that grows as the motion's own instability "
-          "lets it.",
+          "Symmetry is kept, up to rounding that grows with the motion's own instability.",
           "our test of BMF03 section 3",
           "A sheet with a plane of symmetry, held at two corners, falls from the horizontal, "
           "swings and crumples. The balance of its two halves is unstable, so that rounding grows; "

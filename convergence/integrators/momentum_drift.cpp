@@ -113,7 +113,7 @@ NamedFinding kept(const Drift& drift, const std::string& material) {
   Finding finding{
       {drift.levels.worst("drift in roundings"), 16, 0, "epsilon, a step, of sum m|x||v|",
        "a step rounds x and v of each particle once, and the dozen or so forces on it, each at "
-       "most about m|v|/h, in their last digits; sixteen is all of these erring to one side"},
+       "most about m|v|/h, in their last digits; sixteen assumes that all err to the same side"},
       with_columns(drift.levels, {"step", "relative drift", "drift in roundings"}),
       ""};
   return {"momentum-drift." + material + "-angular-is-conserved." + drift.scheme,
@@ -177,9 +177,9 @@ NamedFinding linear_is_kept(const Drifts& drifts) {
           "The linear momentum of a free sheet is kept to rounding under " + drifts.damped.scheme +
               ", damped or not, however early a solve stops.",
           {{drift.worst("drift in roundings"), 1, 0, "epsilon, a step, of sum m|v|",
-            "forces come in sums of zero and every iterate of a solve differs from its guess by "
-            "such forces: what is left are the roundings of each particle's velocity, half an "
-            "epsilon of it at most, some of either sign"},
+            "forces sum to zero, and every iterate of a solve differs from its guess by such "
+            "forces: only the roundings of each particle's velocity are left, at most half an "
+            "epsilon of it, of either sign"},
            drift,
            ""}};
 }
@@ -223,7 +223,7 @@ Figure figure_of(const std::string& name, const std::string& material,
                 {"relative drift of angular momentum", "1", Scale::log},
                 2,
                 "Change of the angular momentum from the start to the end of the run, over its "
-                "size. Curves without slope are rounding, or the tolerance of solves.",
+                "size. Level curves are rounding, or the tolerance of solves.",
                 {}};
   for (const Drift* drift : drifts) {
     Curve curve = curve_of(drift->scheme, relative_drift(*drift));
@@ -282,8 +282,8 @@ Study momentum_drift_study() {
           "BMF03 section 3; Hairer, Lubich, Wanner, section IV.2",
           "An irregular sheet, bent, stretched and spinning, flies without any force from outside. "
           "All forces keep angular momentum call by call; a method keeps it only if the velocity "
-          "that moves the positions is parallel in sum to the one that carries the momentum. The "
-          "drift from start to end is measured while the step is halved.",
+          "that moves the positions agrees, in the sum of cross products, with the velocity that "
+          "carries the momentum. The drift from start to end is measured while the step is halved.",
           run_momentum_drift};
 }
 

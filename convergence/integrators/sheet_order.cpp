@@ -67,7 +67,7 @@ Study sheet_time_order_study() {
           "constant, alternating and random steps.",
           "BMF03 section 3",
           "A sheet of squares, rows split along alternating diagonals, hangs by its two upper "
-          "corners, which are led to and fro. It is released from a wavy shape with a wavy "
+          "corners, which are moved to and fro. It is released from a wavy shape with a wavy "
           "velocity; springs and bending are both damped. Everything else is as in the study of "
           "the hinge, with the solution by GSL over all free particles.",
           run_sheet_order};

@@ -17,8 +17,8 @@ namespace {
 constexpr int pairs_judged = 3;
 constexpr double bound = 0.1;
 constexpr const char* why_bound =
-    "design bound on |order - expected| over the last three pairs: another order is off by 1, and "
-    "the evidence shows, pair by pair, what the error's next term leaves";
+    "chosen bound on |order - expected| over the last three pairs: another order is off by 1, and "
+    "the evidence shows the effect of the error's next term, pair by pair";
 
 std::string in_words(int order) {
   const std::array<std::string, 5> words = {"zeroth", "first", "second", "third", "fourth"};
@@ -142,7 +142,7 @@ NamedFinding finding_of(const OrderProblem& problem, const Run& run, const Quant
 /// variable steps.
 NamedFinding newmark_with_variable_steps(const OrderProblem& problem,
                                          const std::vector<Run>& runs) {
-  constexpr double second = 2;  // in the paper's words, whatever the table says
+  constexpr double second = 2;  // the paper's claim, regardless of the table
   Worst deviation, uncertainty;
   Table orders{{"steps", "1"}, {"error in", "1"}, {"order of the last pair", "1"}};
   for (const Run& run : runs) {

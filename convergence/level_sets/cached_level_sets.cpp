@@ -98,7 +98,7 @@ NamedFinding runs_with_cached_level_sets_agree() {
   };
   return {
       "level-set-cache.runs-are-bitwise-equal",
-      "A run whose bodies come from kept level sets ends as one that computes them, bit for bit.",
+      "A run whose bodies come from stored level sets ends as one that computes them, bit for bit.",
       {{differs(first) + differs(second) + std::abs(early) + std::abs(loaded - early - 3), 0, 0,
         "1",
         "values are stored in full: no bit may differ, and the second run loads all three bodies"},
@@ -139,8 +139,8 @@ NamedFinding unfit_grids_are_rejected() {
                     reason.substr(std::min(reason.size(), reason.rfind('/'))));
   }
   return {"level-set-cache.invalid-grids-are-rejected",
-          "A kept grid that is cut, damaged, foreign or of another mesh is refused with the "
-          "reason, and replaced.",
+          "A stored grid that is truncated, damaged, of another format or of another mesh is "
+          "refused with the reason, and replaced.",
           judge_worst(answers, "refused or replaced wrongly", 0,
                       "each must be refused and said so, and the new file be good")};
 }

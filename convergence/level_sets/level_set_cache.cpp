@@ -98,8 +98,7 @@ NamedFinding loaded_is_the_same(Costs& costs) {
   const double wrong = (built.was_loaded ? 1 : 0) + (loaded.was_loaded ? 0 : 1) +
                        different_answers(*built.body, *loaded.body);
   return {"level-set-cache.loaded-fields-are-bitwise-equal",
-          "Level sets that were computed before are loaded, and answer bit for bit as those that "
-          "were computed.",
+          "Stored level sets are loaded, and answer bit for bit as the computed ones.",
           {{wrong, 0, 0, "1", "values are stored in full"},
            {},
            "measured is the number of answers that differ"}};
@@ -205,8 +204,8 @@ NamedFinding unfit_files_are_rejected() {
         name_at == std::string::npos ? "no file" : rebuilt.why_rejected.substr(name_at + 3));
   }
   return {"level-set-cache.invalid-files-are-rejected",
-          "A file that is cut, damaged, foreign or computed from something else is refused with "
-          "the reason, and replaced.",
+          "A file that is truncated, damaged, of another format or computed from other input is "
+          "refused with the reason, and replaced.",
           judge_worst(answers, "refused or replaced wrongly", 0,
                       "each must be refused, and the new file be good")};
 }
@@ -232,7 +231,7 @@ Study level_set_cache_study() {
           "their time or less; invalid files are rejected.",
           "BMF03 section 5.1",
           "A whole animation's level sets are stored in a file with the key of what they were "
-          "computed from. What does a second run pay, and can it be fooled?",
+          "computed from. How much does a second run still cost, and can it be fooled?",
           run_level_set_cache};
 }
 

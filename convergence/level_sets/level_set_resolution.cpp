@@ -202,8 +202,8 @@ void add_crude_start(const std::vector<int>& cells, StudyResult& result) {
   result.findings.push_back({"level-set-resolution.crude-start.contour-is-within-half-a-cell",
                              "The crude start leaves the surface off by half a cell at most.",
                              {{farthest.value(), 0.5, 0, "cells",
-                               "sides alone put the crossing in the middle of an edge, at most "
-                               "half a cell from where it is"},
+                               "inside/outside alone puts the crossing in the middle of an edge, "
+                               "at most half a cell from its true place"},
                               columns_of(offset, "cells"),
                               "measured is the largest offset on any of the grids"}});
   const Convergence angle = against_h(crude, &ContourErrors::mean_angle);
@@ -258,11 +258,11 @@ Study level_set_resolution_study() {
       "From exact values next to the surface second-order marching errs by O(h^2) in the mean; "
       "from the paper's crude start it errs by O(h), and the normals at the surface stay wrong.",
       "BMF03 section 5.1",
-      "How fine must a grid be, and what does the start cost? Bodies whose distance is known in "
-      "closed form are put on grids whose spacing is halved. Measured are the distance at the "
-      "nodes after fast marching of both orders, what trilinear interpolation and two kinds of "
-      "gradients add between exact nodes, and the surface and the normals that a start from sides "
-      "alone leaves behind.",
+      "How fine must a grid be, and how much accuracy does a crude start lose? Bodies with a "
+      "closed-form distance are sampled on grids whose spacing is halved. Measured are the "
+      "distance at the nodes after fast marching of both orders; the errors that trilinear "
+      "interpolation and two kinds of gradients add between exact nodes; and the surface and "
+      "normals after a start from inside/outside alone.",
       run_level_set_resolution};
 }
 

@@ -119,8 +119,8 @@ NamedFinding carried_errs_less(const std::vector<Pair>& pairs) {
   Worst worst;
   for (std::size_t i = 0; i < 2; ++i) worst.observe(pairs[i].carried / pairs[i].blended);
   return {"level-sets-in-time.carried-error-is-smaller",
-          "Carried along with the body, phi errs by less than a half of what it errs if blended at "
-          "the point.",
+          "Carried along with the body, phi has less than half the error of phi blended at a fixed "
+          "point.",
           {{worst.value(), 0.5, 0, "1",
             "a half: then it saves more than a quarter of the frames, 1 - 1/sqrt(2), both errors "
             "falling with the interval squared"},
@@ -135,10 +135,10 @@ NamedFinding frame_is_cheap(const std::vector<Pair>& pairs, int depth) {
   Worst worst;
   for (const Pair& pair : pairs) worst.observe(pair.evaluations / nodes);
   return {"level-sets-in-time.frames-compute-few-distances",
-          "A frame of a deforming body asks for a tenth of the distances that a whole grid as fine "
-          "would need.",
+          "A frame of a deforming body needs a tenth of the distances that a full grid of the same "
+          "spacing would need.",
           {{worst.value(), 0.1, 0, "1",
-            "a tenth: what lies beyond the band is sampled only as finely as it must be"},
+            "a tenth: beyond the band the octree is sampled only as finely as needed"},
            {{"time between frames", "s", column(pairs, &Pair::interval)},
             {"distances for the first frame", "1", column(pairs, &Pair::evaluations)},
             {"nodes of the grid", "1", std::vector<double>(pairs.size(), nodes)}},
@@ -148,10 +148,10 @@ NamedFinding frame_is_cheap(const std::vector<Pair>& pairs, int depth) {
 NamedFinding fast_bodies_keep_little(const std::vector<Pair>& pairs) {
   return {"level-sets-in-time.fast-bodies-reuse-little",
           "A body that moves by more than its radius between two frames leaves few nodes of the "
-          "first as they were: nearly all are looked for anew.",
+          "first unchanged: nearly all are computed again.",
           {{pairs.front().kept, 0.1, 0, "1",
-            "a tenth: a node farther from the surface than the way keeps its nearest point, and "
-            "few of them are in the cube"},
+            "a tenth: only a node farther from the surface than the displacement keeps its nearest "
+            "point, and the cube has few of these"},
            {{"longest way of a vertex", "m", column(pairs, &Pair::largest_displacement)},
             {"nodes that keep their nearest point", "1", column(pairs, &Pair::kept)}},
            ""}};
@@ -212,7 +212,7 @@ Study level_sets_in_time_study() {
           "faster than with first order.",
           "BMF03 section 5.1",
           "How many frames must be stored? A body deforms smoothly; two frames of it lie about one "
-          "time, ever closer, and phi between them is held against the exact distance to the mesh "
+          "time, ever closer, and phi between them is compared with the exact distance to the mesh "
           "at that time.",
           run_level_sets_in_time};
 }

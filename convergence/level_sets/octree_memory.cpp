@@ -153,7 +153,7 @@ NamedFinding even_curve_takes_more(const std::vector<Balance>& all) {
           "the grid's memory.",
           {{0.1 / share_of_grid(finest(all, "sphere")), 1, 0, "1",
             "measured is a tenth over the share: below 1 the share is larger. The band's cells "
-            "must all be as small as the grid's, and a leaf takes the room of four nodes"},
+            "must all be as small as the grid's, and a leaf takes the memory of four nodes"},
            evidence_of(all, "sphere"),
            ""}};
 }
@@ -213,7 +213,7 @@ Figure figure_of(const std::vector<Balance>& all) {
                 {"memory", "MB", Scale::log},
                 nan,
                 "The cube is 1 m wide. A grid of n cells along each axis has (n + 1)^3 values; "
-                "each octree misses by no more than the grid beside it.",
+                "each octree's error is at most that of the grid beside it.",
                 {}};
   for (const char* const body : {"sphere", "torus", "box", "statue"}) {
     Curve grid{std::string(body) + ", grid", {}, {}, nan, {}},
@@ -276,15 +276,14 @@ StudyResult run_octree_memory(const Subject&, Tier tier, const Progress& progres
 }  // namespace
 
 Study octree_memory_study() {
-  return {
-      "octree-memory",
-      "An octree takes less memory than a regular grid of the same error on boxes and bumpy "
-      "bodies; on a sphere and a torus it does from 128 cells along each axis on, and not at 64.",
-      "BMF03 section 5.1",
-      "How much does adaptive sampling save? For bodies with even curvature, sharp edges and "
-      "bumps, a regular grid and the coarsest octree that misses by no more, both in double "
-      "precision. The octree may use cells of half the grid's width where it needs them.",
-      run_octree_memory};
+  return {"octree-memory",
+          "An octree takes less memory than a regular grid of the same error on boxes and bumpy "
+          "bodies; on a sphere and a torus only from 128 cells along each axis on, not at 64.",
+          "BMF03 section 5.1",
+          "How much does adaptive sampling save? For bodies with even curvature, sharp edges and "
+          "bumps, a regular grid and the coarsest octree with no larger error, both in double "
+          "precision. The octree may use cells of half the grid's width where it needs them.",
+          run_octree_memory};
 }
 
 }  // namespace foldproof

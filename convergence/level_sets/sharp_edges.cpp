@@ -115,11 +115,11 @@ void add_row(const EdgeErrors& errors, Table& table) {
 }
 
 NamedFinding reach_finding(const Sampling& sampling) {
-  return {
-      "sharp-edges.normals-blend-near-edges-only." + sampling.name,
-      "On " + sampling.words + " N is the face's but for a few cells next to an edge.",
-      judge_worst(sampling.errors, "reach", sampling.looks, sampling.why_looks,
-                  "measured is the farthest from the edge that N is off by more than a degree")};
+  return {"sharp-edges.normals-blend-near-edges-only." + sampling.name,
+          "On " + sampling.words + " N is the face's but for a few cells next to an edge.",
+          judge_worst(sampling.errors, "reach", sampling.looks, sampling.why_looks,
+                      "measured is the largest distance from the edge at which N is off by more "
+                      "than a degree")};
 }
 
 NamedFinding angle_finding(const Sampling& sampling) {
@@ -129,8 +129,8 @@ NamedFinding angle_finding(const Sampling& sampling) {
           "On " + sampling.words +
               " refinement narrows the strip of blended normals, but not their error.",
           {{std::abs(last / first - 1), 0.2, 0, "1",
-            "next to an edge the samples of every spacing are alike but for where the edge lies "
-            "among them, of which 6000 places are tried: a fifth is left for chance"},
+            "next to an edge the samples of every spacing look alike except for where the edge "
+            "lies among them; 6000 places are tried, and a fifth is left for chance"},
            sampling.errors,
            "measured is the change of the largest angle from the coarsest to the finest"}};
 }
@@ -138,14 +138,13 @@ NamedFinding angle_finding(const Sampling& sampling) {
 NamedFinding phi_finding(const Sampling& sampling) {
   const Estimate deviation =
       order_deviation(convergence_of(sampling.errors, "largest miss of phi"), 1, 2);
-  return {
-      "sharp-edges.phi-is-first-order." + sampling.name,
-      "On " + sampling.words + " the surface misses an edge by a part of a cell.",
-      {{deviation.value, 0.2, deviation.uncertainty, "1",
-        "a kink of phi is cut off over a cell: order 1; the largest of 6000 random places is known "
-        "to a tenth or so, a fifth of an order between spacings of which one is half the other"},
-       sampling.errors,
-       "measured is |order - 1| of the last two pairs"}};
+  return {"sharp-edges.phi-is-first-order." + sampling.name,
+          "On " + sampling.words + " the surface misses an edge by a part of a cell.",
+          {{deviation.value, 0.2, deviation.uncertainty, "1",
+            "a kink of phi is cut off over a cell: order 1; the largest of 6000 random places is "
+            "known to a tenth or so, a fifth of an order between a spacing and its half"},
+           sampling.errors,
+           "measured is |order - 1| of the last two pairs"}};
 }
 
 Figure figure_of(const std::vector<Sampling>& samplings) {
@@ -154,8 +153,8 @@ Figure figure_of(const std::vector<Sampling>& samplings) {
                 {"spacing", "m", Scale::log},
                 {"distance from the edge", "m", Scale::log},
                 1,
-                "Farthest points of the faces of a box askew to the samples at which N is off by "
-                "more than a degree.",
+                "A box at an angle to the grid: the points of its faces farthest from an edge at "
+                "which N is off by more than a degree.",
                 {}};
   for (const Sampling& sampling : samplings) {
     const std::vector<double>&spacings = sampling.errors.numbers("spacing"),
@@ -198,8 +197,8 @@ StudyResult run_sharp_edges(const Subject&, Tier tier, const Progress& progress)
 Study sharp_edges_study() {
   return {"sharp-edges", "Sampled distances round off edges and blend the normals next to them.",
           "BMF03 section 5.1",
-          "How far from an edge is N not the face's, and how much does refinement help? A box "
-          "askew to the samples, exact values at the nodes.",
+          "How far from an edge does N differ from the face's normal, and how much does refinement "
+          "help? A box at an angle to the grid, with exact values at the nodes.",
           run_sharp_edges};
 }
 

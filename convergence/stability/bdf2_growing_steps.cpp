@@ -76,8 +76,8 @@ std::vector<NamedFinding> growing_steps(const std::string& where, const SteppedM
       {"variable-step-stability.BDF2.grows-above-that-ratio." + where,
        "Steps that grow by 2.43 make BDF2 grow without bound on " + where + ", though implicit.",
        {{1000 / grown, 1, 0, "1",
-         "p = 1.0077 to the power 600 is 98, summed up more than ten thousand; a thousand tells it "
-         "from what stays bounded"},
+         "p = 1.0077 to the power 600 is 98, and the sum exceeds ten thousand; a thousand "
+         "separates it from bounded motion"},
         Table{{"amplification after 600 steps", "1"}}.with_row(grown),
         "measured is a thousand over the amplification"}}};
 }

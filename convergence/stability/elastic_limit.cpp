@@ -52,8 +52,8 @@ NamedFinding exponent_of(const Regime& regime, const Table& limits) {
   Table evidence = with_columns(limits, {"width of a cell", "2/omega"});
   evidence.add({"exponent", "1", row_orders(exact)});
   const Verdict verdict{deviation.value, 0.05, 0, "1",
-                        "a whole exponent would be off by 1; what the border does to the fastest "
-                        "mode dies out as the cells become many"};
+                        "another whole exponent is off by 1; the border's effect on the fastest "
+                        "mode vanishes as the number of cells grows"};
   return {"elastic-limit.exponent." + regime.name,
           "With " + regime.words +
               ", the largest stable step is proportional to the cells' width to the power " +

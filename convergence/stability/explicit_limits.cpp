@@ -37,8 +37,8 @@ NamedFinding damping_exponent(const Damping& damping, Table limits, double expon
               "width to the power " +
               (exponent == 2 ? "two." : "three."),
           {{deviation.value, 0.1, 0, "1",
-            "another whole exponent is off by 1; what the border does to the fastest mode dies out "
-            "as the cells become many"},
+            "another whole exponent is off by 1; the border's effect on the fastest mode vanishes "
+            "as the number of cells grows"},
            std::move(limits),
            "measured is |exponent - expected| of the last pair; 2/rate is forward Euler's and "
            "RK2's limit, where damping decides"}};

@@ -168,7 +168,7 @@ NamedFinding damped_finding(const Table& limits) {
            limits,
            "measured is the largest |found/expected - 1|. Beyond their limit A and B grow too "
            "slowly at ratios of 10 and more for runs to tell it from decay: there the spectral "
-           "radius of the fastest mode's step does"}};
+           "radius of the fastest mode's step decides"}};
 }
 
 // ---- the study

@@ -44,7 +44,7 @@ NamedFinding sliver_collapse() {
   }
   return {"hard-limits.slivers-collapse-at-any-step",
           "A falling ribbon of triangles 1200 times as long as high shears until one has lost its "
-          "area, at the same time whatever the step: a limit of the model, not of the integration.",
+          "area, at the same time for every step: a limit of the model, not of the integration.",
           {{apart.value(), 1e-3, 0, "1",
             "a failure of the steps would come at another time when they are halved; second order "
             "leaves less than a thousandth"},

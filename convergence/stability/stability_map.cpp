@@ -144,9 +144,9 @@ std::string caption_of(const Integrator& method) {
   if (method.name == "A" || method.name == "B") return "Derived: the elastic limit everywhere.";
   if (method.name == "C")
     return "Derived: zeta + sqrt(1 + zeta^2) of the fastest mode, whose zeta refinement raises.";
-  return "Derived: where damping decides it falls as 1/zeta of the fastest mode, and refinement "
-         "raises zeta as one over the cells' width where springs decide that mode, as one over its "
-         "square where hinges do.";
+  return "Derived: where damping decides, the step falls as 1/zeta of the fastest mode. Refinement "
+         "raises zeta as one over the cells' width where springs decide that mode, and as one over "
+         "its square where hinges do.";
 }
 
 Map map_of(const Integrator& method, const MappedSheet& sheet, const Table& points) {
@@ -179,9 +179,9 @@ NamedFinding as_derived(const Integrator& method, const Springs& springs, const 
       "Over damping and resolution, with " + springs.words + ", the largest stable step of " +
           std::string(method.title) + " is that of the oscillator that the fastest mode is.",
       {{worst, 0.01, 0, "1",
-        "the bisection ends at a relative width of 3e-4, and beyond the limit of A and B, which "
-        "they leave most slowly, the radius exceeds 1 by a few thousandths of the relative excess, "
-        "of which 1e-6 counts; a limit that scaled otherwise would be off by factors"},
+        "the bisection ends at a relative width of 3e-4, and beyond the limit of A and B, where it "
+        "grows most slowly, the radius exceeds 1 by a few thousandths of the relative excess, and "
+        "1e-6 counts as growth; a limit with another scaling would be off by factors"},
        points,
        "measured is the largest relative deviation over the map"}};
 }

@@ -62,17 +62,17 @@ NamedFinding limit_finding(const Integrator& integrator, const Table& row) {
   const std::string name(integrator.name), title(integrator.title);
   const bool mixed = integrator.family == Family::mixed;
   const std::string what =
-      !mixed        ? "where its stability polynomial leaves 1, so that damping narrows it"
+      !mixed        ? "where its stability polynomial exceeds 1, so that damping narrows it"
       : name == "C" ? "2 (zeta + sqrt(1 + zeta^2)) over omega, so that damping widens it"
-                    : "2/omega whatever the damping";
-  return {
-      "stability-oscillator.limit-is-as-derived." + name,
-      "The largest stable step of " + title + " on the damped oscillator is " + what + ".",
-      {{largest_deviation(row, "largest stable omega h", "as known"), 1e-3, 0, "1",
-        "a tenth of a percent tells any two of these formulas apart; a spectral radius of 1 + 1e-8 "
-        "counts as growth, which errs by a ten-thousandth at most, where methods leave 1 slowest"},
-       row,
-       "measured is the largest relative deviation"}};
+                    : "2/omega for any damping";
+  return {"stability-oscillator.limit-is-as-derived." + name,
+          "The largest stable step of " + title + " on the damped oscillator is " + what + ".",
+          {{largest_deviation(row, "largest stable omega h", "as known"), 1e-3, 0, "1",
+            "a tenth of a percent tells any two of these formulas apart; a spectral radius of 1 + "
+            "1e-8 counts as growth, which errs by a ten-thousandth at most, where the radius grows "
+            "most slowly"},
+           row,
+           "measured is the largest relative deviation"}};
 }
 
 /// Methods that leave the imaginary axis at once: first and second order.
@@ -192,14 +192,14 @@ StudyResult run_stability_oscillator(const Subject& subject, Tier tier, const Pr
 Study stability_oscillator_study() {
   return {
       "stability-oscillator",
-      "On the damped oscillator schemes A and B are stable up to 2/omega whatever the damping, C "
+      "On the damped oscillator schemes A and B are stable up to 2/omega for any damping, C "
       "further the more it is damped; explicit methods lose their step to the damping, implicit "
       "ones have no limit.",
       "BMF03 section 3",
       "One corner of a hinge moves across its plane, three are held: an oscillator whose frequency "
       "and damping follow by hand. Two unit disturbances, stepped once, make the matrix of a "
-      "method's step (four for BDF2, which looks back two states); its spectral radius is bisected "
-      "for the step at which it leaves 1, and compared with what is known of each method.",
+      "method's step (four for BDF2, which looks back two states); bisection finds the step at "
+      "which its spectral radius exceeds 1, which is compared with each method's known limit.",
       run_stability_oscillator};
 }
 

@@ -60,9 +60,9 @@ Table damped_limits(const Subject& subject, const Integrator& integrator, const 
 }
 
 const char* const why_percent =
-    "a spectral radius of 1 + 1e-6 counts as growth; where damping is heaviest radii leave 1 by a "
-    "hundredth of the step's excess, so that the limit is found to 1e-3 at least, and a limit that "
-    "fell with the damping would be off by factors";
+    "a spectral radius of 1 + 1e-6 counts as growth; where damping is heaviest radii exceed 1 by a "
+    "hundredth of the step's excess, so the limit is found to 1e-3; a limit that fell with the "
+    "damping would be off by factors";
 
 NamedFinding independence(const Integrator& integrator, const Damping& damping,
                           const Table& limits) {
@@ -94,7 +94,7 @@ NamedFinding as_known(const Integrator& integrator, const Damping& damping, cons
       "On a sheet with " + damping.words + " the largest stable step of " +
           std::string(integrator.title) +
           (mixed ? " is where 4 + 2 h C - h^2 K becomes singular."
-                 : " is where its stability polynomial leaves 1 at one of the sheet's rates: "
+                 : " is where its stability polynomial exceeds 1 at one of the sheet's rates: "
                    "damping narrows it."),
       {{largest_deviation(limits, "largest stable step", "as known"), 0.01, 0, "1", why_percent},
        limits,
@@ -156,7 +156,7 @@ Study stability_sheet_study() {
           "A small clamped sheet of springs and hinges is stepped from each unit disturbance: the "
           "matrix of the whole step, whose spectral radius is bisected while the damping rises by "
           "1e4. Under refinement the largest rate of the damping is found by power iteration. The "
-          "paper's example, cells of a tenth, is counted out and confirmed by runs.",
+          "paper's example, cells of a tenth, is computed and confirmed by runs.",
           run_stability_sheet};
 }
 

@@ -75,15 +75,14 @@ NamedFinding grows_with_damping(Table table) {
   add_column(table, "omega h |h c/2 - 1|",
              [](double omega_h, double a) { return omega_h * std::abs(a - 1); });
   const double worst = largest_ratio(table, "omega h |h c/2 - 1|", "growth");
-  return {
-      "transient-growth.A.grows-with-damping",
-      "Though stable, scheme A carries a damped disturbance to omega h |h c/2 - 1| times its size "
-      "at least, in the norm of the energy: in proportion to the damping and without bound.",
-      {{worst, 1, 1e-9, "1",
-        "its explicit half step moves a particle by h (1 - h c/2) times its velocity: one entry of "
-        "the step matrix, which no norm can be below"},
-       std::move(table),
-       "measured is the largest omega h |h c/2 - 1| over the growth"}};
+  return {"transient-growth.A.grows-with-damping",
+          "Though stable, scheme A amplifies a damped disturbance by at least omega h |h c/2 - 1| "
+          "in the energy norm: in proportion to the damping and without bound.",
+          {{worst, 1, 1e-9, "1",
+            "its explicit half step moves a particle by h (1 - h c/2) times its velocity: one "
+            "entry of the step matrix, which no norm can be below"},
+           std::move(table),
+           "measured is the largest omega h |h c/2 - 1| over the growth"}};
 }
 
 NamedFinding exponent_in_damping(const Subject& subject) {
@@ -105,8 +104,8 @@ NamedFinding bounded_finding(const std::string& scheme, Table table) {
   const double worst = largest_ratio(table, "growth", "undamped growth");
   return {"transient-growth.growth-is-bounded." + scheme,
           "Scheme " + scheme +
-              " never carries a disturbance of the oscillator further than it does without "
-              "damping, 1/sqrt(1 - (omega h/2)^2) of its size.",
+              " never amplifies a disturbance of the oscillator more than it does without damping, "
+              "by 1/sqrt(1 - (omega h/2)^2).",
           {{worst, 1, 1e-9, "1",
             "the undamped leapfrog keeps v^2 + (1 - (omega h/2)^2) omega^2 x^2, and damping should "
             "take from it only"},
@@ -166,7 +165,7 @@ NamedFinding sheet_bound(const Table& found, const std::string& scheme) {
   const double bound = oracles::undamped_growth(2 * part_of_limit);
   return {"transient-growth.sheet-growth-is-bounded." + scheme,
           "On a sheet whose stiffness and damping do not commute, scheme " + scheme +
-              " carries no disturbance further than the undamped sheet's fastest mode would be.",
+              " amplifies no disturbance more than the undamped sheet's fastest mode.",
           {{found.worst(scheme) / bound, 1, 1e-6, "1",
             "1/sqrt(1 - (omega h/2)^2) of the fastest mode, without damping"},
            growth_of(found, scheme),
@@ -176,8 +175,8 @@ NamedFinding sheet_bound(const Table& found, const std::string& scheme) {
 NamedFinding sheet_excess(const Table& found) {
   const double first = found.numbers("A").front(), last = found.numbers("A").back();
   return {"transient-growth.A.sheet-growth-exceeds-tenfold",
-          "On the sheet scheme A carries heavily damped disturbances to more than ten times what "
-          "it does lightly damped ones, and ever further.",
+          "On the sheet scheme A amplifies heavily damped disturbances more than ten times as much "
+          "as lightly damped ones, and without bound.",
           {{10 * first / last, 1, 0, "1", "an order of magnitude; the damping rises by four"},
            growth_of(found, "A"),
            "measured is ten times the first growth over the last"}};
@@ -238,8 +237,8 @@ StudyResult run_transient_growth(const Subject& subject, Tier tier, const Progre
 
 Study transient_growth_study() {
   return {"transient-growth",
-          "For highly damped material scheme A, though stable, carries disturbances far beyond "
-          "their size, in proportion to the damping; B and C never further than undamped motion.",
+          "For highly damped material scheme A, though stable, amplifies disturbances in "
+          "proportion to the damping; B and C never amplify them more than undamped motion does.",
           "BMF03 section 3",
           "A step whose spectral radius is at most 1 may still amplify on the way, if its "
           "eigenvectors are not orthogonal. Measured is the largest norm of the first powers of "

@@ -41,7 +41,7 @@ NamedFinding resonance_finding(const Subject& subject, const std::string& scheme
       either.value() / pair, 0.5, 0, "1",
       "growth by more than two in each pair of steps is no rounding, and no slow drift"};
   return {"variable-step-stability.alternating-steps-resonate." + scheme,
-          "Undamped, steps of .69/omega and 1.99/omega in turn make scheme " + scheme +
+          "Undamped, alternating steps of 0.69/omega and 1.99/omega make scheme " + scheme +
               " grow, though each alone is stable: a step below the limit does not suffice if "
               "steps vary.",
           {verdict,
@@ -58,7 +58,7 @@ NamedFinding damped_finding(const Subject& subject, const std::string& scheme) {
     radii.row(zeta, stepped_radius(stepped_motion(subject, hinge_oscillator(zeta), scheme),
                                    short_step, long_step));
   return {"variable-step-stability.damping-removes-resonance." + scheme,
-          "A damping ratio of a half or more makes steps of .69/omega and 1.99/omega in turn "
+          "A damping ratio of a half or more makes alternating steps of 0.69/omega and 1.99/omega "
           "stable in scheme " +
               scheme + ".",
           judge_worst(radii, 1, "a spectral radius above 1 grows",
@@ -177,7 +177,7 @@ void add_sheet_findings(const Subject& subject, const std::string& scheme, Study
   result.findings.push_back(
       {"variable-step-stability.undamped-sheet-grows." + scheme,
        "An undamped sheet grows under scheme " + scheme +
-           " with steps of .69 and 1.99 over its highest frequency in turn.",
+           " with alternating steps of 0.69 and 1.99 over its highest frequency.",
        {{1e3 / undamped, 1, 0, "1",
          "a thousand times its size is beyond what bounded modes can add up to"},
         Table{{"largest size over the start's", "1"}}.with_row(undamped),
@@ -222,13 +222,13 @@ StudyResult run_variable_step_stability(const Subject& subject, Tier tier,
 Study variable_step_stability_study() {
   return {
       "variable-step-stability",
-      "Steps that are stable each by itself can resonate in turn: undamped, A, B and C more than "
-      "double in each pair of .69/omega and 1.99/omega; a damping ratio of a half cures it.",
+      "Steps that are stable alone can resonate when they alternate: undamped, A, B and C more "
+      "than double in each pair of 0.69/omega and 1.99/omega; a damping ratio of a half cures it.",
       "BMF03 section 3",
-      "The paper asks for a scheme whose step may vary. Two steps in turn are the product of two "
-      "step matrices, found by stepping a hinge whose corner is an oscillator, and compared with "
-      "the derived ones; the same steps are then taken on a sheet. BDF2 has a limit of its own: "
-      "steps must not grow by more than 1 + sqrt(2) each.",
+      "The paper asks for a scheme whose step may vary. Two alternating steps are the product of "
+      "two step matrices, found by stepping a hinge whose corner is an oscillator, and compared "
+      "with the derived ones; the same steps are then taken on a sheet. BDF2 has a limit of its "
+      "own: steps must not grow by more than 1 + sqrt(2) each.",
       run_variable_step_stability};
 }
 

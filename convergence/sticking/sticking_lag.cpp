@@ -86,11 +86,11 @@ void add_lags_of_long_steps(const Subject& subject, StudyResult& result) {
     }
   result.findings.push_back(
       {"sticking-lag.lag-grows-with-the-step-in-C",
-       "On a surface that moves by itself scheme C lags by 1 + q^2/(1 + q) times m a/k, q = h "
-       "tau_s k/(2 m): up to h tau_s a/2 more; A and B by m a/k.",
+       "On a moving surface scheme C lags by 1 + q^2/(1 + q) times m a/k, with q = h tau_s k/(2 "
+       "m): up to h tau_s a/2 more; A and B lag by m a/k.",
        {{largest_deviation(lags, "lag", "derived"), 1e-2, 0, "1",
-         "the surface turns by less than 0.01 in a step and by 0.04 in tau_s, in which time the "
-         "lag settles: its square is left; C lags up to six times as far as A"},
+         "the surface turns by less than 0.01 in a step and by 0.04 in tau_s, in which the lag "
+         "settles; errors are of the order of its square; C lags up to six times as far as A"},
         lags,
         "tau_s = 8/omega"}});
 }
@@ -119,7 +119,7 @@ Figure lag_figure(const Table& lags) {
           {"lag", "m", Scale::log},
           -1,
           "A particle of 2 g, 0.31 m from the axis, 3.1 rad/s. The plain spring's lag is the mean "
-          "of a swing that never ends; the forecast's is at rest.",
+          "of an oscillation that never decays; with forecasts the lag is steady.",
           {curve_of("plain spring, mean", lags, "stiffness", "plain spring, mean lag"),
            curve_of("with forecasts", lags, "stiffness", "with forecasts, lag"),
            curve_of("m a/k as derived", lags, "stiffness", "derived")}};
@@ -138,7 +138,8 @@ NamedFinding lag_finding(const Table& lags) {
 
 NamedFinding swing_finding(const Table& lags) {
   return {"sticking-lag.forecasts-damp-the-swing",
-          "Stuck with critical forecasts, tau_s = 2/omega, it comes to rest against its place.",
+          "With critical forecasts, tau_s = 2/omega, a stuck particle comes to rest relative to "
+          "its bond.",
           judge_worst(lags, 1e-3, "twelve times 2/omega leave (1 + 12) e^-12 = 8e-5 of m a/k")};
 }
 
@@ -147,12 +148,13 @@ NamedFinding plain_swing_finding(const Table& lags) {
   for (const double swing : lags.numbers("plain spring, swing over m a/k"))
     least_swing = std::min(least_swing, std::isnan(swing) ? -INFINITY : swing);
   return {"sticking-lag.plain-spring-swings-forever",
-          "A plain spring swings about its lag for ever, by as much again: it never holds a place.",
+          "A plain spring oscillates for ever about its lag, with an amplitude as large as the "
+          "lag: it never holds still.",
           {{1.9 - least_swing, 0, 0, "1",
-            "the swing is from nothing to twice m a/k; a tenth for where the steps fall and what k "
-            "fades"},
+            "it oscillates between 0 and twice m a/k; a tenth allows for where the steps fall and "
+            "for the fading of k"},
            lags,
-           "measured is what the smallest swing, over m a/k, lacks of 1.9"}};
+           "measured is 1.9 minus the smallest range of the oscillation over m a/k"}};
 }
 
 void add_lags(const Subject& subject, Tier tier, StudyResult& result) {
@@ -181,16 +183,16 @@ double derived_limit(const std::string& method, double omega_tau) {
 }
 
 NamedFinding limit_finding(const std::string& name, const Table& limits) {
-  return {"sticking-lag.limit-is-as-derived." + name,
-          "Scheme " + name + ": what sticks is stable in steps up to " +
-              (name == "C" ? "tau_s + sqrt(tau_s^2 + 4/omega^2)."
-                           : "2/omega, whatever its forecast time."),
-          {{largest_deviation(limits, "omega h, measured", "derived"), 1e-3, 0, "1",
-            "a radius of 1 + 1e-7 counts as growth, which errs by a ten-thousandth where the "
-            "radius leaves 1 slowest; the formulas for A, B and for C differ by more from tau_s = "
-            "2e-3/omega on"},
-           limits,
-           "measured is the largest relative deviation"}};
+  return {
+      "sticking-lag.limit-is-as-derived." + name,
+      "Scheme " + name + ": what sticks is stable in steps up to " +
+          (name == "C" ? "tau_s + sqrt(tau_s^2 + 4/omega^2)." : "2/omega, for any forecast time."),
+      {{largest_deviation(limits, "omega h, measured", "derived"), 1e-3, 0, "1",
+        "a radius of 1 + 1e-7 counts as growth, which errs by a ten-thousandth where the radius "
+        "leaves 1 slowest; the formulas for A, B and for C differ by more from tau_s = 2e-3/omega "
+        "on"},
+       limits,
+       "measured is the largest relative deviation"}};
 }
 
 void add_limits(const Subject& subject, Tier tier, StudyResult& result) {
@@ -199,8 +201,8 @@ void add_limits(const Subject& subject, Tier tier, StudyResult& result) {
                 {"forecast time times frequency", "1", Scale::log},
                 {"largest stable step times frequency", "1", Scale::log},
                 nan,
-                "A and B gain nothing from forecasts; C is stable in steps up to twice the "
-                "forecast time, however stiff the bond. Points are measured, lines derived.",
+                "Forecasts do not widen the limit of A and B; C is stable for steps up to twice "
+                "the forecast time, however stiff the bond. Points are measured, lines derived.",
                 {}};
   for (const Integrator& integrator : paper_schemes()) {
     const std::string name(integrator.name);
@@ -240,9 +242,10 @@ void add_layers(const Subject& subject, StudyResult& result) {
       {"sticking-lag.stiff-layers-need-forecasts",
        "Without forecasts the same bonds are unstable once omega h exceeds a few.",
        {{1 - least, 0, 0, "1",
-         "beyond its limit a plain spring's radius grows as (omega h)^2: far above 2 at 10"},
+         "beyond its limit a plain spring's spectral radius grows as (omega h)^2: far above 2 at "
+         "omega h = 10"},
         layers,
-        "measured is what the smallest radius less 1, of omega h = 10 and more, lacks of 1"}});
+        "measured is 2 minus the smallest spectral radius for omega h of at least 10"}});
 }
 
 // ---- cost
@@ -259,16 +262,15 @@ Table iterations_over_stiffness(const Subject& subject, Tier tier) {
 }
 
 NamedFinding cost_finding(const Table& iterations) {
-  return {
-      "sticking-lag.surface-bonds-add-few-iterations",
-      "Bonds to a surface cost a solve no more than the digits by which its first guess is worse.",
-      {{largest_ratio(iterations, "to a surface", "nothing sticks"), 1.4, 0, "1",
-        "what they add is k tau_s on the diagonal, which does not spread the spectrum; but the "
-        "guess, the explicit velocity, is off by up to 1e4 times as much: fourteen digits to go "
-        "and not ten"},
-       iterations,
-       "measured is the largest number of iterations over that where nothing sticks; bonds between "
-       "layers spread the spectrum, and cost more"}};
+  return {"sticking-lag.surface-bonds-add-few-iterations",
+          "Bonds to a surface add only the iterations that a worse first guess needs.",
+          {{largest_ratio(iterations, "to a surface", "nothing sticks"), 1.4, 0, "1",
+            "they add k tau_s to the diagonal, which does not spread the spectrum; but the error "
+            "of the first guess, the explicit velocity, grows up to 1e4 times: fourteen digits to "
+            "gain instead of ten"},
+           iterations,
+           "measured is the largest number of iterations over the number where nothing sticks; "
+           "bonds between layers spread the spectrum, and cost more"}};
 }
 
 void add_cost(const Subject& subject, Tier tier, StudyResult& result) {
@@ -308,10 +310,10 @@ Study sticking_lag_study() {
           "What sticks lags by m a/k, in scheme C by more the longer the step; forecasts end its "
           "swinging and, in scheme C, free the step of its stiffness.",
           "BMF03 section 6",
-          "A bond is a spring without length between where a particle and its target are forecast "
-          "to be. Forecasting both adds a damping of their relative velocity, which the schemes "
-          "take implicitly: against a plain spring it neither lags more nor less, but it comes to "
-          "rest, and in scheme C it is stable however stiff.",
+          "A bond is a spring of zero rest length between the forecast positions of a particle and "
+          "its target. Forecasting both adds damping of their relative velocity, which the schemes "
+          "treat implicitly: the bond lags as a plain spring does, but it comes to rest, and in "
+          "scheme C it is stable however stiff.",
           run_sticking_lag};
 }
 

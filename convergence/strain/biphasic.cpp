@@ -151,8 +151,8 @@ NamedFinding bar_finding(const PulledStrip& run) {
           "A strip of weak springs with a limit of +10 % is extended by its load as a bar whose "
           "strain grows with the load to 10 % and no further.",
           {{worst.value(), lag, 0, "of the limit",
-            "the strip lags behind its load by the time of a wave along it and that of its "
-            "damping, in which a bar is extended by this much"},
+            "the strip lags behind its load by the time a wave takes along it plus the damping "
+            "time; in that time a bar stretches by this much"},
            run.pulled,
            ""}};
 }
@@ -162,8 +162,8 @@ NamedFinding phases_finding(const PulledStrip& run) {
           "Beyond three times the load at which it begins to reach its limits, the strip gives way "
           "at most an eighth as much as it did before.",
           {{late_over_early(run), 0.125, 0, "1",
-            "a bar gives way (full load/load)^2 as much: between 1/9 and 1/16, 1/12 on average; "
-            "half as much again"},
+            "the compliance of a bar falls to (full load/load)^2 of its start: between 1/9 and "
+            "1/16, 1/12 on average; the bound allows half as much again"},
            run.pulled,
            "measured is the slope of extension over load from 3 to 4 times that load, over the "
            "slope up to 0.9 times it"}};
@@ -174,10 +174,11 @@ NamedFinding one_phase_finding(const std::vector<PulledStrip>& runs) {
   for (const PulledStrip& run : runs)
     if (!run.springs.is_limited) measured.row(run.springs.name, std::abs(late_over_early(run) - 1));
   return {"biphasic.springs-without-limits-have-one-phase",
-          "Without limits a strip gives way to the last as it did at first, weak or stiff springs.",
+          "Without limits a strip is as compliant at the end as at the start, with weak or stiff "
+          "springs.",
           judge_worst(measured, 0.25,
-                      "springs are linear, the load's way into the strip is not quite slow: far "
-                      "from the twelfth of a strip with limits")};
+                      "springs are linear, but the load grows in a finite time; a strip with "
+                      "limits would be off by 11/12")};
 }
 
 NamedFinding steps_finding(const PulledStrip& limited, const PulledStrip& stiff) {
@@ -188,11 +189,11 @@ NamedFinding steps_finding(const PulledStrip& limited, const PulledStrip& stiff)
     both.row(run.springs.name, run.step_limit, run.steps, run.sweeps, run.seconds,
              run.largest_strain);
   return {"biphasic.limits-allow-larger-steps",
-          "Springs that need no limit to stay within 10 % under the largest load are four times as "
-          "stiff, and take twice as many steps.",
+          "Springs stiff enough to stay within 10 % under the largest load without a limit are "
+          "four times as stiff, and take twice as many steps.",
           {{std::abs(ratio / std::sqrt(most) - 1), 0.05, 0, "1",
-            "the elastic limit is proportional to one over the square root of the stiffness; steps "
-            "are fitted to frames"},
+            "the elastic limit is inversely proportional to the square root of the stiffness; "
+            "steps are rounded to fit frames"},
            both,
            ""}};
 }
@@ -203,8 +204,8 @@ Figure figure_of(const std::vector<PulledStrip>& runs) {
                 {"load at the clamp", "N/m", Scale::linear},
                 {"mean extension", "1", Scale::linear},
                 nan,
-                "A strip pulled by one end, ever faster. The bar: strain proportional to the load "
-                "beyond, until it is the limit.",
+                "A strip pulled by one end, ever faster. The bar: its strain is proportional to "
+                "the load beyond each point, up to the limit.",
                 {}};
   for (const PulledStrip& run : runs)
     figure.curves.push_back(curve_of(run.springs.name, run.pulled, "load", "extension"));
@@ -248,12 +249,12 @@ Study biphasic_study() {
           "Weak springs with limits give way to a load at first and then at most an eighth as "
           "much; springs without limits that stretch as little take twice as many steps.",
           "BMF03 section 3, after Provot 1995",
-          "A strip without weight is pulled by one end with an acceleration that grows from "
-          "nothing: the load at its clamp is its mass times that. Its largest load is four times "
-          "what stretches a spring by the 10 % of the limit. Three strips: weak springs with "
+          "A weightless strip is pulled by one end with an acceleration that grows from zero; the "
+          "load at its clamp is its mass times the acceleration. The largest load is four times "
+          "the load that stretches a spring by 10 %, the limit. Three strips: weak springs with "
           "limits, the same without, and springs four times as stiff, which the largest load "
-          "stretches by 10 %. A strip pulled by both ends beyond its limits has no answer, and no "
-          "force that could be measured: hence the free end.",
+          "stretches by 10 %. If both ends were pulled beyond the limits, there would be no "
+          "solution and no force to measure: hence the free end.",
           run_biphasic};
 }
 

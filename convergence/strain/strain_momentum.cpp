@@ -90,8 +90,8 @@ NamedFinding kept(const std::string& scheme, const Table& drifts) {
       "Scheme " + scheme +
           " keeps the angular momentum of a free sheet at its strain limits to rounding.",
       {{drifts.worst("drift in roundings"), 16 + 12 * sweeps, 0, "epsilon, a step, of sum m|x||v|",
-        "sixteen roundings of x, v and the forces, all erring to one side, and two for each of "
-        "some six springs at a particle in each sweep"},
+        "sixteen roundings of x, v and the forces, all to the same side, and two in each sweep for "
+        "each of about six springs at a particle"},
        drifts,
        ""}};
 }
@@ -140,11 +140,10 @@ Study strain_momentum_study() {
           "rounding; A and C let it drift, by first order in the step.",
           "BMF03 section 3",
           "An undamped sheet spins and flaps at its strain limits. Each correction keeps angular "
-          "momentum. But A and C move the positions with the corrected velocity and carry on the "
+          "momentum. But A and C move positions with the corrected velocity and keep the "
           "uncorrected one: a step changes the momentum by h times the sum of m (corrected - "
-          "uncorrected) x v, which is the impulses' torque about where the other ends of their "
-          "springs go. Impulses that hold against a force are of the order of h, so a step errs by "
-          "h^2, and a run by h. B carries on the velocity that it moved with.",
+          "uncorrected) x v. Impulses that resist a force are of order h, so a step errs by h^2, "
+          "and a run by h. B keeps the velocity that it moved with.",
           run_strain_momentum};
 }
 

@@ -120,11 +120,11 @@ NamedFinding growth(const std::string& order, const Table& row) {
 
 NamedFinding mirror_finding(const Table& row) {
   return {"strain-sweeps.jacobi-is-mirror-symmetric",
-          "Sweeps that correct all springs from the same velocities answer a mirror-symmetric "
-          "motion by a mirror-symmetric one.",
+          "Sweeps that correct all springs from the same velocities turn a mirror-symmetric motion "
+          "into a mirror-symmetric one.",
           {{row.worst("asymmetry") / epsilon, 64, 0, "epsilon of the largest correction",
-            "only the order in which a particle's impulses are added differs between the two "
-            "sides, and the limits pull its roundings back from sweep to sweep"},
+            "the two sides differ only in the order in which a particle's impulses are added, and "
+            "the limits damp its rounding errors from sweep to sweep"},
            row,
            ""}};
 }
@@ -144,24 +144,23 @@ NamedFinding bias_finding(const std::vector<Row>& rows) {
     worst.observe(0.01 / row.sweeps.numbers("asymmetry").front());
   }
   return {"strain-sweeps.sequential-sweeps-break-mirror-symmetry",
-          "Sweeps that correct springs in turn answer a mirror-symmetric motion unsymmetrically, "
-          "alternating ones too.",
+          "Sweeps that correct springs one after the other break mirror symmetry, even if their "
+          "direction alternates.",
           {{worst.value(), 1, 0, "1",
             "measured is a hundredth of the largest correction over the asymmetry, on the coarsest "
-            "mesh: it is no small part"},
+            "mesh: the asymmetry exceeds a hundredth"},
            coarsest,
-           "The velocities within the limits are many; which of them is found depends on who is "
-           "asked first."}};
+           "Many velocities satisfy the limits; the order of the springs decides which is found."}};
 }
 
 NamedFinding energy(const std::vector<Row>& rows) {
   Worst worst;
   for (const Row& row : rows) worst.observe(row.sweeps.worst("kinetic energy left"));
   return {"strain-sweeps.kinetic-energy-decreases",
-          "Limiting the strain of a sheet that moves away from its place takes kinetic energy, in "
-          "whatever order.",
+          "Limiting the strain of a sheet that moves away from rest removes kinetic energy, in "
+          "every order.",
           {{worst.value(), 1, 0, "of what there was",
-            "springs within their limits at the start; what each impulse takes is relative motion "
+            "springs start within their limits, and each impulse only removes relative motion "
             "beyond them"},
            rows.front().sweeps,
            ""}};
@@ -209,8 +208,8 @@ Table table_of(const std::vector<Row>& rows) {
           stacked({"order", ""}, groups)};
 }
 
-/// Springs that are beyond their limits at the start are brought back in one step,
-/// whatever that takes.
+/// Springs that are beyond their limits at the start are brought back in one step, however many
+/// sweeps that takes.
 Table recovery_table() {
   Table table{{"length over rest length", "1"},
               {"kinetic energy given", "J"},
@@ -227,7 +226,7 @@ Table recovery_table() {
               energies(sheet.system, stretched).stretch, sweeps);
   }
   return {"brought-back",
-          "Kinetic energy that limits of +10 % give to a free sheet that rests stretched in all "
+          "Kinetic energy that limits of +10 % give to a free sheet at rest, stretched in all "
           "directions",
           table};
 }
@@ -269,13 +268,13 @@ Study strain_sweeps_study() {
           "order; only those that correct all springs at once keep mirror symmetry, and need more "
           "than three times as many.",
           "BMF03 section 3, after Provot 1995",
-          "A square sheet at rest is held along its upper edge, and all below is given the "
-          "velocity that takes it down by 8 % of its height in a step. Limits of 10 % let it come "
-          "down nearly so far, but only if every row takes its share: the news has to get from the "
-          "edge to the hem, a cell further a sweep at best, and back. Sweeps one spring after the "
-          "other in the order of the particles, alternately forwards and backwards, colour by "
-          "colour, and all at once are counted until no violation exceeds a thousandth of a rest "
-          "length. It measures the reference's own sweeps.",
+          "A square sheet at rest is held along its upper edge. All particles below get the "
+          "velocity that lowers them by 8 % of its height in a step. Limits of 10 % allow nearly "
+          "that much, but only if every row takes its share: corrections must travel from the edge "
+          "to the hem and back, at best one cell a sweep. Springs are corrected in the order of "
+          "the particles, alternately forwards and backwards, colour by colour, or all at once; "
+          "sweeps are counted until no violation exceeds a thousandth of a rest length. It "
+          "measures the reference's own sweeps.",
           run_strain_sweeps};
 }
 

@@ -104,7 +104,7 @@ TEST_CASE("a contradiction that fails leaves a claim undecided: it does not conf
     CHECK(with(holds, holds, limit, fails) == Ruling::undecided);
 }
 
-TEST_CASE("a contradiction that holds refutes, whatever else holds or fails") {
+TEST_CASE("a contradiction that holds refutes, regardless of all other findings") {
   for (const Outcome support : {holds, fails})
     for (const Outcome limit : {holds, fails})
       CHECK(with(support, holds, limit, holds) == Ruling::refuted);

@@ -131,8 +131,7 @@ NamedFinding step_errs_less(const std::vector<MeshRun>& meshes, const Table& err
       largest_ratio(errors, "error of the step", "error of the mesh"), 0.1, uncertainty.value(),
       "1", "a tenth: then a shorter step would lessen the whole error by no more than that"};
   return {"mesh-error.usual-step-error-is-below-a-tenth-of-it",
-          "At the share of the elastic limit that automatic steps take, the step's error is less "
-          "than a tenth of the mesh's.",
+          "With automatic steps, the step's error is less than a tenth of the mesh's.",
           {verdict, errors, "measured is the largest ratio of the two"}};
 }
 
@@ -199,11 +198,11 @@ Study mesh_error_study() {
           "the mesh does.",
           "ours",
           "How fine should the step be for my mesh? A sheet held along its upper edge swings by a "
-          "smooth velocity, on meshes each of which halves the cells of the one before. Errors of "
-          "the mesh come from neighbouring meshes at the particles that they share, with the "
-          "step's error extrapolated away; errors of the step from two steps on one mesh. Where "
-          "springs decide on the elastic limit it is proportional to the cells' width, so that "
-          "with second order in both, the ratio of the two errors is the same on every mesh.",
+          "smooth velocity, on meshes that each halve the cells of the one before. Errors of the "
+          "mesh come from neighbouring meshes at the particles that they share, with the step's "
+          "error extrapolated away; errors of the step from two steps on one mesh. Where springs "
+          "decide the elastic limit it is proportional to the cells' width, so that with second "
+          "order in both, the ratio of the two errors is the same on every mesh.",
           run_mesh_error};
 }
 

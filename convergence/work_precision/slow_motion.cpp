@@ -95,9 +95,9 @@ void add_slow_motion(const Subject& subject, StudyResult& result) {
                 {"h c/2", "1", Scale::log},
                 {"relative error of the rate", "1", Scale::log},
                 nan,
-                "An oscillator with a damping ratio of 20 creeps home; the rate under each scheme "
-                "against the exact one. C moves with a velocity that belongs to the start of the "
-                "step once the damping is not resolved.",
+                "An oscillator with a damping ratio of 20 creeps to rest: the rate under each "
+                "scheme against the exact one. Once the step does not resolve the damping, C moves "
+                "with a velocity that belongs to the step's start.",
                 {}};
   const Creeping motion = creeping(hinge_oscillator(zeta).omega0);
   for (const std::string scheme : {"A", "B", "C"}) {

@@ -53,16 +53,16 @@ Study work_precision_study() {
       "Which integrator should I use for my scene, at which step, and at what cost? Every method "
       "of the table runs four motions over a range of constant steps. The error is the largest "
       "position error at the end over the scene's own motion, which is the largest distance of any "
-      "particle from its start; the truth is GSL's or an extrapolated RK4's, and must agree with "
+      "particle from its start. The truth is from GSL or an extrapolated RK4, and must agree with "
       "an extrapolated scheme C (on the heavily damped sheet B, which keeps its order there). Work "
       "is counted in applications of force operators: evaluations of the elastic forces, "
       "preparations of the damping and of the elastic derivative, and products with either. One "
-      "application visits every spring and hinge once; they are not equally dear, so seconds of "
-      "the processor stand beside them, the least of a few runs: they scatter with what else the "
-      "machine does, so where they rank methods of like work otherwise than work does, believe the "
-      "work. Solves stop at 1e-8. The bound of the elastic limit is the solver's, from sums of "
-      "rows, and at most 2/omega. A step beyond it can be cheap on a short and damped motion, in "
-      "which instability has no time to grow; do not take it for a long one.",
+      "application visits every spring and hinge once. Applications differ in cost, so processor "
+      "seconds stand beside them, the least of a few runs. Seconds scatter with the load of the "
+      "machine: where they rank methods of similar work differently, believe the work. Solves stop "
+      "at 1e-8. The bound of the elastic limit is the solver's, from sums of rows, and at most "
+      "2/omega. A step beyond it can be cheap on a short, damped motion, in which instability has "
+      "no time to grow; do not use it for a long one.",
       run_work_precision};
 }
 

@@ -71,8 +71,8 @@ NamedFinding errors_fall(const PrecisionScene& scene) {
           "On " + scene.problem.description +
               ", errors fall with the step at the end of every method's range.",
           {verdict, shrinkages,
-           "measured is the largest factor that a halved step leaves of the error, from the two "
-           "finest runs that err ten times more than the reference" +
+           "measured is the largest ratio of the errors after and before a step is halved, from "
+           "the two finest runs whose error exceeds ten times the reference's" +
                (left_out.empty() ? "" : "; without two such runs within the budget:" + left_out)}};
 }
 

@@ -47,9 +47,8 @@ Curve curve_of(const PrecisionScene& scene, const PrecisionCurve& curve, const C
 
 const char* const caption =
     "Largest position error at the end over the largest motion. In the strip at the top: runs that "
-    "diverged or err by more than the motion, where all of their steps would have cost as much as "
-    "those that they took. The floor is the uncertainty of the reference solution; runs below it "
-    "are faint.";
+    "diverged or err by more than the motion; a diverged run is placed at the cost of all its "
+    "steps. The floor is the uncertainty of the reference solution; runs below it are faint.";
 
 /// Which curves have fewer than five runs that err more than the reference, and why.
 std::string short_curves(const PrecisionScene& scene) {

@@ -11,9 +11,12 @@ from typing import Any
 from data.case_digest import case_digest, case_files
 from data.unreadable import reading
 
-NEEDS = ("needed", "kept for a reason", "left out for a reason", "not needed here", "missing here", "not missed here")
+NO_EFFECT = "no effect if added"
+OLD_NEEDS = {"not missed here": NO_EFFECT}   # of version 0.1.0
+NEEDS = ("needed", "kept for a reason", "left out for a reason", "not needed here", "missing here",
+         NO_EFFECT)
 REASONED = {"not needed here": "kept for a reason", "missing here": "left out for a reason"}   # if the case gives one
-MARKS = {"needed": "\u25cf", "kept for a reason": "\u25d0", "left out for a reason": "\u25cb", "not missed here": "\u00b7"}
+MARKS = {"needed": "\u25cf", "kept for a reason": "\u25d0", "left out for a reason": "\u25cb", NO_EFFECT: "\u00b7"}
 WRONG = "\u2715"                # not needed, or missing, without a reason; or a reason for nothing
 KINDS = ("gravity", "springs", "damping of springs", "bending", "damping of bending", "rest angles", "held particles", "objects", "friction of objects",
          "points between particles", "sticky parts", "strain limits", "self-collision")   # of parts, in the order of the paper
@@ -26,10 +29,10 @@ class PartNeed:
     """A part of a scene, run without it if it is there, else with it."""
     name: str
     present: bool
-    need: str                  # needed, not needed here, missing here or not missed here
+    need: str                  # needed, not needed here, missing here or NO_EFFECT
     because: str
     declared: str              # why the case has it, or leaves it out, all the same; or ""
-    fits: bool                 # as the program says: needed, or not missed, or a reason is given, and only then
+    fits: bool                 # as the program says: needed, or of no effect if added, or a reason is given, and only then
     moved: float               # by how much positions differ [m]
     energy: float              # by how much the energy differs [J]
     crossings: float           # pairs of an edge and a triangle that meet, most of a frame, in that run
@@ -110,7 +113,7 @@ class Needs:
         said = {"needed": "needed", "kept for a reason": "not needed, and kept for a reason that the case gives",
                 "left out for a reason": "missing, and left out for a reason that the case gives",
                 "not needed here": "not needed, without a reason", "missing here": "missing, without a reason",
-                "not missed here": "not there, and not missed"}
+                NO_EFFECT: "absent, and of no effect if added"}
         counts = {standing: self.count(standing) for standing in NEEDS}
         return " ".join(f"{count} part{'s are' if count != 1 else ' is'} {said[standing]}." for standing, count in counts.items() if count)
 
@@ -153,7 +156,7 @@ def _case(row: dict[str, Any], program: dict[str, Any], *, recorded: bool, chang
 def _part(part: dict[str, Any], scene: dict[str, Any]) -> PartNeed:
     run = part["run"]
     work = [(words, run[key] / scene[key]) for key, words in COUNTED.items() if scene[key] and run[key] != scene[key]]
-    return PartNeed(part["name"], part["present"], part["need"], part["because"], part["declared"], part["as_it_should_be"],
+    return PartNeed(part["name"], part["present"], OLD_NEEDS.get(part["need"], part["need"]), part["because"], part["declared"], part["as_it_should_be"],
                     _number(part["position_difference"]),
                     _number(part["energy_difference"]), _number(run["crossings"]), _number(run["deepest"]),
                     run["seconds"] / scene["seconds"] if scene["seconds"] else nan, work)

@@ -11,7 +11,7 @@ from plots.plot_style import COLOURS, INK, Plot, finish, label_axes, new_figure,
 
 WIDTH, HEIGHT = 5.3, 3.1            # [inch]
 DEGREES = np.linspace(0.0, 180.0, 361)
-LEAST_HINGES = 20                   # of which shares say something
+LEAST_HINGES = 20                   # fewer give no meaningful shares
 
 
 def plot_angle_spectrum(case: Case, name: str, folder: Path) -> list[tuple[str, Plot]]:

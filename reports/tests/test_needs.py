@@ -86,14 +86,14 @@ class NeedsShown(unittest.TestCase):
         for shown in ("gravity &lt;b&gt;", "it moves &lt;nothing&gt;", "for &lt;show&gt;", "coarser mesh: too many triangles", "With <code>--set time.end=1 --set cloth.fit=2</code>: ", "Asked of the first 0.5 of 3 s: ", "1 case was asked beside this run (commit abcdef0123)"):
             self.assertIn(shown, text)
         self.assertRegex(text, r'Its parts: <a href="#needs-of-fold">1 kept for a reason, 1 not needed here</a>')
-        for absent in ("was not asked", "ecorded, of commit", "needs.json"):
+        for absent in ("Not known which", "ecorded, of commit", "needs.json"):
             self.assertNotIn(absent, text)
         section = re.search(r'<section id="needs">.*?</section>', text, re.DOTALL)[0]
         self.assertEqual(section.count("verdict fails"), 2)
         self.assertEqual(re.findall(r'aria-label="([a-z ]+)">(.)</span>', section), [("not needed here", "\u2715"), ("kept for a reason", "\u25d0")])
         self.assertIn("it &lt;stops&gt;", section)
         self.put(told("bag", "abcdef0123456789"))
-        self.assertIn("was not asked", self.made())
+        self.assertIn("Not known which of its parts it needs", self.made())
 
     def test_what_is_recorded_is_shown_where_the_run_did_not_ask(self) -> None:
         put_run(self.root)

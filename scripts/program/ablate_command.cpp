@@ -245,7 +245,7 @@ void print(const Ablation& one) {
              error_text(one.error.mesh, one.other_mesh.stopped));
   if (const std::string wrong = wrong_by_itself(one); !wrong.empty()) fmt::print("! {}\n", wrong);
   for (const JudgedPart& part : one.judged_parts) {
-    fmt::print("{} {:<16} {:<30} {:5.0f} % of the time; {}\n", part.is_justified() ? ' ' : '!',
+    fmt::print("{} {:<18} {:<30} {:5.0f} % of the time; {}\n", part.is_justified() ? ' ' : '!',
                name_of(part.need), (part.is_present ? "" : "with ") + part.name,
                100 * part.run.seconds / one.scene.seconds, part.reason);
     if (!part.declared.empty()) fmt::print("{:>20} {}\n", "declared:", part.declared);

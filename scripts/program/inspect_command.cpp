@@ -30,8 +30,8 @@ void print(const std::string& file, const MeshInspection& found) {
   if (!found.repair_failure.empty()) fmt::print("no repair: {}\n", found.repair_failure);
   if (found.nodes > 0)
     fmt::print(
-        "second opinion: at {} of {} nodes rays deny what {} say of inside and outside; at {} they "
-        "differ among themselves\n",
+        "second opinion: at {} of {} nodes rays contradict the {} about inside and outside; at {} "
+        "the rays disagree with each other\n",
         found.against_sign, found.nodes, is_solid ? "normals" : "winding numbers",
         found.among_rays);
 }

@@ -187,7 +187,7 @@ void print(const Report& report, const std::string& folder) {
   fmt::print("deepest point of a triangle over all frames: {:.3g} m before, {:.3g} m after\n",
              report.faces_before, report.faces_after);
   fmt::print(
-      "edges up to {:.3g} m: whatever the objects, eps = {:.3g} m would keep every triangle out\n",
+      "edges up to {:.3g} m: for any objects, eps = {:.3g} m would keep every triangle out\n",
       report.longest_edge, report.longest_edge / std::sqrt(3.0));
   fmt::print("{}/{}\n", folder, report.file);
 }

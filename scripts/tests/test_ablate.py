@@ -57,7 +57,7 @@ class AblateTest(FileTest):
         need = {part["name"]: part["need"] for part in read_answer["parts"]}
         self.assertEqual(need["friction of objects"], "needed")
         self.assertEqual(need["object 'slope'"], "needed")
-        self.assertEqual(need["self-collision"], "not missed here")
+        self.assertEqual(need["self-collision"], "no effect if added")
         stopped = self.ablate(str(case), "--set", "time.max_steps=3")
         self.assertEqual(stopped.returncode, 1, stopped.stderr)
         self.assertIn("! the scene itself does not come to its end: the cap on the number of steps", stopped.stdout)

@@ -118,7 +118,7 @@ class Kills(FileTest):
                 damaged += "damaged" in said
             shutil.rmtree(out, ignore_errors=True)
         print(f"\n{KILLS} trials (seed {SEED}): {hits} runs killed, {again} of them twice or when resumed, "
-              f"{resumed} resumed from a checkpoint, {damaged} of which found a damaged one", flush=True)
+              f"{resumed} resumed from a checkpoint, {damaged} of them found a damaged one", flush=True)
         self.assertEqual(damaged, 0)
         self.assertGreater(resumed, KILLS // 8)
 

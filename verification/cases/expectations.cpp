@@ -123,8 +123,8 @@ Case with_usual_expectations(Case input_case) {
     add_unless_stated(
         {"energy_is_accounted_for", 0.01,
          "empirical: at half the elastic limit the energy of the stiffest mode oscillates by "
-         "(omega h)^2/8, an eighth; how small a part of the energy such modes carry is known from "
-         "runs only, which miss 7e-11 to 8e-3 of what is exchanged"},
+         "(omega h)^2/8, an eighth; how little of the energy such modes carry is known only from "
+         "runs, whose balance is off by 7e-11 to 8e-3 of the energy exchanged"},
         input_case.expectations);
   add_unless_stated(
       {"is_reproducible", 0, "the same numbers in the same order give the same bits on every run"},
@@ -135,10 +135,10 @@ Case with_usual_expectations(Case input_case) {
   if (is_stated("tangle_does_not_grow", input_case.expectations)) return input_case;
   add_unless_stated(
       {"never_crosses_itself", 0,
-       scene.self_collision ? "what starts free of crossings stays free of them: repulsion and "
-                              "impulses may fail, impact zones may not"
-                            : "the scene has no self-collision, and needs none: cloth that would "
-                              "pass through itself needs [self_collision]"},
+       scene.self_collision ? "cloth that starts without crossings stays without them: repulsion "
+                              "and impulses may fail, impact zones may not"
+                            : "the scene has no self-collision and should need none; if the cloth "
+                              "passes through itself, add [self_collision]"},
       input_case.expectations);
   return input_case;
 }

@@ -78,8 +78,8 @@ std::optional<Expectation> expected_faces_outside(const Scene& scene,
   const std::string why = fmt::format(
       "{}; the largest triangle fits in a circle of r = {:.3g} m when stretched by {:.3g}. Between "
       "such corners it is as deep as the chord of a round body of radius R, R - sqrt((R - d)^2 - "
-      "r^2), or d + r where the body has edges or folds, and d in a half space: the response looks "
-      "at particles alone, so this shows in pictures",
+      "r^2), or d + r where the body has edges or folds, and d in a half space: the response sees "
+      "only particles, so this depth shows in pictures",
       of_particles, r, scene.strain_limits ? scene.strain_limits->extension : usual_stretch);
   return Expectation{"faces_outside", bound, why};
 }

@@ -84,8 +84,8 @@ std::string without_objects_to_enter(const Scene& scene) {
 std::vector<Quantity> face_quantities() {
   return {
       {"faces_outside", "m",
-       "No point of a triangle is deeper inside an object than this, triangles with a prescribed "
-       "particle or one between two objects apart.",
+       "No point of a triangle is deeper inside an object than this, except triangles with a "
+       "prescribed particle or with one between two objects.",
        Sense::at_most, Scope::this_shape, nullptr, nullptr, without_objects_to_enter,
        face_penetration},
   };

@@ -195,8 +195,9 @@ void require_expected(const KeyTable& keys, const std::string& what, const Scene
     throw InputError(keys.where("what") + ": unknown quantity '" + what +
                      "'; known: " + known_measurements());
   if (what == "is_reproducible")
-    throw InputError(keys.where("what") +
-                     ": 'is_reproducible' repeats steps and is no number of one run; use [expect]");
+    throw InputError(
+        keys.where("what") +
+        ": 'is_reproducible' repeats steps, so it is not a number of one run; use [expect]");
   for (const char* key : {"of", "when"})
     reject_key(keys, key, "'" + what + "' is measured as [expect] does; leave out '" + key + "'");
   const std::string rejection = quantity->rejection ? quantity->rejection(scene) : "";

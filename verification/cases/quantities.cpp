@@ -228,27 +228,27 @@ std::vector<Quantity> quantities_of_the_run() {
       {"runs_to_its_end", "stops", "The run reaches its end with finite values.", Sense::at_most,
        Scope::any_cloth, nullptr, stops, nullptr},
       {"is_reproducible", "steps",
-       "Ten steps after the start, after the middle frame and before the last have the same bits "
-       "when they are taken again, in another thread.",
+       "Ten steps each after the start, after the middle frame and before the last give the same "
+       "bits when repeated in another thread.",
        Sense::at_most, Scope::any_cloth, nullptr, differing_steps, nullptr},
       {"takes_steps", "steps", "The run takes as many steps as it should.", Sense::at_least,
        Scope::this_shape, nullptr, steps, nullptr},
       {"solves_converge", "solves",
-       "The linear solves keep their tolerance before their cap on iterations.", Sense::at_most,
+       "The linear solves reach their tolerance before their cap on iterations.", Sense::at_most,
        Scope::any_cloth, nullptr, unfinished_solves, nullptr},
       {"energy_is_accounted_for", "1",
-       "Kinetic, elastic and gravitational energy less the work of damping is conserved, over the "
-       "energy exchanged.",
+       "Kinetic, elastic and gravitational energy minus the work of damping is conserved, relative "
+       "to the energy exchanged.",
        Sense::at_most, Scope::any_cloth, nullptr, energy_unaccounted, nullptr},
       {"energy_does_not_drift", "1",
-       "The mean of that energy over the last tenth of the run is that over the first tenth, over "
-       "the energy exchanged.",
+       "The mean of that energy over the last tenth of the run equals its mean over the first "
+       "tenth, relative to the energy exchanged.",
        Sense::at_most, Scope::any_cloth, nullptr, energy_drift, nullptr},
       {"linear_momentum_is_conserved", "1", "Linear momentum is conserved, over sqrt(2 m E_kin).",
        Sense::at_most, Scope::any_cloth, nullptr, linear_change, nullptr},
       {"angular_momentum_is_conserved", "1",
-       "Angular momentum about the origin is conserved, over the cloth's reach times sqrt(2 m "
-       "E_kin).",
+       "Angular momentum about the origin is conserved, relative to the cloth's extent times "
+       "sqrt(2 m E_kin).",
        Sense::at_most, Scope::any_cloth, nullptr, angular_change, nullptr},
   };
 }
@@ -269,25 +269,26 @@ std::vector<Quantity> quantities_of_shape_and_place() {
       {"keeps_its_lengths", "1", "Every edge stays near its rest length.", Sense::at_most,
        Scope::this_shape, length_change, nullptr, without_springs},
       {"stays_outside", "m",
-       "No free particle is deeper inside an object than this, those between two apart.",
+       "No free particle is deeper inside an object than this, except particles between two "
+       "objects.",
        Sense::at_most, Scope::any_cloth, nullptr, nullptr, without_objects, penetration},
       {"lies_inside", "m",
-       "At the end some free particle is this deep inside an object, those between two apart.",
+       "At the end some free particle is this deep inside an object; particles between two objects "
+       "do not count.",
        Sense::at_least, Scope::this_shape, nullptr, depth_at_end, without_objects},
       {"makes_contact", "points", "Objects correct the motion of some points in some step.",
        Sense::at_least, Scope::this_shape, nullptr, contacts, without_objects},
       {"is_pinched", "particles", "Particles are inside two objects at once.", Sense::at_least,
        Scope::this_shape, nullptr, nullptr, without_objects, pinched_particles},
-      {"stays_between", "m",
-       "Particles inside two objects stay where they are equally deep in both.", Sense::at_most,
-       Scope::any_cloth, nullptr, nullptr, without_objects, off_centre},
+      {"stays_between", "m", "Particles inside two objects stay equally deep in both.",
+       Sense::at_most, Scope::any_cloth, nullptr, nullptr, without_objects, off_centre},
       {"never_crosses_itself", "pairs",
-       "In no frame does an edge of the cloth meet a triangle of it, touching included.",
+       "In no frame does an edge of the cloth meet one of its own triangles; touching counts.",
        Sense::at_most, Scope::any_cloth, self_crossings, nullptr, nullptr},
       {"tangle_does_not_grow", "pairs",
-       "In no frame do more edges of the cloth meet triangles of it than this.", Sense::at_most,
+       "In no frame do more edges than this meet triangles of the same cloth.", Sense::at_most,
        Scope::this_shape, self_crossings, nullptr, nullptr},
-      {"ends_untangled", "pairs", "At the end no edge of the cloth meets a triangle of it.",
+      {"ends_untangled", "pairs", "At the end no edge of the cloth meets one of its own triangles.",
        Sense::at_most, Scope::any_cloth, nullptr, self_crossings_at_end, nullptr},
       {"keeps_its_place", "m", "The mean of all particles stays where it was.", Sense::at_most,
        Scope::this_shape, shift, nullptr, nullptr},
@@ -298,10 +299,11 @@ std::vector<Quantity> quantities_of_shape_and_place() {
       {"speed_is_limited", "m/s", "No particle is faster than this.", Sense::at_most,
        Scope::this_shape, fastest, nullptr, nullptr},
       {"reaches_turning_rate", "degrees/s",
-       "The cloth comes to turn about the vertical axis at this rate.", Sense::at_least,
+       "The cloth ends up turning about the vertical axis at this rate.", Sense::at_least,
        Scope::this_shape, turning_rate, nullptr, nullptr},
-      {"comes_to_rest", "1", "At the end the kinetic energy is small, over its largest value.",
-       Sense::at_most, Scope::this_shape, nullptr, kinetic_at_end, nullptr},
+      {"comes_to_rest", "1",
+       "At the end the kinetic energy is small relative to its largest value.", Sense::at_most,
+       Scope::this_shape, nullptr, kinetic_at_end, nullptr},
   };
 }
 

@@ -35,17 +35,17 @@ double mean_turn(const RunView& run) {
 std::vector<Quantity> standing_quantities() {
   return {
       {"keeps_its_height", "1",
-       "At the end the cloth is still this high, over its height at the start.", Sense::at_least,
+       "At the end the cloth still has this share of its height at the start.", Sense::at_least,
        Scope::this_shape, nullptr, height_left, without_gravity},
       {"collapses_to", "1",
-       "At the end the cloth has sunk to this height, over its height at the start.",
-       Sense::at_most, Scope::this_shape, nullptr, height_left, without_gravity},
+       "At the end the cloth has sunk to this share of its height at the start.", Sense::at_most,
+       Scope::this_shape, nullptr, height_left, without_gravity},
       {"keeps_most_angles", "degrees",
        "At the end hinges are near their rest angles in the mean square.", Sense::at_most,
        Scope::this_shape, nullptr, mean_turn, without_bending},
       {"crumples_by", "degrees",
-       "At the end hinges are turned away from their rest angles in the mean square.",
-       Sense::at_least, Scope::this_shape, nullptr, mean_turn, without_bending},
+       "At the end hinges are far from their rest angles in the mean square.", Sense::at_least,
+       Scope::this_shape, nullptr, mean_turn, without_bending},
   };
 }
 

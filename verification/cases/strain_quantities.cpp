@@ -57,11 +57,11 @@ std::string without_limits(const Scene& scene) {
 std::vector<Quantity> strain_quantities() {
   return {
       {"stays_within_strain_limits", "1",
-       "No spring is farther beyond a strain limit than this, over its rest length.",
+       "No spring is beyond a strain limit by more than this share of its rest length.",
        Sense::at_most, Scope::any_cloth, violation, nullptr, without_limits},
       {"stretches_to", "1", "Some spring is stretched by this share of its rest length.",
        Sense::at_least, Scope::this_shape, largest_extension, nullptr, without_springs},
-      {"lengthens_by", "1", "The cloth's longest extent grows by this share of that at rest.",
+      {"lengthens_by", "1", "The cloth's longest extent grows by this share of its extent at rest.",
        Sense::at_least, Scope::this_shape, lengthening, nullptr, nullptr},
       {"keeps_its_area", "1", "The cloth loses no more than this share of its area.",
        Sense::at_most, Scope::this_shape, area_lost, nullptr, nullptr},

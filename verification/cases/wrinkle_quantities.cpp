@@ -90,12 +90,12 @@ double wavelength_at_end(const RunView& run) {
 std::vector<Quantity> wrinkle_quantities() {
   return {
       {"forms_creases", "1",
-       "At the end there are so many creases: lines of three hinges or more, each turned by over "
-       "20 degrees to the same side.",
+       "At the end there are this many creases: lines of at least three hinges, each folded by "
+       "over 20 degrees to the same side.",
        Sense::at_least, Scope::this_shape, nullptr, creases_at_end, without_bending},
       {"wrinkles_stay_short", "m",
        "At the end wrinkles are at most this long: twice the mean straight distance, in the rest "
-       "shape, from a hinge in a crease to the nearest in one of the other side.",
+       "shape, from a hinge in a crease to the nearest hinge in a crease of the opposite side.",
        Sense::at_most, Scope::this_shape, nullptr, wavelength_at_end, without_bending},
   };
 }

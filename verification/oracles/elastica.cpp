@@ -69,7 +69,7 @@ struct Equations {
   Eigen::MatrixXd second = nodes.derivative * nodes.derivative;
   Eigen::RowVectorXd whole = nodes.integral(1);
 
-  /// What the equations miss by, and how that changes with the unknowns.
+  /// The residual of the equations, and how it changes with the unknowns.
   std::pair<Eigen::VectorXd, Eigen::MatrixXd> at(const Eigen::VectorXd& unknowns,
                                                  double gamma) const {
     const Eigen::Index n = nodes.s.size() - 1;

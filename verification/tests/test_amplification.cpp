@@ -1,4 +1,4 @@
-// Amplification factors, each held against the method's own lines on y' = lambda y.
+// Amplification factors, each compared with the method's own lines on y' = lambda y.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <complex>

@@ -1,4 +1,4 @@
-// The printed formulas in 50 digits, each held against a second way.
+// The printed formulas in 50 digits, each compared with a second way.
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,4 +1,4 @@
-// Closed forms, differential equations and statics, each held against a second way.
+// Closed forms, differential equations and statics, each compared with a second way.
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-// Statics of strips and rigidities of meshes, each held against a second way.
+// Statics of strips and rigidities of meshes, each compared with a second way.
 #include <Eigen/Dense>
 #include <array>
 #include <catch2/catch.hpp>

@@ -16,7 +16,7 @@ double seconds_of(const std::function<void()>& run) {
 }
 
 double least_seconds(const std::function<void()>& run) {
-  constexpr double long_enough = 1;  // s, of which a repeat is not worth its time
+  constexpr double long_enough = 1;  // s; a longer measurement need not be repeated
   double least = seconds_of(run), total = least;
   for (int k = 1; total < long_enough && (k < 3 || total < 0.2); ++k) {
     const double seconds = seconds_of(run);

@@ -243,7 +243,8 @@ Finding neighbours_are_told_apart(const Subject&) {
   for (const auto& [name, triangle, meets] : cases)
     measured.row(name,
                  (intersect(x, base, triangle) != meets) + (intersect(x, triangle, base) != meets));
-  return judge_worst(measured, 0, "common vertices by index do not count, any other contact does");
+  return judge_worst(measured, 0,
+                     "contact in a shared vertex does not count, any other contact does");
 }
 
 /// The tree must find the pairs that a look at all of them finds.
@@ -269,17 +270,18 @@ Finding pairs_are_complete(const Subject&) {
 
 std::vector<Check> closed_mesh_checks() {
   return {{"level-set.invalid-solids-are-rejected",
-           "Holes, flipped triangles, intersections and pieces inside out are refused by name and "
+           "Holes, flipped triangles, intersections and inside-out pieces are refused by name and "
            "number.",
            "ours", bad_solids_are_rejected},
           {"level-set.reported-edges-belong-to-holes",
            "The edge that a refusal names is one of the hole's.", "ours", places_are_right},
           {"level-set.valid-solids-are-accepted",
-           "Bodies, bodies beside others, and nested shells are accepted, thin rays and fins among "
-           "them.",
+           "Single bodies, several bodies and nested shells are accepted, even with thin rays and "
+           "fins.",
            "ours", solids_are_accepted},
           {"level-set.triangle-intersections-are-exact",
-           "Whether two triangles meet is answered right, contact and common planes included.",
+           "The test whether two triangles meet is right, also for contact and for triangles in "
+           "one plane.",
            "Shewchuk 1997", intersections_are_found},
           {"level-set.neighbouring-triangles-may-touch",
            "Triangles may meet in the edge or vertex that they share, and in nothing more.", "ours",

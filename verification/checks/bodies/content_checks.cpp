@@ -54,7 +54,7 @@ Finding rejections_of(const T& sound, const std::vector<Change<T>>& breaks) {
                                     ? 0
                                     : 1);
   }
-  return judge_worst(measured, 0, "content that no build made is refused before anything asks it");
+  return judge_worst(measured, 0, "inconsistent content is refused before anything uses it");
 }
 
 double next_after(double value) { return std::nextafter(value, INFINITY); }
@@ -247,7 +247,7 @@ std::vector<Check> content_checks() {
        "The key of a deforming body follows every kind of number in it, bit for bit.",
        "Fowler, Noll and Vo 1991", body_content_finding},
       {"content.invalid-deforming-bodies-are-rejected",
-       "A deforming body that no build made is refused, with the reason.", source,
+       "A deforming body with inconsistent content is refused, with the reason.", source,
        body_sound_finding},
   };
 }

@@ -107,8 +107,7 @@ std::vector<Check> mesh_body_checks() {
            "body's file.",
            "ours", open_bodies_are_rejected},
           {"level-set.bodies-from-obj-files-have-the-right-distance",
-           "A body from an OBJ file, whole or repaired, has the distance of the ball that it was "
-           "made of.",
+           "A body from an OBJ file of a ball, intact or repaired, has the ball's distance.",
            "ours", bodies_are_solid}};
 }
 

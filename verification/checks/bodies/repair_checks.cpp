@@ -87,14 +87,14 @@ Finding parity_shows_holes(const Subject&) {
     outvoting.observe(with_sign / std::max(in_streaks, 1.0));
   }
   Table measured{{"case", ""},
-                 {"holes of six triangles that no ray shows, and the largest share of streaks that "
-                  "wins the vote",
+                 {"holes of six triangles that no ray reveals, and the largest share of wrong rows "
+                  "that win the vote",
                   "1"}};
   measured.row("unseen", unseen);
   measured.row("share", outvoting.value());
   return judge_worst(measured, 0.25,
-                     "every hole lies across at least one row of nodes, and streaks along two axes "
-                     "meet in few of their nodes only",
+                     "every hole lies across at least one row of nodes, and wrong rows along two "
+                     "axes share few nodes",
                      "nodes in streaks, and denied signs, of the worst hole: " +
                          std::to_string(int(streaks.value())) + ", " +
                          std::to_string(int(denied.value())));
@@ -150,9 +150,9 @@ Finding tree_is_near(const Subject&) {
     measured.row("far = " + std::to_string(far), far * far * worst.value());
   }
   return judge_worst(measured, 0.5,
-                     "what is left out of a patch is its second moment, at most the square of "
-                     "radius over distance of its own angle; the angles of all patches seen, sizes "
-                     "added, are about half of the full turn that cancels");
+                     "the approximation omits a patch's second moment, at most its own angle times "
+                     "(radius/distance)^2; the sizes of all patches' angles add up to about half "
+                     "of the full turn that cancels");
 }
 
 /// Nodes where the repaired grid is on the wrong side, and the mean error of the rest, against
@@ -222,9 +222,9 @@ Finding repair_mends(const Subject&) {
   observe("two balls that overlap",
           against_union(*make_repaired_grid(overlapping_balls(), method)));
   return judge_worst(measured, 1,
-                     "a start from sides alone would leave the surface off by 0.13 cells in the "
-                     "mean; exact distances where a triangle parts the sides must do better, "
-                     "though marching begins in first order from a single layer of nodes");
+                     "a start from inside/outside alone leaves a mean error of 0.13 cells; exact "
+                     "distances where a triangle separates the two must do better, though marching "
+                     "begins in first order from a single layer of nodes");
 }
 
 }  // namespace
@@ -232,25 +232,23 @@ Finding repair_mends(const Subject&) {
 std::vector<Check> repair_checks() {
   return {
       {"level-set.ray-parity-agrees-with-the-sign",
-       "Rays along three axes find every node on the side of its sign, through edges and vertices "
-       "too.",
+       "Rays along three axes agree with the sign at every node, even through edges and vertices.",
        "ours", parity_agrees},
       {"level-set.inspection-classifies-meshes",
-       "A mesh that is inspected is said to be a solid if it is, and else why not; rays are a "
-       "second opinion.",
+       "Inspecting a mesh says whether it is a solid, and if not, why; rays give a second opinion.",
        "ours", inspection_tells},
       {"level-set.ray-parity-reveals-holes",
-       "Rays show where triangles are missing, and seldom win the vote there.", "ours",
+       "Rays reveal missing triangles, and seldom outvote the right sign there.", "ours",
        parity_shows_holes},
       {"level-set.winding-number-is-an-integer",
        "The winding number of a closed surface is 1 inside and 0 outside, nested shells counted.",
        "Jacobson et al. 2013", winding_is_whole},
       {"level-set.winding-tree-error-is-bounded",
-       "Patches seen from afar change the winding number by half over far squared at most.",
+       "Approximating far patches changes the winding number by at most half over `far` squared.",
        "Barill et al. 2018", tree_is_near},
       {"level-set.repair-restores-the-distance",
-       "Repair by winding number gives the solid's distance in spite of holes, flipped triangles "
-       "and overlaps.",
+       "Repair by winding number gives the solid's distance despite holes, flipped triangles and "
+       "overlaps.",
        "Jacobson et al. 2013", repair_mends}};
 }
 

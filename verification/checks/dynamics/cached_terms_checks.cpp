@@ -82,13 +82,13 @@ Finding time_finding(const Subject&) {
     worst.observe(with / without);
     uncertainty.observe(with / without * (least.spread[0] + least.spread[1]));
   }
-  return {{worst.value(), 0.5, uncertainty.value(), "1",
-           "half: less would make the cache not worth its memory from the second product of a "
-           "solve on"},
-          times,
-          "the least times of 40 runs of each in turns, in processor time; a ratio, so that the "
-          "machine's speed and load matter little; the uncertainty is by how much the second "
-          "shortest time of each was longer"};
+  return {
+      {worst.value(), 0.5, uncertainty.value(), "1",
+       "half: with less gain the cache would not be worth its memory from the second product of a "
+       "solve on"},
+      times,
+      "the least processor times of 40 alternating runs of each; a ratio, so the machine's speed "
+      "and load matter little; the uncertainty is the excess of the second shortest times"};
 }
 
 /// The 3 x 3 blocks of D on and above its diagonal that springs and hinges fill.
@@ -134,7 +134,7 @@ std::vector<Check> cached_terms_checks() {
   const std::string source = "BMF03 section 3";
   return {{"solver.cached-terms-save-time",
            "A product with the reference's cached terms takes at most half the time of one that "
-           "computes them anew.",
+           "computes them again.",
            source, time_finding},
           {"solver.cached-terms-take-less-memory-than-a-matrix",
            "The reference's cached terms take less memory than half of the matrix that is not "

@@ -147,7 +147,7 @@ Finding diagnostics_finding(const Subject&) {
            "hundred and cancel to a fifth of their size in the momenta: 500; energies of springs "
            "near their rest length lose a factor of 1/strain, about ten"},
           errors,
-          "springs, hinges and dampers in 50 digits, masses and areas by a loop of our own"};
+          "springs, hinges and dampers in 50 digits, masses and areas by an independent loop"};
 }
 
 /// Largest departure of energy minus the work of damping from its start, over the first
@@ -189,13 +189,13 @@ std::vector<Check> energy_checks() {
                               "Energies, momenta and the work of damping that the reference "
                               "reports are the sums that define them.",
                               "BMF03 sections 3 and 4", diagnostics_finding}};
-  add_for_each_scheme(
-      list,
-      {"dynamics.energy-balance-closes",
-       "on a damped sheet of the reference, energy less the work of damping stays to second order.",
-       "BMF03 section 3",
-       {}},
-      balance_finding);
+  add_for_each_scheme(list,
+                      {"dynamics.energy-balance-closes",
+                       "on a damped sheet of the reference, energy minus the work of damping is "
+                       "conserved to second order.",
+                       "BMF03 section 3",
+                       {}},
+                      balance_finding);
   return list;
 }
 

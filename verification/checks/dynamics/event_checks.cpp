@@ -206,8 +206,8 @@ Finding path_is_kept(const Subject&) {
                  v.value() / motion.amplitude.norm());
   }
   return judge_worst(measured, 1e-9,
-                     "places are a frame's time apart from the formula's by up to 1e-12 s here, on "
-                     "which a swing of 2 Hz moves by 1e-11 of itself, and the drift by 1e-11 too");
+                     "frame times differ from the formula's by up to 1e-12 s here, in which a 2 Hz "
+                     "oscillation changes by 1e-11 of itself, and the drift by 1e-11 too");
 }
 
 }  // namespace

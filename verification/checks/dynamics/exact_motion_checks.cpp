@@ -119,8 +119,7 @@ Finding no_drift_finding(const Subject&, const std::string& integrator) {
   deviations.row("0 to 6", early);
   deviations.row("54 to 60", late);
   return {{late / early - 1, 0.02, 0, "1",
-           "the length swings about a steady one for ever; 2 % is what the sampling of the swing's "
-           "extremes by steps allows"},
+           "the length oscillates for ever about a steady one; steps sample its extremes to 2 %"},
           deviations,
           ""};
 }
@@ -212,8 +211,8 @@ std::vector<Check> exact_motion_checks() {
                        {}},
                       no_drift_finding);
   list.push_back({"dynamics.explicit-stages-follow-a-driven-end",
-                  "Explicit methods keep their order where a particle is driven: each of their "
-                  "stages has it where it then is.",
+                  "Explicit methods keep their order with a prescribed particle: each stage has it "
+                  "at its place of that time.",
                   "Hairer, Norsett, Wanner 1993, II.1", driven_finding});
   return list;
 }

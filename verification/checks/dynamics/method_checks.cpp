@@ -100,8 +100,8 @@ Finding satisfies_its_equations(const Subject& subject, const std::string& metho
   }
   return judge_worst(
       measured, 100 * tolerance,
-      "the solver's tolerance is 1e-11 of the momentum at its guess, which may be some ten times "
-      "what the step changes, and this norm weights masses differently, by as much");
+      "the solver's tolerance is 1e-11 of the momentum at its guess, which may be ten times the "
+      "change in a step; this norm weights masses differently, by up to tenfold");
 }
 
 /// One step of the linearised method against a dense solve of its equation, with the
@@ -176,9 +176,9 @@ Finding large_steps_finding(const Subject& subject) {
     }
   const std::vector<double>& counts = missed.numbers("solves that missed their tolerance");
   return {{std::accumulate(counts.begin(), counts.end(), 0.0), 2, 0, "solves",
-           "one in eighteen: a line search may end where no part of the step lowers the residual. "
-           "A hinge's force jumps where it folds through half a circle, so that an equation far "
-           "beyond the limit need not have a solution; a solve that ends without one says so"},
+           "one in eighteen: a line search may end where no fraction of the step lowers the "
+           "residual. A hinge's force jumps where it folds through half a circle, so an equation "
+           "far beyond the limit need not have a solution; a solve that finds none says so"},
           missed,
           ""};
 }
@@ -238,8 +238,8 @@ Finding newton_is_quick(const Subject& subject) {
   }
   return judge_worst(measured, 10,
                      "solved to a thousandth, an exact step leaves a thousandth near the solution: "
-                     "three iterations for nine digits, and we allow seven to come near; without "
-                     "the derivative of the damping each leaves a good part");
+                     "three iterations for nine digits, plus seven to come near; without the "
+                     "damping's derivative each leaves a large part");
 }
 
 /// The largest damping rate of the subject at the specimen's state over the reference's bound.
@@ -285,7 +285,7 @@ Finding damping_rate_is_reached(const Subject&) {
         std::abs(damping_rate_bound(damper, PerParticle::Constant(2, 1 / mass)) / rate - 1));
   }
   return judge_worst(measured, 8 * epsilon,
-                     "one pair leaves nothing to be bounded: the same number in a few roundings");
+                     "with one pair the bound is exact: the same number in a few roundings");
 }
 
 /// Automatic steps of a sheet whose damping, not its elasticity, limits explicit methods.
@@ -349,7 +349,7 @@ Finding newton_asks_finding(const Subject&) {
     }
   return judge_worst(
       measured, 0,
-      "the exact derivative, which proves symmetric, and that of conjugate gradients, once");
+      "once the exact derivative, which is symmetric here, and once that of conjugate gradients");
 }
 
 }  // namespace
@@ -370,12 +370,12 @@ std::vector<Check> method_checks() {
        "A step of linearised backward Euler is the solution of (M - h D - h^2 K) v = M v_n + h F.",
        "Baraff and Witkin 1998", linearised_step},
       {"methods.newton-solves-large-steps",
-       "Newton's method solves steps up to fifty times the elastic limit of damped and heavily "
-       "damped crumpled sheets, and of a compressed undamped one: all but two of 36 at most.",
+       "Newton's method solves at least 34 of 36 steps, up to fifty times the elastic limit, of "
+       "damped and heavily damped crumpled sheets and of a compressed undamped one.",
        "what BMF03 section 3 expects of a fully implicit method", large_steps_finding},
       {"methods.newton-accepts-cloth-at-rest",
-       "A step of shapes at rest far from the origin is not counted as unfinished: no force is "
-       "required to vanish below what rounding makes of it.",
+       "A step of shapes at rest far from the origin is not counted as unfinished: no force need "
+       "vanish below its rounding error.",
        "floating-point arithmetic", rest_is_found},
       {"methods.newton-converges-quickly-on-damped-cloth",
        "Newton's method takes at most ten iterations a step on heavily damped cloth that turns and "
@@ -385,17 +385,17 @@ std::vector<Check> method_checks() {
        "The reference's bound on damping rates exceeds the largest rate of crumpled sheets.",
        "Gershgorin's theorem", damping_bound_is_a_bound},
       {"dynamics.explicit-steps-respect-the-damping-limit",
-       "Automatic steps of explicit methods keep to the damping limit, those of the others to the "
-       "elastic limit alone.",
+       "Automatic steps of explicit methods obey the damping limit, those of other methods only "
+       "the elastic limit.",
        limits, explicit_steps_respect_damping},
       {"dynamics.step-growth-is-limited",
-       "BDF2's steps grow by less than 1 + sqrt(2); one-step methods may grow at will.", limits,
-       growth_is_limited}};
+       "BDF2's steps grow by factors below 1 + sqrt(2); those of one-step methods may grow freely.",
+       limits, growth_is_limited}};
   checks.insert(checks.end(), others.begin(), others.end());
-  checks.push_back(
-      {"methods.newton-computes-no-needless-derivative",
-       "Where the elastic forces' derivative is definite, Newton's method asks for no second one.",
-       "ours", newton_asks_finding});
+  checks.push_back({"methods.newton-computes-no-needless-derivative",
+                    "Where the derivative of the elastic forces is definite, Newton's method "
+                    "computes no second one.",
+                    "ours", newton_asks_finding});
   checks.push_back({"methods.damping-rate-bound-is-exact-for-one-damper",
                     "The bound on the damping rate is that of a single damper.", limits,
                     damping_rate_is_reached});

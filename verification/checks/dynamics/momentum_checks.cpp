@@ -64,12 +64,11 @@ Finding kept(const Subject& subject, const std::string& integrator, const Scene&
     if (n % 50 == 0) drifts.row(s.time, drifted);
   }
   const double bound = 16 * std::sqrt(double(steps));
-  return {
-      {worst.value(), bound, 0, "epsilon of the sum",
-       "a step rounds the momentum that a particle has or is given about 16 times, and 1,000 steps "
-       "add up like a random walk; a defect of the scheme would show at the order of h^2"},
-      drifts,
-      smallest_defect(bound, "sum of the momenta's sizes, over all steps")};
+  return {{worst.value(), bound, 0, "epsilon of the sum",
+           "a step rounds each particle's momentum and impulse about 16 times, and 1,000 steps add "
+           "up like a random walk; a defect of the scheme would show at the order of h^2"},
+          drifts,
+          smallest_defect(bound, "sum of the momenta's sizes, over all steps")};
 }
 
 Scene loosely_solved_sheet() {
@@ -111,8 +110,8 @@ Finding reversal_finding(const Subject& subject, const std::string& integrator) 
   worst.observe(off_v);
   const double bound = 16 * std::sqrt(2.0 * steps) * grown;
   return {{worst.value(), bound, 0, "epsilon of the extent",
-           "16 roundings a step, 300 steps that add up like a random walk, each grown as much as a "
-           "disturbance of the start grows at most (see the evidence)"},
+           "16 roundings a step, 300 steps that add up like a random walk, each amplified at most "
+           "as a disturbance at the start (see the evidence)"},
           Table{{"growth", "1"}, {"way there", "m"}}.with_row(grown, displacement),
           smallest_defect(bound, "extent")};
 }
@@ -161,8 +160,8 @@ Finding truncated_finding(const Subject&) {
       changes.row(displacement.name, h, p, l);
     }
   return {{worst.value(), 64, 0, "epsilon of the sum",
-           "an iteration rounds every velocity twice and every damping force about ten times; the "
-           "tens of iterations of the tight solves add up at random and in falling size"},
+           "an iteration rounds every velocity twice and every damping force about ten times; tens "
+           "of iterations of the tight solves add up at random, with decreasing size"},
           changes,
           "The momenta are those at the positions for which the damping was prepared."};
 }

@@ -176,7 +176,7 @@ Finding pure_damping_finding(const Subject&, const std::string& integrator) {
   }
   return {{worst.value(), 4, 0, "epsilon of the path, a step",
            "each step rounds the position once and the velocity about six times; (1 + h c/2) is "
-           "how much larger the terms are than the velocity that they leave"},
+           "the ratio of the terms to the velocity left after they cancel"},
           totals,
           ""};
 }
@@ -199,8 +199,8 @@ std::vector<Check> oscillator_checks() {
       "the reference is stable on the damped oscillator up to the derived step and not beyond.",
       derived, stability_finding);
   add("dynamics.pure-damping-displacement-is-as-derived",
-      "the reference's way of a particle that is only damped is, over the exact one, 1 - (h c/2)^2 "
-      "in A and 1 in B and C.",
+      "a particle that is only damped travels 1 - (h c/2)^2 times the exact distance in the "
+      "reference's A, and the exact distance in B and C.",
       derived, pure_damping_finding);
   return list;
 }

@@ -185,8 +185,8 @@ Finding same_bits_finding(const Subject&) {
     measured.row(run.name + ", " + run.integrator, differences(run));
   return judge_worst(
       measured, 0,
-      "a checkpoint holds all that a run remembers: frames, diagnostics, later checkpoints, work "
-      "and stop are the same bits, whichever frame the run goes on from");
+      "a checkpoint holds everything a run remembers: frames, diagnostics, later checkpoints, work "
+      "and stop have the same bits, whichever frame the run resumes from");
 }
 
 }  // namespace
@@ -194,7 +194,7 @@ Finding same_bits_finding(const Subject&) {
 std::vector<Check> resume_checks() {
   return {
       {"dynamics.resumed-run-ends-with-the-same-bits",
-       "A run of the reference that goes on from any of its checkpoints ends with the same bits.",
+       "A run of the reference that resumes from any of its checkpoints ends with the same bits.",
        "good practice", same_bits_finding}};
 }
 

@@ -73,7 +73,7 @@ Finding frames_finding(const Subject&) {
                  frame_error(record_run(system, "A", start, schedule), schedule, 6));
     }
   return judge_worst(errors, 0,
-                     "frame times are set, not summed up; a step longer than asked for, or a wrong "
+                     "frame times are set, not summed up; a step longer than requested, or a wrong "
                      "count, gives NaN");
 }
 
@@ -121,13 +121,13 @@ Finding limits_finding(const Subject&) {
       worst.observe(of_limit.value());
       worst.observe(of_strain.value());
     }
-  return {
-      {worst.value(), 1 + 2e-9, 0, "of the limit",
-       "both limits hold at the start of every step; 1e-9 is the hair by which a step may be "
-       "stretched to divide an interval evenly"},
-      used,
-      "The run is repeated step by step with the steps it reported, and must end with the same "
-      "bits. One in which a triangle loses its area, as may be at 25 m/s, is judged up to there."};
+  return {{worst.value(), 1 + 2e-9, 0, "of the limit",
+           "both limits hold at the start of every step; a step may be stretched by 1e-9 to divide "
+           "an interval evenly"},
+          used,
+          "The run is repeated step by step with the steps it reported, and must end with the same "
+          "bits. A run in which a triangle loses its area, as can happen at 25 m/s, is judged up "
+          "to there."};
 }
 
 /// About a stopped run.
@@ -272,11 +272,11 @@ std::vector<Check> run_checks() {
   return {
       {"dynamics.frames-are-hit-exactly",
        "Runs of the reference deliver frames at exactly their times, with steps no longer than "
-       "asked for.",
+       "requested.",
        ours, frames_finding},
       {"dynamics.automatic-steps-respect-the-limits",
-       "Automatic steps of the reference keep the safety factor of the elastic limit and the "
-       "strain allowed a step.",
+       "Automatic steps of the reference obey the safety factor of the elastic limit and the "
+       "strain allowed in a step.",
        ours, limits_finding},
       {"dynamics.divergence-stops-the-run",
        "A diverging run of the reference stops and names time, step and particle.", stops,

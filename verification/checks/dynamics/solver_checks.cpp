@@ -200,8 +200,8 @@ Finding operator_finding(const Subject& subject) {
   worst.observe(deficit);
   return {{worst.value(), 64, 0, "epsilon of the largest",
            "an entry sums some twenty dampers of five roundings, half an epsilon each: 50; the "
-           "smallest eigenvalue, 1 but for rounding, is found to about the square root of the "
-           "matrix' size, 10, in epsilon of the largest"},
+           "smallest eigenvalue, 1 up to rounding, is found to about the square root of the "
+           "matrix's size, 10, in epsilon of the largest"},
           Table{{"asymmetry", "epsilon of the largest entry"},
                 {"smallest eigenvalue below 1", "epsilon of the largest"},
                 {"largest eigenvalue", "1"}}
@@ -287,12 +287,12 @@ std::vector<Check> solver_checks() {
        "known velocities included.",
        source, cholesky_finding},
       {"solver.iterations-equal-the-number-of-distinct-eigenvalues",
-       "The reference's solve takes as many iterations as the damping has distinct nonzero "
-       "eigenvalues.",
+       "The reference's solve takes one iteration for each distinct nonzero eigenvalue of the "
+       "damping.",
        source, eigenvalue_finding},
       {"solver.large-cloth-is-solved",
-       "Cloth of many particles, which the reference's solve takes block by block, is solved to "
-       "the tolerance.",
+       "Cloth of many particles, which the reference solves block by block, is solved to the "
+       "tolerance.",
        "algebra", large_finding},
       {"solver.iteration-cap-is-reported",
        "A solve of the reference that does not finish says so and is counted.", source,

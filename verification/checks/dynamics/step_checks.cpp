@@ -250,7 +250,7 @@ Finding once_finding(const Subject& subject) {
     if (work.cg_iterations < steps) worst.observe(NAN);
   }
   return {{worst.value(), 0, 0, "evaluations",
-           "counts are exact: a step sees two sets of positions, and every product uses what was "
+           "counts are exact: a step has two sets of positions, and every product uses the terms "
            "prepared there"},
           counts,
           ""};
@@ -285,8 +285,8 @@ std::vector<Check> step_checks() {
        source, once_finding}};
   add_for_each_scheme(list,
                       {"dynamics.cloth-moves-with-the-filtered-velocity",
-                       "the reference moves the cloth with exactly the velocity that the filters "
-                       "left, and filters the end velocity where the paper does.",
+                       "the reference moves the cloth with exactly the filtered velocity, and "
+                       "filters the end velocity where the paper does.",
                        source,
                        {}},
                       filter_finding);

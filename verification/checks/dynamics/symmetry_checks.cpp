@@ -99,9 +99,9 @@ Finding units_finding(const Subject& subject, const std::string& integrator) {
     worst.observe(distance(run_in(u, subject, integrator, h, steps), plain, size, steps * h));
   const double bound = 64 * steps * grown;
   return {{worst.value(), bound, 0, "epsilon of the extent",
-           "20 steps of 64 roundings, those of the converted constants included, each grown at "
-           "most as a disturbance of the start grows; solves end at 1e-14 of the velocity, 45 "
-           "epsilon, and in C there are two a step: the growth, ten and more, covers them"},
+           "20 steps of 64 roundings, those of the converted constants included, each amplified at "
+           "most as a disturbance at the start; solves end at 1e-14 of the velocity, 45 epsilon, "
+           "two a step in C: the amplification, ten and more, covers them"},
           Table{{"growth", "1"}}.with_row(grown),
           smallest_defect(bound, "extent")};
 }
@@ -147,8 +147,8 @@ Finding frame_finding(const Subject& subject, const std::string& integrator) {
   expected.v = (turn * plain.v).colwise() + boost;
   const double grown = growth(stepper, start, h, steps), bound = 64 * steps * grown;
   return {{distance(moved, expected, size, steps * h), bound, 0, "epsilon of the extent",
-           "12 steps of 64 roundings, each grown at most as a disturbance of the start grows; "
-           "solves end at 1e-14 of the velocity, 45 epsilon"},
+           "12 steps of 64 roundings, each amplified at most as a disturbance at the start; solves "
+           "end at 1e-14 of the velocity, 45 epsilon"},
           Table{{"growth", "1"}}.with_row(grown),
           smallest_defect(bound, "extent")};
 }
@@ -165,7 +165,7 @@ std::vector<Check> symmetry_checks() {
                       powers_finding);
   add_for_each_scheme(list,
                       {"dynamics.units-do-not-matter",
-                       "units changed by any factor give the same motion to rounding.",
+                       "a change of units by any factor gives the same motion to rounding.",
                        "dimensional analysis",
                        {}},
                       units_finding);
@@ -175,7 +175,7 @@ std::vector<Check> symmetry_checks() {
   add_for_each_scheme(
       list,
       {"dynamics.translation-rotation-invariance-holds",
-       "a turned, shifted and uniformly moving start gives the turned, shifted and moved result.",
+       "a rotated, shifted and uniformly moving start gives the rotated, shifted and moved result.",
        "Galilean invariance",
        {}},
       frame_finding);

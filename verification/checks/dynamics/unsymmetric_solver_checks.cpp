@@ -98,10 +98,10 @@ Finding promise_is_kept(const Subject&) {
       measured.row(name + ", tolerance " + std::to_string(tolerance),
                    solve.converged ? residual / tolerance : INFINITY);
     }
-  return judge_worst(
-      measured, 1.05,
-      "the tolerance, and the drift between the iteration's residual and the true one: epsilon "
-      "times the largest residual on the way, far below a twentieth of the smallest tolerance");
+  return judge_worst(measured, 1.05,
+                     "the tolerance, and the drift between the iteration's residual and the true "
+                     "one: epsilon times the largest residual of any iteration, far below a "
+                     "twentieth of the smallest tolerance");
 }
 
 Finding is_the_dense_solution(const Subject&) {
@@ -130,10 +130,9 @@ Finding unsymmetry_is_there(const Subject&) {
   hinges.stretch->damping = springs.bending->damping = 0;
   observe("springs", springs);
   observe("hinges", hinges);
-  return judge_worst(
-      measured, 1,
-      "the checks of the solver beside this one would show little on a matrix that is symmetric: "
-      "the largest entry of A - A^T is more than a thousandth of that of A");
+  return judge_worst(measured, 1,
+                     "on a symmetric matrix the other checks of this solver would show little: the "
+                     "largest entry of A - A^T exceeds a thousandth of that of A");
 }
 
 Finding work_is_counted(const Subject&) {
@@ -171,8 +170,8 @@ std::vector<Check> unsymmetric_solver_checks() {
            "The matrix of a Newton step on moving, damped cloth is not symmetric.", source,
            unsymmetry_is_there},
           {"solver.unsymmetric-work-is-counted",
-           "The reference's solve of an unsymmetric Newton step counts its products, and says when "
-           "it is not done.",
+           "The reference's solve of an unsymmetric Newton step counts its products, and reports "
+           "when it does not finish.",
            source, work_is_counted}};
 }
 

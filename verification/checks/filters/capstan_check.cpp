@@ -81,8 +81,8 @@ Finding capstan_finding(const Subject& subject) {
   return {{worst.value(), 0.02, 0, "of the exponent",
            "the strip turns by 0.08 rad at a row, where (1 + mu tan(d/2))/(1 - mu tan(d/2)) "
            "differs from e^(mu d) by d^2/12 of the exponent, 0.0005; inertia of the sliding strip, "
-           "rho v^2 over its tension, is smaller; two percent are left for vibrations that damping "
-           "has not yet taken"},
+           "rho v^2 over its tension, is smaller; two percent allow for vibrations that damping "
+           "has not yet removed"},
           pulls,
           ""};
 }
@@ -90,10 +90,10 @@ Finding capstan_finding(const Subject& subject) {
 }  // namespace
 
 std::vector<Check> capstan_checks() {
-  return {
-      {"contact.a-drum-obeys-the-capstan-equation",
-       "A strip that slides round a drum is e^(mu turn) times tighter on the side it is drawn to.",
-       "Euler and Eytelwein", capstan_finding}};
+  return {{"contact.a-drum-obeys-the-capstan-equation",
+           "In a strip that slides round a drum by an angle, the pulled side has e^(mu angle) "
+           "times the tension of the other.",
+           "Euler and Eytelwein", capstan_finding}};
 }
 
 }  // namespace foldproof

@@ -109,8 +109,8 @@ Finding thin_ones_are_as_good(const Subject&) {
                    oracles::Estimate{worst.value(), uncertainty.value()});
     }
   return judge_worst(measured, 1e-9,
-                     "features thinner or more parallel than that are asked at their sides and "
-                     "ends only, which hides as much of their extent");
+                     "thinner or more parallel features are tested at their sides and ends only, "
+                     "which can miss as much of their extent");
 }
 
 /// How far the weights are from those of two points, one of each feature [1].
@@ -151,11 +151,11 @@ std::vector<Check> crossing_checks() {
            "degenerate or not.",
            source, distance_is_exact},
           {"nearness.distance-is-exact-for-thin-features",
-           "So it is for triangles as thin, and edges as nearly parallel, as one likes.", source,
+           "The same holds for arbitrarily thin triangles and arbitrarily parallel edges.", source,
            thin_ones_are_as_good},
           {"nearness.weights-locate-the-nearest-points",
-           "The weights are those of a point on each feature, and what is between these is the "
-           "distance along the normal.",
+           "The weights give a point on each feature; these two points are the distance apart, "
+           "along the normal.",
            source, weights_lead_across}};
 }
 

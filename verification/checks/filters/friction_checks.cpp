@@ -84,7 +84,7 @@ Finding slope_finding(const Subject& subject, const std::string& integrator,
     }
   return {{worst.value(), 4000 * epsilon * (1 + velocity.norm()), 0, "m",
            "240 steps of a motion that the schemes integrate exactly, of lengths up to 5 m: a few "
-           "roundings a step, and those of the velocity add up over the steps that follow"},
+           "roundings a step, and the velocity's add up over later steps"},
           ways,
           ""};
 }
@@ -117,8 +117,8 @@ Finding belt_finding(const Subject& subject, const std::string& integrator) {
     if (n % 10 == 0) places.row(t, s.x(0, 0) - x0, exact);
   }
   return {{worst.value(), mu * g * h * h, 0, "m",
-           "exact while it slides; in the step in which it comes to be carried, friction may act a "
-           "step too long or too short, which is worth mu g h^2 at most"},
+           "exact while it slides; when the belt starts to carry it, friction may act a step too "
+           "long or too short, at most mu g h^2"},
           places,
           ""};
 }
@@ -154,8 +154,8 @@ std::vector<Check> friction_checks() {
   std::vector<Check> list;
   add_for_each_scheme(list,
                       {"contact.a-block-on-a-slope-sticks-or-slides",
-                       "a block on a slope stays to rounding if tan(al) <= mu, and else slides by "
-                       "g (sin(al) - mu cos(al)) t^2/2.",
+                       "a block on a slope of angle al stays to rounding if tan(al) <= mu, and "
+                       "slides by g (sin(al) - mu cos(al)) t^2/2 otherwise.",
                        "mechanics",
                        {}},
                       resting_slope);
@@ -174,7 +174,7 @@ std::vector<Check> friction_checks() {
       belt_finding);
   add_for_each_scheme(list,
                       {"contact.a-turntable-carries-without-drift",
-                       "a point that sticks to a turning object stays where it is on it.",
+                       "a point that sticks to a turning object keeps its place on it.",
                        "mechanics",
                        {}},
                       turntable_finding);

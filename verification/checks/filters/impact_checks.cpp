@@ -71,7 +71,7 @@ Finding free_finding(const Subject& subject) {
                      : NAN);
   }
   return judge_worst(measured, 0,
-                     "all pairs of features, neighbours aside, asked in exact arithmetic");
+                     "all pairs of features except neighbours, tested in exact arithmetic");
 }
 
 /// Of pairs farther apart than a tenth of the thickness at the start, the least distance at
@@ -91,8 +91,8 @@ Finding distance_finding(const Subject& subject) {
     measured.row(name, kept / least);
   }
   return judge_worst(measured, 1,
-                     "what starts farther apart than a tenth of the thickness stays so: that is "
-                     "the distance that the planes between two features keep");
+                     "features that start farther apart than a tenth of the thickness stay so: the "
+                     "planes between two features keep that distance");
 }
 
 Finding energy_finding(const Subject& subject) {
@@ -107,8 +107,8 @@ Finding energy_finding(const Subject& subject) {
   }
   return judge_worst(
       measured, 1,
-      "without springs every answer takes away relative velocity and adds none: impulses stop, "
-      "friction brakes, a zone's rigid motion is the least energy with its momentum");
+      "without springs every correction only removes relative velocity: impulses stop, friction "
+      "brakes, a zone's rigid motion has the least energy for its momentum");
 }
 
 /// Particles in a cloud, a plane, on a line, and two.
@@ -172,7 +172,8 @@ Finding zone_momentum_finding(const Subject&) {
 Finding zone_rigid_finding(const Subject&) {
   Table measured{
       {"case", ""},
-      {"rate of distance, or difference from the velocity led, over the largest velocity", "1"}};
+      {"rate of distance, or difference from the prescribed velocity, over the largest velocity",
+       "1"}};
   for (const auto& [name, x] : clouds())
     for (const int prescribed : {0, 1, 2}) {
       const Zone zone = zone_of(x, prescribed);
@@ -190,7 +191,7 @@ Finding zone_rigid_finding(const Subject&) {
     }
   return judge_worst(
       measured, 256 * epsilon,
-      "a rigid motion to some hundred roundings, of velocities led by a rigid motion themselves");
+      "a rigid motion to some hundred roundings; the prescribed velocities are rigid too");
 }
 
 Finding forced_finding(const Subject& subject) {
@@ -208,9 +209,9 @@ Finding forced_finding(const Subject& subject) {
     accepted = 0;
   }
   measured.row("two held sheets led through each other", accepted);
-  return judge_worst(
-      measured, 0,
-      "no velocity can keep apart what is led through each other: the run has to stop and say so");
+  return judge_worst(measured, 0,
+                     "no velocity can separate prescribed particles that pass through each other: "
+                     "the run must stop and say so");
 }
 
 Finding same_bits_finding(const Subject& subject) {
@@ -295,8 +296,8 @@ Finding kept_pairs_finding(const Subject&) {
   see_choices(measured);
   measured.row("a run of 60 steps, and one that forgets", numbers_that_the_cache_changes());
   return judge_worst(measured, 0,
-                     "the pairs that were kept are a list to choose from: what is chosen is what a "
-                     "search finds, in its order");
+                     "the cached pairs are candidates: the pairs chosen from them are those of a "
+                     "search, in the same order");
 }
 
 /// Two sheets that cross, pushed apart step by step: how many crossings are left.
@@ -315,9 +316,8 @@ Finding untangle_finding(const Subject& subject) {
   const State end = stepper.run(stepper.start(), 0.001, 150);
   measured.row(std::to_string(int(start)) + " at the start",
                start > 5 ? count(end.x) / start : NAN);
-  return judge_worst(
-      measured, 0,
-      "the line on which they cross cuts off a corner: it can shrink to nothing there");
+  return judge_worst(measured, 0,
+                     "the line of intersection cuts off a corner, where it can shrink to nothing");
 }
 
 }  // namespace
@@ -328,7 +328,8 @@ std::vector<Check> impact_checks() {
        "Layers that would pass through each other in a step do not, by impulses or by rigid zones.",
        "BMF03 section 5; Bridson, Fedkiw, Anderson 2002 section 7", free_finding},
       {"self-collision.gaps-stay-above-a-tenth-of-the-thickness",
-       "Features farther apart than a tenth of the thickness stay so.", "ours", distance_finding},
+       "Features farther apart than a tenth of the thickness stay farther apart.", "ours",
+       distance_finding},
       {"self-collision.response-never-adds-kinetic-energy",
        "Without springs, keeping layers apart adds no kinetic energy.",
        "Bridson, Fedkiw, Anderson 2002 section 7", energy_finding},
@@ -336,7 +337,7 @@ std::vector<Check> impact_checks() {
        "A rigid impact zone keeps linear and angular momentum.",
        "Bridson, Fedkiw, Anderson 2002 section 7.5; Provot 1997", zone_momentum_finding},
       {"self-collision.zones-are-rigid",
-       "A rigid impact zone changes no distance, and follows what is led in it.",
+       "A rigid impact zone changes no distance, and follows the prescribed particles in it.",
        "Bridson, Fedkiw, Anderson 2002 section 7.5; Provot 1997", zone_rigid_finding},
       {"self-collision.forced-crossings-stop-the-run",
        "Prescribed motion that takes cloth through itself stops the run.", "ours", forced_finding},
@@ -344,7 +345,7 @@ std::vector<Check> impact_checks() {
        "The same cloth gets the same answer to the bit, alone or beside others.", "ours",
        same_bits_finding},
       {"self-collision.cached-pairs-match-a-fresh-search",
-       "Pairs that are remembered from step to step spare searches and change no bit.", "ours",
+       "Pairs cached from step to step save searches and change no bit.", "ours",
        kept_pairs_finding},
       {"self-collision.tangles-come-apart",
        "Cloth that starts crossing itself along a line that cuts off a corner is pushed out of the "

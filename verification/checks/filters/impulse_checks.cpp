@@ -76,9 +76,9 @@ Finding first_impulse_finding(const Subject& subject) {
   const PerParticle3 v = corrected_motion(subject, scene, apex_above, 8 * gap);
   measured.row("later, pushed", std::abs(approach_rate(scene, v, apex_below)) / permitted);
   return judge_worst(measured, 1e-3,
-                     "first answers are exact but for a dozen roundings; the pushed triangle tilts "
-                     "by some thousandths on its way, and its approach along the normal that it "
-                     "has then is stopped, not the vertical one");
+                     "first impulses are exact up to a dozen roundings; the pushed triangle tilts "
+                     "by some thousandths meanwhile, and its approach along its new normal is "
+                     "stopped, not the vertical one");
 }
 
 /// A motion that ends farther away than half as much again as the distance to be
@@ -102,7 +102,7 @@ Finding left_alone_finding(const Subject& subject) {
            "a tenth of the thickness is kept, by planes that promise a quarter more, 0.125: no bit "
            "of a straight motion that ends beyond it changes"},
           measured,
-          "The last row, which comes nearer than a tenth, must be answered."};
+          "The last row, which comes nearer than a tenth, must be corrected."};
 }
 
 /// Impulses, then zones, of particles whose masses differ by a factor of six.
@@ -118,8 +118,8 @@ Finding step_momentum_finding(const Subject& subject) {
                  moved ? linear_momentum_of(mass, change).norm() / (epsilon * scale) : NAN);
   }
   return judge_worst(measured, 64 + 256,
-                     "as of repulsion for impulses, and as of a single zone: every particle is in "
-                     "some tens of pairs and in at most a few zones");
+                     "for impulses as for repulsion, plus the bound of a single zone: every "
+                     "particle is in some tens of pairs and in at most a few zones");
 }
 
 }  // namespace
@@ -131,7 +131,7 @@ std::vector<Check> impulse_checks() {
        "approach.",
        "Bridson, Fedkiw, Anderson 2002 section 7.4", first_impulse_finding},
       {"self-collision.distant-motion-is-left-alone",
-       "Motion that stays farther away than it must keep is not changed.", "ours",
+       "Motion that keeps more than the required distance is not changed.", "ours",
        left_alone_finding},
       {"self-collision.a-step-conserves-momentum",
        "Impulses and rigid zones together keep the momentum of particles with different masses.",

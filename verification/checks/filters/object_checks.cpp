@@ -150,7 +150,7 @@ Finding convex_finding(const Subject& subject) {
   measured.row("two boards, 0.01 m apart, shots of 0.7 m",
                deepest_shot(subject, {board, second}, 0.7));
   return judge_worst(measured, 1e-12,
-                     "rounding of positions of up to a metre in a frame that moves, over 60 steps");
+                     "rounding of positions of up to a metre in a moving frame, over 60 steps");
 }
 
 /// A point outside must move by half the object's thickness in a step, seen from it, to pass
@@ -168,8 +168,8 @@ Finding limit_finding(const Subject& subject) {
     measured.row("board" + words, deepest_shot(subject, {board}, part * 0.03) / 0.03);
   }
   return judge_worst(measured, 0.9,
-                     "a point that was outside has moved by 0.9 of half the thickness at most, and "
-                     "one that was inside is on its way out; at 1, where the object is deepest, it "
+                     "a point that was outside has moved by at most 0.9 of half the thickness, and "
+                     "one that was inside is moving out; at 1, where the object is deepest, it "
                      "would be pushed out on the other side",
                      "the limit: a point must not move, seen from the object, by more than half "
                      "its thickness in a step");
@@ -182,8 +182,8 @@ std::vector<Check> object_checks() {
       {"contact.object-velocity-is-the-derivative-of-its-position",
        "An object's velocity is the derivative of its place.", "kinematics", velocity_finding},
       {"contact.keyframes-are-followed",
-       "A keyframed object is at its keyframes when it should be, half way it has turned by half, "
-       "and outside it rests.",
+       "A keyframed object is at each keyframe at its time, has turned by half halfway between "
+       "two, and rests before the first and after the last.",
        "kinematics", keyframe_finding},
       {"contact.convex-objects-are-never-entered",
        "No particle enters a convex object that does not turn, whatever its speed, and none passes "

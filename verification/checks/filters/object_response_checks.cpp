@@ -58,8 +58,8 @@ Finding response_finding(const Subject& subject, const std::string& response, bo
   }
   return judge_worst(
       measured, 40,
-      "a few dozen roundings on the way through the object's frame and back, of lengths of a metre "
-      "over the step; a point that needs no answer keeps its velocity bit for bit");
+      "a few dozen roundings in converting to the object's frame and back, of lengths of a metre "
+      "over the step; a point that needs no correction keeps its velocity bit for bit");
 }
 
 Finding projection_finding(const Subject& subject) {
@@ -97,7 +97,7 @@ Finding no_push_finding(const Subject& subject) {
         corrected_by_objects(subject, contact.scene, contact.span, contact.state), contact.state.v);
   }
   return {{differ, 0, 0, "numbers",
-           "what moves a point in the step is not asked; only the velocity that ends it is"},
+           "only the velocity at the end of a step is changed, not the one that moves the point"},
           {},
           ""};
 }
@@ -106,21 +106,21 @@ Finding no_push_finding(const Subject& subject) {
 
 std::vector<Check> object_response_checks() {
   const std::string source = "what BMF03 section 5.2 is compared with";
-  return {{"contact.projection-ends-on-the-surface",
-           "With the response 'projection' a point that a step takes into an object is put on its "
-           "surface along the normal, with friction; others keep every bit.",
-           source, projection_finding},
-          {"contact.projection-removes-inward-velocity-at-contact",
-           "With 'projection' the velocity that ends a step has no part into a surface that the "
-           "point is on.",
-           source, stopping_finding},
-          {"contact.push-out-expels-points-in-one-step",
-           "With 'push_out' a point that is inside gets the velocity that takes it to the surface "
-           "in one step.",
-           source, push_out_finding},
-          {"contact.push-out-does-not-look-ahead",
-           "With 'push_out' a step's own velocity is left alone, bit for bit.", source,
-           no_push_finding}};
+  return {
+      {"contact.projection-ends-on-the-surface",
+       "With the response 'projection' a point that enters an object in a step is put on its "
+       "surface along the normal, with friction; others keep every bit.",
+       source, projection_finding},
+      {"contact.projection-removes-inward-velocity-at-contact",
+       "With 'projection' the velocity at the end of a step has no component into a surface that "
+       "the point is on.",
+       source, stopping_finding},
+      {"contact.push-out-expels-points-in-one-step",
+       "With 'push_out' a point inside gets the velocity that moves it to the surface in one step.",
+       source, push_out_finding},
+      {"contact.push-out-does-not-look-ahead",
+       "With 'push_out' the velocity that moves the cloth in a step is not changed by a bit.",
+       source, no_push_finding}};
 }
 
 }  // namespace foldproof

@@ -207,7 +207,7 @@ Finding centres_finding(const Subject& subject) {
   const std::vector<double>& depth = depths.numbers("depth of a centre");
   const double too_easy = std::numeric_limits<double>::quiet_NaN();
   return {{depth[0] > 1e-3 ? depth[2] : too_easy, 20 * epsilon, 0, "m",
-           "the centre comes down on the spike's top and is held there, but for roundings"},
+           "the centre comes down on the spike's top and is held there, up to rounding"},
           depths,
           "not a number if the particles alone keep the centre out"};
 }
@@ -276,12 +276,12 @@ std::vector<Check> pinch_checks() {
        "them.",
        "BMF03 section 5.1", equal_depth_finding},
       {"contact.pinched-points-obey-coulomb",
-       "Along the surface between, friction takes at most what both objects' pushes allow from its "
-       "motion against their mean.",
+       "Along the surface between them, friction reduces the point's velocity relative to the "
+       "objects' mean by at most what both objects' pushes allow.",
        "BMF03 section 5.1", pinch_friction_finding},
       {"contact.closing-objects-hold-a-point-between-them",
-       "A point that would enter two objects is held between them where their normals are more "
-       "than 120 degrees apart, and else led out of one after the other.",
+       "A point that would enter two objects is held between them if their normals are more than "
+       "120 degrees apart, and otherwise moved out of one after the other.",
        "BMF03 section 5.2", closing_finding},
       {"contact.objects-beyond-the-nearest-count",
        "A point that is near one object and about to enter another is held out of both.",
@@ -291,11 +291,11 @@ std::vector<Check> pinch_checks() {
        "impulses.",
        "mechanics", shares_finding},
       {"contact.centres-pass-on-only-their-own-change",
-       "Particles keep their velocities but for their shares of the change that the centre asks "
-       "for.",
+       "Particles keep their velocities except for their shares of the change that the centre "
+       "needs.",
        "mechanics", change_finding},
       {"contact.contacts-are-counted",
-       "A point is asked once, and its contact counted where its move was changed.",
+       "A point is tested once, and its contact counts if its move was changed.",
        "our own: cases are judged by it", counts_finding},
       {"contact.triangle-centres-stay-outside",
        "With centres of triangles as points, a spike between the particles does not come through.",

@@ -114,7 +114,7 @@ double momentum_scale(const PerParticle& mass, const PerParticle3& v) {
 }
 
 constexpr const char* why_roundings =
-    "every impulse adds w_i j/m_i to four velocities, with weights that sum to zero but for a "
+    "every impulse adds w_i j/m_i to four velocities, with weights that sum to zero up to a "
     "rounding each; a particle takes part in some tens of them";
 
 Finding linear_finding(const Subject& subject) {
@@ -264,8 +264,9 @@ std::vector<double> ways_on_slope(const Subject& subject, double friction, doubl
 }
 
 Finding slope_finding(const Subject& subject) {
-  Table measured{{"case", ""},
-                 {"way over that of Coulomb's law, less one; or over that without friction", "1"}};
+  Table measured{
+      {"case", ""},
+      {"|distance over that of Coulomb's law - 1|; or distance over that without friction", "1"}};
   const double seconds = 0.1;
   for (const auto& [friction, degrees] : {std::pair{0.3, 20.0}, {0.5, 35.0}}) {
     const double angle = degrees * pi / 180;
@@ -286,9 +287,9 @@ Finding slope_finding(const Subject& subject) {
   }
   return judge_worst(
       measured, 0.1,
-      "Coulomb's law; a tenth for the bumps of a sheet that its pairs answer one after the other, "
-      "each for the normal velocity that the others have left. Sliding sheets need all the "
-      "friction that there is between them, so that noise parts them: their mean is judged");
+      "Coulomb's law; a tenth for the unevenness of pairs that are corrected one after the other, "
+      "each for the normal velocity left by the others. Sliding sheets use all the friction "
+      "between them, so noise separates them: their mean is judged");
 }
 
 }  // namespace
@@ -296,8 +297,8 @@ Finding slope_finding(const Subject& subject) {
 std::vector<Check> repulsion_checks() {
   return {
       {"self-collision.repulsion-follows-its-law",
-       "Two features nearer than the thickness are kept from approaching, parted by at most a "
-       "tenth of their overlap in a step, and rub as Coulomb says.",
+       "Two features nearer than the thickness stop approaching, are separated by at most a tenth "
+       "of their overlap in a step, and have Coulomb friction.",
        "Bridson, Fedkiw, Anderson 2002 section 7.1; BMF03 section 5", law_finding},
       {"self-collision.linear-momentum-is-conserved",
        "Repulsion, friction and impulses against crossings keep the linear momentum of free cloth.",
@@ -310,10 +311,12 @@ std::vector<Check> repulsion_checks() {
        "distance at which they act.",
        "ours; Bridson, Fedkiw, Anderson 2002 section 7.1", friction_turn_finding},
       {"self-collision.separate-layers-are-bitwise-unchanged",
-       "Layers apart or parting, and particles that are led, keep their velocities to the bit.",
+       "Layers that are apart or separating, and prescribed particles, keep every bit of their "
+       "velocities.",
        "BMF03 section 5", untouched_finding},
       {"self-collision.near-pairs-are-found-exactly-once",
-       "The search by boxes finds every pair of features that comes near, once, and no neighbours.",
+       "The search by boxes finds every pair of features that comes near, exactly once, and no "
+       "neighbours.",
        "Bridson, Fedkiw, Anderson 2002 section 6", pairs_finding},
       {"self-collision.a-stack-on-a-slope-obeys-coulomb",
        "Where tan(angle) is below the friction, sheets of a stack on a slope slip by less than a "

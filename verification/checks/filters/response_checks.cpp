@@ -45,8 +45,8 @@ double unsure(const Contact& contact) { return 100 * epsilon * (1 + 4 * contact.
 // Error of phi and of the object's velocity due to rounding of positions near 1 m, in velocities of
 // a step of a hundredth of a second: the scale of all bounds below.
 constexpr const char* why_roundings =
-    "a few dozen roundings on the way through the object's frame and back, of lengths of a metre, "
-    "divided by the step where a mean velocity is made of them";
+    "a few dozen roundings in converting to the object's frame and back, of lengths of a metre, "
+    "divided by the step where a mean velocity is computed";
 double velocity_scale(const Contact& contact, const Answer& a) {
   return a.speed + 1 / contact.span.step;
 }
@@ -238,8 +238,7 @@ Finding neighbours_finding(const Subject& subject) {
     worst = changed > 0 ? worst + differ : std::numeric_limits<double>::quiet_NaN();
   }
   return {{worst, 0, 0, "numbers",
-           "what is known of a neighbour may spare a question, but only where the answer cannot "
-           "matter"},
+           "a neighbour's distance may save a query, but only where the answer cannot matter"},
           answers,
           "625 particles in rows through the middle of each body, together and one at a time"};
 }
@@ -262,19 +261,19 @@ std::vector<Check> response_checks() {
        "The tangential impulse is at most mu times the normal one.", "BMF03 section 5.2",
        cone_finding},
       {"contact.sliding-is-never-reversed",
-       "Friction shortens the sliding velocity: it is not turned, not reversed and not enlarged, "
-       "and zero stays zero.",
+       "Friction shortens the sliding velocity: it never turns, reverses or lengthens it, and zero "
+       "stays zero.",
        "BMF03 section 5.2", reversal_finding},
       {"contact.response-is-galilean-invariant",
-       "Cloth and object that share one more velocity are answered alike.", "mechanics",
+       "A velocity added to both cloth and object does not change the response.", "mechanics",
        galilean_finding},
       {"contact.turning-plane-is-penetrated-as-derived",
-       "A plane that turns in a step is entered by no more than the way that a point slides on it "
-       "times the sine of the turn.",
+       "A point enters a plane that turns in a step by no more than the distance it slides times "
+       "the sine of the turn.",
        "BMF03 section 5.2", turning_finding},
       {"contact.neighbours-do-not-matter",
-       "A particle is answered with the same bits alone and among its neighbours.",
-       "BMF03 section 5.2", neighbours_finding},
+       "A particle gets the same bits alone and among its neighbours.", "BMF03 section 5.2",
+       neighbours_finding},
   };
 }
 

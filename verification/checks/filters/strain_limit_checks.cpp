@@ -141,8 +141,8 @@ Finding limits_finding(const Subject& subject, SweepOrder order) {
   }
   return judge_worst(
       measured, 1 + 1e-9,
-      "sweeps end within the tolerance, since velocities within the limits exist: none at all; a "
-      "billionth for the roundings of another sum. Motions that break no limit count as NaN");
+      "sweeps end within the tolerance, since velocities within the limits exist; a billionth for "
+      "rounding in a different order of summation. Motions that break no limit count as NaN");
 }
 
 Finding momentum_finding(const Subject& subject) {
@@ -230,8 +230,8 @@ Finding untouched_within_limits_finding(const Subject& subject) {
     }
   return judge_worst(
       measured, 0,
-      "what no limit is broken by is not the filter's business; in one sweep a correction cannot "
-      "get from the last particle of a sheet to the first, which lies at its other end");
+      "the filter must not touch motion that breaks no limit; in one sweep a correction cannot get "
+      "from the last particle of a sheet to the first, at its other end");
 }
 
 }  // namespace
@@ -244,7 +244,7 @@ std::vector<Check> strain_limit_checks() {
                               source, one_spring_finding},
                              {"strain.unreachable-limits-leave-the-shortest-spring",
                               "A spring that turns so fast that no impulse along it keeps its "
-                              "limit is given that which leaves it shortest.",
+                              "limit is given the impulse that leaves it shortest.",
                               source, beyond_reach_finding}};
   for (const NamedOrder& named : sweep_orders())
     list.push_back(
@@ -258,10 +258,10 @@ std::vector<Check> strain_limit_checks() {
             "One correction changes neither the linear nor the angular momentum of a free cloth.",
             source, momentum_finding},
            {"strain.prescribed-particles-are-left-alone",
-            "Velocities of particles with prescribed motion are left as they are, bit for bit.",
-            source, held_finding},
+            "Velocities of particles with prescribed motion are unchanged, bit for bit.", source,
+            held_finding},
            {"strain.springs-within-limits-are-left-alone",
-            "Where no spring would leave its limits, velocities are left as they are, bit for bit.",
+            "Where no spring would leave its limits, velocities are unchanged, bit for bit.",
             source, untouched_within_limits_finding}})
     list.push_back(check);
   return list;

@@ -67,9 +67,9 @@ Finding steps_finding(const Subject& subject, const std::string& integrator) {
   }
   if (tried < 12) measured.row("few cloths come near their limits", NAN);
   return judge_worst(measured, 1 + 1e-9,
-                     "x moves with the velocity that was limited, and nothing else moves it; a "
-                     "billionth for the roundings of another sum. Of 16 cloths 12 at least must "
-                     "come within five tolerances of their limits, or it is NaN");
+                     "x moves with the limited velocity, and nothing else moves it; a billionth "
+                     "for rounding in a different order of summation. At least 12 of 16 cloths "
+                     "must come within five tolerances of their limits, or it is NaN");
 }
 
 Finding report_finding(const Subject& subject) {
@@ -292,7 +292,7 @@ Finding orders_finding(const Subject&) {
   }
   return judge_worst(
       measured, 0,
-      "two sweeps are two times all springs, the second time backwards where sweeps alternate");
+      "two sweeps correct all springs twice, the second time backwards if sweeps alternate");
 }
 
 }  // namespace
@@ -315,15 +315,15 @@ std::vector<Check> strain_step_checks() {
             "adds kinetic energy.",
             "Bregman 1967", nearer_finding},
            {"strain.sweeps-visit-springs-in-order",
-            "A sweep corrects one spring after the other in the list's order, every other sweep "
-            "backwards if so asked, and coloured ones in the order of the colours.",
+            "A sweep corrects springs one after the other in the list's order; every other sweep "
+            "goes backwards on request; coloured sweeps go colour by colour.",
             source, orders_finding},
            {"strain.springs-of-a-colour-share-no-particle",
-            "No two springs of a colour share a particle, and none is lost.", "our own",
-            colours_finding},
+            "No two springs of a colour share a particle, and every spring has a colour.",
+            "our own", colours_finding},
            {"scene.strain-limits-are-read",
-            "Strain limits are read as they are written, and built before objects.",
-            "cases/KEYS.md", read_finding},
+            "Strain limits are read as written, and act before objects.", "cases/KEYS.md",
+            read_finding},
            {"scene.invalid-strain-limits-are-rejected",
             "Strain limits that make no sense are refused, with the line.", "cases/KEYS.md",
             rejected_finding}})

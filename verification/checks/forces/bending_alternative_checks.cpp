@@ -92,7 +92,7 @@ Finding acts_in_plane(const Subject& subject, const BendingAlternative& model) {
     ratio.observe(paper / defects.in_plane);
   }
   return {{found.rows() == 0 ? NAN : ratio.value(), 1e-6, 0, "1",
-           "a millionth: what a model puts in plane is then no rounding, on any of the hinges"},
+           "a millionth: a model's in-plane force is then not rounding, on any of the hinges"},
           found,
           "in plane: the largest work on an in-plane motion over the product of lengths, 1 if the "
           "force were that motion; measured is the paper's over the model's, at worst"};
@@ -115,8 +115,8 @@ Finding paper_keeps_all(const Subject& subject) {
       measured, "measured", 32,
       "sums of four forces and products with twelve numbers take fewer than 32 roundings, "
       "magnified by thinness",
-      "With the normals' lengths alone taken as constant nothing is lost: in d(theta) = cos d(sin) "
-      "- sin d(cos) their changes cancel. It is the edge's length that must not be.");
+      "Treating only the normals' lengths as constant loses nothing: in d(theta) = cos d(sin) - "
+      "sin d(cos) their changes cancel. The edge's length must not be treated so.");
 }
 
 }  // namespace
@@ -128,8 +128,8 @@ std::vector<Check> bending_alternative_checks() {
                                 "BMF03 section 4", paper_keeps_all}};
   for (const BendingAlternative& model : bending_alternatives())
     checks.push_back({model.name,
-                      model.words + " pulls in the planes of the triangles, a million times beyond "
-                                    "what the paper's element does.",
+                      model.words + " pulls in the planes of the triangles, a million times more "
+                                    "than the paper's element.",
                       model.source,
                       [model](const Subject& subject) { return acts_in_plane(subject, model); }});
   return checks;

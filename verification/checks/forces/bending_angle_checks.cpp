@@ -135,7 +135,7 @@ Finding sharp_folds_stay_finite(const Subject& subject) {
   const double excess = signed_largest(ratios.numbers("|F| over its limit")) - 1;
   return {{excess / epsilon, 256, 0, "epsilon of the limit",
            "|sin(theta/2)| is at most 1, however sharp the fold, so |F| is at most the limit ke c "
-           "(1 + sin(theta0/2)) |u|, but for the roundings of the dozen products in each"},
+           "(1 + sin(theta0/2)) |u|, up to the roundings of the dozen products in each"},
           ratios,
           "Measured is the largest |F| less its limit: negative where it stays below. A force or a "
           "damping force that is not finite gives NaN."};

@@ -144,23 +144,23 @@ Finding force_is_as_defined(const Subject& subject) {
 }  // namespace
 
 std::vector<Check> bending_checks() {
-  return {{"bending.forces-sum-to-zero",
-           "The elastic bending forces on crumpled sheets and on single hinges sum to zero, with "
-           "rest and with current weighting.",
-           "BMF03 section 4", forces_sum_to_zero},
-          {"bending.torques-sum-to-zero",
-           "The torques of the elastic bending forces on crumpled sheets and single hinges sum to "
-           "zero, with either weighting.",
-           "BMF03 section 4", torques_sum_to_zero},
-          {"bending.other-laws-conserve-momentum",
-           "Forces and torques still sum to zero when another function of the angle takes the "
-           "sine's place.",
-           "BMF03 section 4: other magnitudes must multiply all four forces alike",
-           other_laws_keep_momentum},
-          {"bending.force-is-as-defined",
-           "On crumpled sheets and on hinges of all angles, with rest angles, the elastic force is "
-           "the printed one to rounding.",
-           "BMF03 section 4, evaluated in 50 digits", force_is_as_defined}};
+  return {
+      {"bending.forces-sum-to-zero",
+       "The elastic bending forces on crumpled sheets and on single hinges sum to zero, with rest "
+       "and with current weighting.",
+       "BMF03 section 4", forces_sum_to_zero},
+      {"bending.torques-sum-to-zero",
+       "The torques of the elastic bending forces on crumpled sheets and single hinges sum to "
+       "zero, with either weighting.",
+       "BMF03 section 4", torques_sum_to_zero},
+      {"bending.other-laws-conserve-momentum",
+       "Forces and torques still sum to zero when another function of the angle replaces the sine.",
+       "BMF03 section 4: other magnitudes must multiply all four forces alike",
+       other_laws_keep_momentum},
+      {"bending.force-is-as-defined",
+       "On crumpled sheets and on hinges of all angles, with rest angles, the elastic force is the "
+       "printed one to rounding.",
+       "BMF03 section 4, evaluated in 50 digits", force_is_as_defined}};
 }
 
 }  // namespace foldproof

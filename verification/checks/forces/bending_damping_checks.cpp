@@ -138,11 +138,10 @@ Finding leaves_in_plane_motion_alone(const Subject& subject) {
     }
     measured.row(names[motion], worst.value());
   }
-  return judge_worst(
-      measured, 32,
-      "u.v of an in-plane motion is a sum of fewer than 32 terms' roundings, magnified by the "
-      "thinness",
-      "The six rigid motions, which complete the eleven, have a check of their own.");
+  return judge_worst(measured, 32,
+                     "u.v of an in-plane motion is a sum of fewer than 32 terms' roundings, "
+                     "magnified by the thinness",
+                     "A check of its own has the six rigid motions, which complete the eleven.");
 }
 
 std::vector<DampedScene> dense_cases() {

@@ -144,7 +144,8 @@ std::vector<Check> bending_energy_checks() {
        "With |E|^2/(|N1| + |N2|) taken at rest the elastic force does no work round a closed path.",
        "derived from BMF03 section 4", no_work_round_a_loop},
       {"bending.current-weighting-does-work-round-a-closed-path",
-       "With |E|^2/(|N1| + |N2|) taken at the current positions it does: that force has no energy.",
+       "With |E|^2/(|N1| + |N2|) taken at the current positions the elastic force does work round "
+       "a closed path: it has no energy.",
        "derived from BMF03 section 4", work_round_a_loop}};
 }
 

@@ -156,8 +156,8 @@ Finding unfolded_pleats_return(const Subject& subject) {
     left.row(time, left_after(subject, scene, scene.rest_angles, time),
              left_after(subject, unfolded_pleats(0), scene.rest_angles, time));
   return {{left.numbers("left of the unfolding").back(), 0.01, 0, "1",
-           "what is left decays exponentially and would vanish; a hundredth tells a shape that "
-           "returns from one that stays (all is left) or goes elsewhere"},
+           "the rest decays exponentially; a hundredth separates a shape that returns from one "
+           "that stays or goes elsewhere"},
           left,
           "The sheet starts flat and free; its rest angles are those of pleats. Measured over all "
           "hinges, as the root of the sum of squares of theta - theta0, over that at the start."};
@@ -171,7 +171,7 @@ std::vector<Check> bending_shape_checks() {
            "a symmetric Jacobian without a positive eigenvalue.",
            "BMF03 section 4", nonlinear_damping_stays_symmetric},
           {"bending.flattened-pleats-fold-back",
-           "A sheet with the rest angles of pleats, held flat and let go, folds back into them.",
+           "A sheet with the rest angles of pleats, held flat and released, folds back into them.",
            "BMF03 section 4", unfolded_pleats_return}};
 }
 

@@ -16,8 +16,8 @@ Table no_powers() { return {{"case", ""}, {"power", "sum |v_i||F_i|"}, {"power i
 
 Finding dissipation(const Table& powers) {
   return {{signed_largest(powers.numbers("power")), 0, 0, "sum |v_i||F_i|",
-           "each element takes a square out of the motion, at random velocities far more than "
-           "roundings: the power is negative, and the largest is that nearest to 0"},
+           "each element removes a square from the energy, at random velocities far more than "
+           "rounding: the power is negative, and the largest is nearest to 0"},
           powers,
           "measured is the largest power of the damping forces with its sign"};
 }

@@ -288,13 +288,13 @@ std::vector<Check> force_checks() {
            "A bending law that the reference does not know is refused by name.",
            "a rule of this suite: bad input is refused in words", unknown_laws_are_rejected},
           {"forces.row-bounds-cover-every-row",
-           "What the reference's springs and hinges say of a particle's row of the stiffness "
-           "matrix is not exceeded by any row, however far a hinge is from its rest angle.",
+           "No row of the stiffness matrix exceeds the reference's bound for its particle, however "
+           "far a hinge is from its rest angle.",
            "Gershgorin's theorem; the automatic step rests on it", rows_are_covered},
           {"forces.row-bounds-swap-with-the-sides-of-a-hinge",
-           "A hinge seen from its other side, the numbers of its particles exchanged in pairs, has "
-           "the same bounds, exchanged.",
-           "the angle about an edge does not depend on which way one looks along it",
+           "A hinge whose particles are exchanged in pairs (seen from the other side) has the same "
+           "bounds, exchanged.",
+           "the angle about an edge does not depend on the direction of view along it",
            rows_follow_their_particles},
           {"forces.row-bounds-are-tight-at-rest",
            "At a hinge's rest angle the bound on each particle's row is the row's own sum.",

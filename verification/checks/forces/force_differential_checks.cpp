@@ -179,9 +179,7 @@ struct Variant {
 };
 
 Finding flag_is_right(const Subject&) {
-  Table measured{
-      {"case", ""},
-      {"derivatives that are called symmetric and are not, or are and are not called so", "1"}};
+  Table measured{{"case", ""}, {"derivatives wrongly marked as symmetric, or wrongly not", "1"}};
   const BendingMaterial plain{0.0037, 0, Weighting::rest, DampingFactor::edge, "sine"};
   const std::vector<Variant> variants = {
       {"springs", StretchMaterial{41, 0, 1.04}, {}},
@@ -201,9 +199,8 @@ Finding flag_is_right(const Subject&) {
       const bool is_called = force_differential_at(system.forces, sheet.state, uncounted).symmetric;
       measured.row(sheet.name + ", " + variant.name, is_called == is_symmetric ? 0 : 1);
     }
-  return judge_worst(
-      measured, 0,
-      "which solver is taken hangs on it: conjugate gradients need a symmetric matrix");
+  return judge_worst(measured, 0,
+                     "it decides the solver: conjugate gradients need a symmetric matrix");
 }
 
 }  // namespace
@@ -225,8 +222,8 @@ std::vector<Check> force_differential_checks() {
            "of each one's.",
            what, springs_answer_for_themselves},
           {"force-differential.symmetry-is-reported-correctly",
-           "The derivative is called symmetric where its matrix is: without damping and current "
-           "weights, and not with.",
+           "The derivative is marked as symmetric exactly where its matrix is: without damping and "
+           "current weights.",
            what, flag_is_right},
           {"force-differential.whole-matches-force-differences",
            "The reference's derivative of all forces at given velocities is that of the subject's "

@@ -27,7 +27,7 @@ std::vector<Specimen> sprung_sheets() {
 }
 
 const char* const why_sums =
-    "a spring's two forces are equal and opposite but for a rounding of each sum; about eight "
+    "a spring's two forces are equal and opposite up to a rounding of each sum; about eight "
     "springs meet in a particle";
 
 Finding forces_sum_to_zero(const Subject& subject) {
@@ -264,8 +264,8 @@ std::vector<Check> spring_checks() {
            "Flat or curved, a sheet in its rest shape feels no spring force.", source,
            rest_gives_no_force},
           {"springs.rest-length-scale-leaves-stiffness-alone",
-           "Scaled rest lengths move the shape at ease and leave the springs' stiffness as it was.",
-           source, rest_length_scale_is_kept},
+           "Scaled rest lengths change the relaxed shape and not the springs' stiffness.", source,
+           rest_length_scale_is_kept},
           {"springs.equilateral-sheet-has-modulus-Y-and-Poisson-ratio-one-third",
            "A sheet of equilateral triangles has Young's modulus Y and Poisson ratio 1/3 in every "
            "direction.",

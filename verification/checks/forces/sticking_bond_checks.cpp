@@ -199,7 +199,7 @@ Finding timed_finding(const Subject& subject) {
   }
   return judge_worst(measured, 0.9,
                      "counts are exact; the force is that of k0 (1 - q^2)^2 to a thousand "
-                     "roundings, q the part of `release` that is over");
+                     "roundings, where q is the elapsed share of `release`");
 }
 
 Finding events_finding(const Subject&) {
@@ -308,7 +308,7 @@ Finding sides_finding(const Subject&) {
                    std::abs(double(made.state.bonds.size()) - expected));
     }
   return judge_worst(measured, 0,
-                     "a particle sticks just where its distance is at most `near`, on whatever "
+                     "a particle sticks exactly where its distance is at most `near`, on either "
                      "side, however soon bonds break");
 }
 
@@ -316,32 +316,33 @@ Finding sides_finding(const Subject&) {
 
 std::vector<Check> sticking_bond_checks() {
   const std::string source = "BMF03 section 6";
-  return {{"sticking.bonds-form-with-every-near-triangle",
-           "A particle comes to stick, where it is, to every triangle of a patch within `near` "
-           "that it is no corner of.",
-           source, forms_finding},
-          {"sticking.bonds-form-on-every-side",
-           "Particles stick to a surface that moves by itself within `near` of it on each of six "
-           "sides, and not beyond.",
-           source, sides_finding},
-          {"sticking.renewing-bonds-twice-changes-nothing",
-           "Bonds that were renewed stay as they are when renewed again.",
-           "our reading of BMF03 section 6", renewal_finding},
-          {"sticking.bonds-break-and-form-again",
-           "Bonds form and break as a palm comes and goes, many times, exactly when their "
-           "distances say so.",
-           source, again_finding},
-          {"sticking.patches-follow-their-schedule",
-           "A patch is sticky from one time until another and lets go smoothly before that.",
-           source, timed_finding},
-          {"sticking.steps-end-at-the-times-of-patches",
-           "The reference's steps end where a patch begins to be sticky, to let go, and to be no "
-           "longer.",
-           "our reading of BMF03 section 6", events_finding},
-          {"sticking.bonds-are-part-of-the-state",
-           "For every method: a run that is continued from its states ends with the same bits, and "
-           "not without their memory.",
-           "our reading of BMF03 section 6", memory_finding}};
+  return {
+      {"sticking.bonds-form-with-every-near-triangle",
+       "A particle starts to stick, where it is, to every triangle of a patch within `near`, "
+       "except triangles of which it is a corner.",
+       source, forms_finding},
+      {"sticking.bonds-form-on-every-side",
+       "Particles stick to a surface that moves by itself within `near` of it on each of six "
+       "sides, and not beyond.",
+       source, sides_finding},
+      {"sticking.renewing-bonds-twice-changes-nothing",
+       "Bonds that were renewed stay as they are when renewed again.",
+       "our reading of BMF03 section 6", renewal_finding},
+      {"sticking.bonds-break-and-form-again",
+       "Bonds form and break as a palm comes and goes, many times, exactly when their distances "
+       "say so.",
+       source, again_finding},
+      {"sticking.patches-follow-their-schedule",
+       "A patch is sticky from one time until another, and releases smoothly before the second.",
+       source, timed_finding},
+      {"sticking.steps-end-at-the-times-of-patches",
+       "The reference's steps end where a patch becomes sticky, begins to release, and stops being "
+       "sticky.",
+       "our reading of BMF03 section 6", events_finding},
+      {"sticking.bonds-are-part-of-the-state",
+       "For every method: a run resumed from its states ends with the same bits, but not if its "
+       "bonds are forgotten.",
+       "our reading of BMF03 section 6", memory_finding}};
 }
 
 }  // namespace foldproof

@@ -68,11 +68,10 @@ Finding damping_finding(const Subject& subject) {
                          specimen.patch().far * extent(specimen.state.x);
     measured.row(specimen.name, (D - expected).cwiseAbs().maxCoeff<Eigen::PropagateNaN>() / scale);
   }
-  return judge_worst(
-      measured, 64,
-      "k depends on the distance, good to a rounding of positions over far; the matrix, G^T G, on "
-      "frames as the force does",
-      "The matrix that is expected is -k tau_s G^T G: symmetric, and it can only resist.");
+  return judge_worst(measured, 64,
+                     "k depends on the distance, good to a rounding of positions over far; the "
+                     "matrix, G^T G, on frames as the force does",
+                     "The expected matrix is -k tau_s G^T G: symmetric, and it can only resist.");
 }
 
 Finding resists_finding(const Subject& subject) {
@@ -193,9 +192,10 @@ Finding fade_finding(const Subject& subject) {
   measured.row(
       "force half way over its largest share .286 k far",
       std::abs(force(far / std::sqrt(5.0)) / (k * far * 16 / 25 / std::sqrt(5.0)) - 1) / 1e-12);
-  return judge_worst(measured, 1 + 1e-6,
-                     "a force whose slope never jumps changes so little over so short a way; a "
-                     "jump of the force or of its slope grows without bound as the way shrinks");
+  return judge_worst(
+      measured, 1 + 1e-6,
+      "a force whose slope never jumps changes this little over so short a distance; a jump of the "
+      "force or of its slope grows without bound as the distance shrinks");
 }
 
 Finding surface_finding(const Subject& subject) {
@@ -282,8 +282,9 @@ Finding beyond_reach_finding(const Subject& subject) {
     const Eigen::MatrixXd K = force_derivative(specimen.scene, specimen.state);
     measured.row(specimen.name + ", derivative", K.cwiseAbs().maxCoeff<Eigen::PropagateNaN>());
   }
-  return judge_worst(measured, 0,
-                     "beyond the distance at which bonds break the spring is none, not a weak one");
+  return judge_worst(
+      measured, 0,
+      "beyond the distance at which bonds break there is no spring, not even a weak one");
 }
 
 /// 0 if `act` throws DegenerateElement naming the particle, else 1.
@@ -355,23 +356,22 @@ std::vector<Check> sticking_force_checks() {
            "The spring exerts no torque, and the damping k tau_s (x - x_t) x (v_t - v).",
            "our reading of BMF03 section 6", torque_finding},
           {"sticking.force-fades-without-a-jump",
-           "Neither the force nor its slope jumps where the distance passes the one at which bonds "
-           "break.",
-           source, fade_finding},
+           "Neither the force nor its slope jumps at the distance at which bonds break.", source,
+           fade_finding},
           {"sticking.differential-matches-forces",
            "The reference's derivative of sticking forces by the positions is that of the "
            "subject's forces.",
            "calculus; the fully implicit methods need it", derivative_finding},
           {"sticking.force-ends-where-bonds-break",
-           "Farther from its target than the distance at which bonds break, a particle feels "
-           "nothing, and its force does not change with its place.",
+           "Beyond the distance at which bonds break a particle feels no force, and moving it does "
+           "not change that.",
            source, beyond_reach_finding},
           {"sticking.degenerate-triangles-are-reported",
            "A triangle that is stuck to and has lost its area is reported with the particle that "
            "sticks to it.",
            "a rule of this suite: nothing fails in silence", lost_triangles_finding},
           {"sticking.frequency-and-damping-bounds-hold",
-           "The reference's bounds on frequencies and damping rates are bounds where cloth sticks.",
+           "The reference's bounds on frequencies and damping rates hold where cloth sticks.",
            "Gershgorin 1931", bound_finding}};
 }
 

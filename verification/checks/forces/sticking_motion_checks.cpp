@@ -180,8 +180,8 @@ Finding forecast_step_finding(const Subject&) {
   }
   return judge_worst(
       measured, 1e-6,
-      "an even part of 10^9 s, a hundred million steps or more, is as long as allowed to eight "
-      "digits; the bounds are exact for particles that share no spring");
+      "dividing 10^9 s evenly into a hundred million steps or more changes a step in the eighth "
+      "digit only; the bounds are exact for particles that share no spring");
 }
 
 Finding nothing_sticks_finding(const Subject& subject) {
@@ -223,8 +223,8 @@ Finding nothing_sticks_finding(const Subject& subject) {
 std::vector<Check> sticking_motion_checks() {
   const std::string source = "BMF03 section 6";
   return {{"sticking.particles-follow-rigid-motion",
-           "Particles stuck to a surface that turns, swings and drifts keep their place in it, but "
-           "for a lag of no more than m a/k.",
+           "Particles stuck to a surface that turns, swings and drifts keep their place on it, "
+           "with a lag of at most m a/k.",
            source, follows_finding},
           {"sticking.lag-is-as-derived",
            "Under a constant pull a stuck particle hangs where k(d) d is the pull: m a/k for soft "
@@ -234,12 +234,12 @@ std::vector<Check> sticking_motion_checks() {
            "Particles stuck to a triangle that deforms keep their weights and height in it.",
            source, deforming_finding},
           {"sticking.forecasts-allow-longer-steps-in-C",
-           "The automatic step of the reference: in scheme C what sticks allows twice its forecast "
-           "time, in A and B no more than its frequency.",
+           "In the reference's automatic steps, bonds allow C twice their forecast time, and A and "
+           "B only the step of their frequency.",
            "our reading of BMF03 section 6", forecast_step_finding},
           {"sticking.unused-patches-cost-nothing",
-           "Patches that nothing sticks to change no bit of any method's steps, nor what its "
-           "solves cost.",
+           "Patches that nothing sticks to change no bit of any method's steps, nor the cost of "
+           "its solves.",
            "our reading of BMF03 section 6", nothing_sticks_finding}};
 }
 

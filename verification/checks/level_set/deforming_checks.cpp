@@ -72,9 +72,7 @@ Finding carried_ball_keeps_its_shape(const Subject&) {
                        std::to_string(part),
                    carried_miss(ball, body, part));
   }
-  return judge_worst(
-      measured, 2,
-      "a displacement that is the same everywhere adds nothing to what the octrees miss");
+  return judge_worst(measured, 2, "a uniform displacement adds nothing to the octrees' error");
 }
 
 /// The distance from the middle of the way at which the blended phi is zero, across the motion [m];
@@ -107,8 +105,8 @@ Finding blended_ball_shrinks(const Subject&) {
                  miss / tolerance);
   }
   return judge_worst(measured, 3,
-                     "the two octrees miss by two tolerances, the ball of 1280 triangles misses "
-                     "the sphere by less than another");
+                     "the two octrees err by two tolerances, and the ball of 1280 triangles "
+                     "differs from the sphere by less than another");
 }
 
 /// A ball that turns about an axis off its centre: neighbouring points are displaced differently.
@@ -158,8 +156,8 @@ Finding kept_nodes_err_as_bounded(const Subject&) {
           node_error(body.frames[k], make_mesh_distance(ball.positions[k], ball.triangles)));
   }
   return judge_worst(measured, 1,
-                     "a value is kept only if nothing lies nearer by more than half of what a cell "
-                     "may miss beyond the band, and the surface cannot have passed the node");
+                     "a value is kept only if it errs by at most half of a cell's tolerance beyond "
+                     "the band, and the surface cannot have passed the node");
 }
 
 Finding far_nodes_are_not_searched(const Subject&) {
@@ -183,8 +181,8 @@ Finding far_nodes_are_not_searched(const Subject&) {
         double(body.frames[k].searches) / double(body.frames[k].nodes) / (must + 0.1 * (1 - must)));
   }
   return judge_worst(measured, 1,
-                     "what is in the band must be searched; a tenth of the rest is left to nodes "
-                     "that the frame before did not have");
+                     "nodes in the band must be searched; a tenth of the rest allows for nodes "
+                     "that the previous frame did not have");
 }
 
 Finding velocity_is_that_of_the_surface(const Subject&) {
@@ -207,9 +205,9 @@ Finding velocity_is_that_of_the_surface(const Subject&) {
   }
   return judge_worst(
       measured, 0.05,
-      "a cell whose phi misses by the tolerance is h wide, h^2 = 4 tolerance r, and there a "
-      "direction, whose second derivatives are below 1.5/r^2, misses by 2.25 tolerance/r; twice "
-      "that at hanging nodes; r = 0.1 m at the deepest points");
+      "a cell whose phi errs by the tolerance has a width h with h^2 = 4 tolerance r; there a "
+      "direction, whose second derivatives are below 1.5/r^2, errs by 2.25 tolerance/r; twice that "
+      "at hanging nodes; r = 0.1 m at the deepest points");
 }
 
 Finding points_ride_along(const Subject&) {
@@ -229,7 +227,7 @@ Finding points_ride_along(const Subject&) {
     }
   return judge_worst(
       measured, 64,
-      "up to four intervals, each with a division by its duration and the sum of the way");
+      "up to four intervals, each with a division by its duration and a sum of displacements");
 }
 
 Finding rests_outside_its_frames(const Subject&) {
@@ -299,20 +297,20 @@ std::vector<Check> deforming_checks() {
        "along N.",
        source, velocity_is_that_of_the_surface},
       {"deforming.reused-nodes-err-within-their-bound",
-       "A frame's values are exact in the band; beyond it those kept from the frame before err by "
-       "no more than half of what a cell may miss there, and have the right sign, however far the "
-       "body moved.",
+       "A frame's values are exact in the band; beyond it, values kept from the previous frame err "
+       "by at most half of a cell's tolerance there and have the right sign, however far the body "
+       "moved.",
        source, kept_nodes_err_as_bounded},
       {"deforming.far-nodes-are-not-searched",
-       "Where the body moves little, nearest points are looked for in the band only.", source,
+       "Where the body moves little, nearest points are searched in the band only.", source,
        far_nodes_are_not_searched},
       {"deforming.points-move-with-the-body",
-       "The mean velocity over a span takes a point where the body takes it, across frames too.",
+       "The mean velocity over an interval moves a point with the body, even across frames.",
        source, points_ride_along},
       {"deforming.body-rests-outside-its-frames",
        "Before its first frame and after its last a body rests.", source, rests_outside_its_frames},
       {"deforming.sequences-are-read",
-       "A folder of OBJ files is read as it was written, and what is no sequence is refused.",
+       "A folder of OBJ files is read as written, and a folder without a sequence is refused.",
        source, sequences_are_read}};
 }
 

@@ -157,7 +157,7 @@ Finding band_is_exact(const Subject&) {
     measured.row(name, wrong);
   }
   return judge_worst(measured, 0,
-                     "blocks and bounds leave out only what is farther away than the band is wide");
+                     "blocks and bounds skip only triangles farther away than the band's width");
 }
 
 }  // namespace
@@ -172,8 +172,8 @@ std::vector<Check> grid_checks() {
        "rounding.",
        "ours", nodal_gradient_is_exact},
       {"level-set.distance-continues-beyond-the-grid",
-       "Outside of its lattice a grid answers with the distance, without a jump at the border.",
-       "ours", beyond_is_distance},
+       "Outside its lattice a grid gives the distance, without a jump at the border.", "ours",
+       beyond_is_distance},
       {"level-set.band-is-exact",
        "The narrow band holds all nodes within its width, with the mesh's exact signed distance.",
        "BMF03 section 5.1", band_is_exact}};

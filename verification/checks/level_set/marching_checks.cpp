@@ -159,7 +159,7 @@ Finding sides_are_kept(const Subject&) {
   }
   measured.row("plane through nodes that count as inside", wrong_below_the_plane());
   return judge_worst(measured, 0,
-                     "sides spread from the seeds only, and seeds are never computed again");
+                     "signs spread from the seeds only, and seeds are never recomputed");
 }
 
 /// A plane's own values as sides: crossings along the axes name the plane, and the distance
@@ -224,23 +224,24 @@ Finding misuse_is_rejected(const Subject&) {
 }  // namespace
 
 std::vector<Check> marching_checks() {
-  return {
-      {"level-set.marching-is-exact-on-planes",
-       "Fast marching of both orders gives the distance to a plane, to rounding.", "Sethian 1999",
-       planes_are_exact},
-      {"level-set.marching-solves-the-eikonal-equation",
-       "After first-order marching the upwind differences of every node give |grad phi| = 1, to "
-       "rounding.",
-       "BMF03 section 5.1", equation_is_solved},
-      {"level-set.marching-preserves-signs",
-       "Marching leaves its seeds alone and puts every node on its right side.",
-       "BMF03 section 5.1", sides_are_kept},
-      {"level-set.seeds-from-crossings-recover-the-plane",
-       "Seeds from sides lie at the distance of the plane through the crossings along the axes.",
-       "ours", crossings_are_exact},
-      {"level-set.misuse-of-marching-is-rejected",
-       "No seeds, seeds that let inside meet outside, and too coarse a lattice are refused.",
-       "ours", misuse_is_rejected}};
+  return {{"level-set.marching-is-exact-on-planes",
+           "Fast marching of both orders gives the distance to a plane, to rounding.",
+           "Sethian 1999", planes_are_exact},
+          {"level-set.marching-solves-the-eikonal-equation",
+           "After first-order marching the upwind differences of every node give |grad phi| = 1, "
+           "to rounding.",
+           "BMF03 section 5.1", equation_is_solved},
+          {"level-set.marching-preserves-signs",
+           "Marching does not change its seeds and gives every node the right sign.",
+           "BMF03 section 5.1", sides_are_kept},
+          {"level-set.seeds-from-crossings-recover-the-plane",
+           "Seeds from inside/outside lie at the distance of the plane through the crossings along "
+           "the axes.",
+           "ours", crossings_are_exact},
+          {"level-set.misuse-of-marching-is-rejected",
+           "A start without seeds, seeds that let inside meet outside, and too coarse a lattice "
+           "are refused.",
+           "ours", misuse_is_rejected}};
 }
 
 }  // namespace foldproof

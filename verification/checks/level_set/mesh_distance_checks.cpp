@@ -97,8 +97,8 @@ Finding normal_leads_to_the_surface(const Subject&) {
     measured.row(named.name + ", length of N", length.value());
   }
   return judge_worst(measured, 16,
-                     "N is the way to the nearest point over its length, so that the foot is that "
-                     "point but for as many roundings as the distance has");
+                     "N is the vector to the nearest point over its length, so the foot is that "
+                     "point up to as many roundings as the distance has");
 }
 
 Finding sign_is_right(const Subject&) {
@@ -144,7 +144,7 @@ Finding bound_is_kept(const Subject&) {
     measured.row(named.name, wrong);
   }
   return judge_worst(measured, 0,
-                     "the bound only shortens the search; what it leaves out is no nearer");
+                     "the bound only shortens the search; nothing that it skips is nearer");
 }
 
 }  // namespace
@@ -161,7 +161,8 @@ std::vector<Check> mesh_distance_checks() {
            "N is a unit vector, and p - phi N lies on the mesh.", "BMF03 section 5.1",
            normal_leads_to_the_surface},
           {"level-set.bounded-search-finds-the-same-feature",
-           "A search with a bound finds the nearest feature if it is nearer than that, else none.",
+           "A search with a bound finds the nearest feature if it is within the bound, and none "
+           "otherwise.",
            "ours", bound_is_kept}};
 }
 

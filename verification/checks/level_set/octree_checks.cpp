@@ -75,8 +75,8 @@ Finding misses_by_its_tolerance(const Subject&) {
       measured.row(body.name + " to " + std::to_string(tolerance) + " m",
                    worst_miss(body, sampling(9, tolerance, HangingNodes::constrained)));
   return judge_worst(measured, 2,
-                     "a leaf misses by the tolerance where its own corners are exact, and by as "
-                     "much again where they are the interpolant of a coarse neighbour");
+                     "a leaf errs by the tolerance where its own corners are exact, and by as much "
+                     "again where they are interpolated from a coarse neighbour");
 }
 
 /// Levels of the eight leaves about a node, highest less lowest.
@@ -102,7 +102,7 @@ Finding neighbours_differ_by_one_level(const Subject&) {
     measured.row(body.name, worst.value());
   }
   return judge_worst(measured, 1,
-                     "constraints reach one level only, across faces, edges and corners alike");
+                     "constraints span one level only, across faces, edges and corners alike");
 }
 
 /// Angle between the tree's normals and the exact ones next to the surface, over the finest
@@ -125,8 +125,8 @@ Finding normals_are_those_of_the_cells(const Subject&) {
     measured.row("h = 1/" + std::to_string(1 << depth) + " m", worst.value());
   }
   return judge_worst(measured, std::sqrt(3.0) / 2,
-                     "the slope of a cell is exact at its centre, half a diagonal away at most, "
-                     "and a normal turns by the way over the radius of curvature");
+                     "the slope of a cell is exact at its centre, at most half a diagonal away, "
+                     "and a normal turns by the distance over the radius of curvature");
 }
 
 Finding goes_on_beyond_the_cube(const Subject&) {
@@ -148,8 +148,8 @@ Finding goes_on_beyond_the_cube(const Subject&) {
   }
   return judge_worst(
       measured, 1,
-      "the distance to one point changes by the way at most, but for rounding; and it is no less "
-      "than the distance to the surface, which that point misses as phi does");
+      "the distance to one point changes by at most the displacement, up to rounding; it is at "
+      "least the distance to the surface, which that point misses by the error of phi");
 }
 
 /// An octree of a body that is led by keyframes: its answers against the body's own, and whether
@@ -252,10 +252,10 @@ std::vector<Check> octree_checks() {
   const char* const source = "BMF03 section 5.1";
   return {
       {"octree.phi-is-continuous",
-       "The octree's phi jumps nowhere, where cells of two sizes meet either.", source,
+       "The octree's phi jumps nowhere, not even where cells of two sizes meet.", source,
        jumps_nowhere},
       {"octree.error-is-bounded-by-the-tolerance",
-       "In the band the octree's phi misses the distance by twice the tolerance at most.", source,
+       "In the band the octree's phi errs by at most twice the tolerance.", source,
        misses_by_its_tolerance},
       {"octree.neighbours-differ-by-at-most-one-level",
        "Leaves that touch differ by one level at most.", source, neighbours_differ_by_one_level},
@@ -266,9 +266,8 @@ std::vector<Check> octree_checks() {
        "Beyond its cube the octree's phi is continuous and no less than the distance.", source,
        goes_on_beyond_the_cube},
       {"octree.tree-moves-with-its-body",
-       "The octree of a rigid body, built once, answers for it wherever it is and however it is "
-       "turned.",
-       source, rides_with_its_body},
+       "The octree of a rigid body, built once, is valid for every place and orientation.", source,
+       rides_with_its_body},
       {"octree.invalid-settings-are-rejected",
        "Settings that make no tree are refused with the reason.", source, rejects_bad_settings}};
 }

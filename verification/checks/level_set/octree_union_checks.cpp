@@ -70,7 +70,7 @@ Finding nodes_know_their_part(const Subject&) {
   measured.row("nearest part", wrong_part);
   measured.row("pinch flag", wrong_flag);
   measured.row("fewer than 101 nodes are pinched", !(pinched > 100));
-  return judge_worst(measured, 0, "free nodes hold what the parts say: comparisons, no arithmetic");
+  return judge_worst(measured, 0, "free nodes hold the parts' values: comparisons, no arithmetic");
 }
 
 std::vector<Vector3> points_near(const std::vector<DistanceFunction>& parts, double within) {
@@ -103,7 +103,7 @@ Finding union_misses_by_its_tolerance(const Subject&) {
   }
   return judge_worst(
       measured, 2,
-      "as for one body: the parts are sampled each by itself, so that their crease costs nothing");
+      "as for one body: each part is sampled by itself, so their crease costs nothing");
 }
 
 Finding pinch_is_flagged(const Subject&) {
@@ -153,8 +153,8 @@ Finding union_jumps_nowhere(const Subject&) {
   measured.row("scattered balls, wide cells",
                largest_jump(make_octree(scattered_balls(), sparse), 200000, 3) / epsilon);
   return judge_worst(measured, 32,
-                     "as for one body; a part that one side leaves out is behind another at all "
-                     "nodes of their common face, and so all over it");
+                     "as for one body; a part that one side omits is behind another at all nodes "
+                     "of their common face, and so everywhere on it");
 }
 
 }  // namespace
@@ -163,14 +163,14 @@ std::vector<Check> octree_union_checks() {
   const char* const source = "BMF03 section 5.1";
   return {
       {"octree.union-nodes-know-their-part",
-       "Nodes of a union hold the least of the parts' distances, which part it is and whether two "
-       "hold the node.",
+       "Nodes of a union hold the least of the parts' distances, the part it belongs to, and "
+       "whether two parts contain the node.",
        source, nodes_know_their_part},
       {"octree.union-error-is-bounded-by-the-tolerance",
-       "A union's phi misses by twice the tolerance at most, at its creases too.", source,
+       "A union's phi errs by at most twice the tolerance, even at its creases.", source,
        union_misses_by_its_tolerance},
       {"octree.union-flags-pinched-points",
-       "A point inside of two or more parts is told so, and of which.", source, pinch_is_flagged},
+       "A point inside two or more parts is reported, with the parts.", source, pinch_is_flagged},
       {"octree.union-is-continuous", "A union's phi jumps nowhere.", source, union_jumps_nowhere}};
 }
 

@@ -217,7 +217,7 @@ Finding hinge_folds_by_its_angle(const Subject&) {
     measured.row(std::to_string(angle) + " rad", std::abs(found - angle) / (epsilon * pi));
   }
   return judge_worst(measured, 16,
-                     "sine and cosine, placed and taken back, carry a few roundings of 1");
+                     "sine and cosine, placed and recovered, carry a few roundings of 1");
 }
 
 }  // namespace
@@ -240,10 +240,10 @@ std::vector<Check> mesh_checks() {
            "A mesh that the reference writes and reads back is the same, bit for bit.",
            "the OBJ format", obj_round_trip_is_exact},
           {"mesh.pleats-are-isometric",
-           "The reference's pleats keep every length and fold by the angle asked for.", source,
+           "The reference's pleats keep every length and fold by the requested angle.", source,
            pleats_are_isometric},
           {"mesh.hinge-folds-by-the-given-angle",
-           "The reference's hinge is folded by the angle asked for, sign included.",
+           "The reference's hinge is folded by the requested angle, sign included.",
            "BMF03 section 4", hinge_folds_by_its_angle}};
 }
 

@@ -154,8 +154,8 @@ Finding small_and_large_meshes_are_accepted(const Subject&) {
 
 std::vector<Check> mesh_rejection_checks() {
   return {{"mesh.invalid-meshes-are-rejected",
-           "The reference refuses what is no oriented manifold, and every malformed OBJ file, "
-           "naming the place and the reason.",
+           "The reference refuses every mesh that is not an oriented manifold and every malformed "
+           "OBJ file, naming the place and the reason.",
            "a rule of this suite: nothing fails in silence", bad_meshes_are_rejected},
           {"mesh.good-meshes-of-any-size-are-accepted",
            "The reference accepts a good mesh whatever its size, from 1e-150 m to 1e150 m.",

@@ -133,9 +133,9 @@ std::vector<Check> seam_checks() {
   const std::string source = "cases/KEYS.md";
   return {
       {"mesh.seams-join-nearby-vertices",
-       "Vertices become the first that stays within the distance, and no other.", source,
-       seams_finding},
-      {"scene.panels-are-sewn", "Panels whose borders meet are one cloth, where a case says so.",
+       "Each vertex merges with the first one that stays within the distance, and with no other.",
+       source, seams_finding},
+      {"scene.panels-are-sewn", "Panels whose borders meet become one cloth if a case says so.",
        source, panels_finding},
   };
 }

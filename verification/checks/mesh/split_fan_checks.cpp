@@ -236,7 +236,7 @@ Finding touching_finding(const Subject&) {
   }
   return {{count, 0, 0, "pairs", "touching is decided exactly"},
           touching,
-          "A specimen that touches nowhere to begin with counts as a pair."};
+          "A specimen that does not touch at the start counts as a pair."};
 }
 
 constexpr const char* three_fans = R"(v 0 0 0
@@ -369,7 +369,8 @@ std::vector<Check> split_fan_checks() {
       {"mesh.split-fans-do-not-touch",
        "Fans that touched in a vertex touch nowhere once it is split.", source, touching_finding},
       {"scene.split-vertices-stay-held",
-       "Masses, holds, groups and what sticks follow a split vertex, where a case asks for it.",
+       "Masses, holds, groups and sticky patches follow a split vertex if a case asks for the "
+       "split.",
        source, scene_finding},
   };
 }

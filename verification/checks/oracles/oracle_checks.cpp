@@ -13,7 +13,7 @@ struct Comparison {
 
 constexpr Comparison comparisons[] = {
     {"oracle.hinge-angles-agree",
-     "The oracle's angle by atan2 and its sin(theta/2) as printed are one, both in 50 digits.",
+     "The oracle's angle by atan2 and its printed sin(theta/2) agree, both in 50 digits.",
      hinge_angles_agree},
     {"oracle.bending-modes-agree",
      "The oracle's bending mode as printed is minus the gradient of theta by automatic "
@@ -32,48 +32,49 @@ constexpr Comparison comparisons[] = {
      "differences.",
      spring_forces_agree},
     {"oracle.sticking-forces-agree",
-     "The oracle's force of what sticks, by automatic differentiation, is minus the slope of its "
-     "energy by differences.",
+     "The oracle's sticking force, by automatic differentiation, is minus the slope of its energy "
+     "by differences.",
      sticking_forces_agree},
     {"oracle.sheet-moduli-agree",
-     "The oracle's moduli of a sheet of springs in closed form are what the energy of one cell's "
-     "springs says.",
+     "The oracle's closed-form moduli of a sheet of springs follow from the energy of one cell's "
+     "springs.",
      sheet_moduli_agree},
     {"oracle.oscillators-agree",
      "The oracle's closed form of the damped oscillator is what GSL's Runge-Kutta methods find, "
      "weakly, critically and strongly damped.",
      oscillators_agree},
     {"oracle.verlet-oscillators-agree",
-     "The oracle's closed form of velocity Verlet is what a thousand undamped steps of schemes A, "
-     "B and C give in 50 digits.",
+     "The oracle's closed form of velocity Verlet gives what a thousand undamped steps of schemes "
+     "A, B and C give in 50 digits.",
      verlet_oscillators_agree},
     {"oracle.step-matrices-agree",
      "The oracle's step matrices are the printed lines of schemes A, B and C in 50 digits.",
      step_matrices_agree},
     {"oracle.stable-steps-agree",
-     "The oracle's stability limits in closed form are where the step's lines get an eigenvalue "
-     "-1, and what the eigenvalues of the stiffness say.",
+     "At the oracle's closed-form stability limits the printed step has an eigenvalue -1, and the "
+     "stiffness's eigenvalues give the same limits.",
      stable_steps_agree},
     {"oracle.free-falls-agree",
      "The oracle's free fall in closed form is what GSL's Runge-Kutta methods find.", falls_agree},
     {"oracle.turning-pair-lengths-agree",
-     "The oracle's length of a turning pair in closed form is where the spring's force is what the "
-     "turn needs.",
+     "At the oracle's closed-form length of a turning pair the spring's force is the centripetal "
+     "force.",
      rotation_lengths_agree},
     {"oracle.amplification-factors-agree",
-     "The oracle's factors of one step multiply and add up as those of the oscillator, and are "
-     "those of the methods' stages.",
+     "The oracle's factors of one step multiply and add up as the oscillator's, and agree with the "
+     "methods' stages.",
      amplification_factors_agree},
     {"oracle.runge-kutta-limits-agree",
      "The oracle's stability limits of Runge-Kutta methods by polynomials and closed-form rates "
      "are those by stages and eigenvalues.",
      runge_kutta_limits_agree},
     {"oracle.forecasts-agree",
-     "The oracle's forecast with Coulomb friction is the impulse within the cone that leaves the "
+     "The oracle's forecast with Coulomb friction uses the impulse within the cone that leaves the "
      "least sliding speed.",
      forecasts_agree},
     {"oracle.strain-limiting-impulses-agree",
-     "The oracle's strain-limiting impulse by Pythagoras is the root of the length that it leaves.",
+     "The oracle's strain-limiting impulse by Pythagoras is the root of the equation for the "
+     "length after it.",
      limited_springs_agree},
     {"oracle.heavy-cantilevers-agree",
      "The oracle's heavy cantilever by GSL from its tip is that by power series from its clamp.",
@@ -95,28 +96,28 @@ constexpr Comparison comparisons[] = {
      "define them.",
      depth_maps_agree},
     {"oracle.dense-algebra-agrees",
-     "The oracle's eigenvalues, solutions, singular values and turns are those that the matrices "
-     "were made with.",
+     "The oracle's eigenvalues, solutions, singular values and rotations are those that the "
+     "matrices were built from.",
      dense_algebra_agrees},
     {"oracle.crossing-times-agree",
-     "The oracle's exact crossings of moving features by roots are those by halved times, wherever "
-     "these decide.",
+     "The oracle's exact crossings of moving features by roots agree with bisection in time, "
+     "wherever bisection decides.",
      crossing_times_agree},
     {"oracle.polynomial-roots-agree",
-     "The oracle's roots of whole polynomials, and the signs of others there, are those that the "
-     "polynomials were made with.",
+     "The oracle's roots of integer polynomials, and the signs of others there, are those that the "
+     "polynomials were built from.",
      polynomial_roots_agree},
     {"oracle.crossings-agree",
-     "The oracle's crossings by a sweep are those of all pairs, which are those that no direction "
-     "parts.",
+     "The oracle's crossings by a sweep are those of all pairs, which are the pairs that no "
+     "direction separates.",
      crossings_agree},
     {"oracle.inside-tests-agree",
-     "The oracle's inside of a surface by segments is the inside of its prism by turns, at points "
-     "on the surface too.",
+     "The oracle's inside test by segments agrees with the test of a prism by angles, even at "
+     "points on the surface.",
      sides_agree},
     {"oracle.distances-agree",
-     "The oracle's distances of features in 50 digits are those by feet in extended precision and "
-     "by cutting in thirds.",
+     "The oracle's distances of features in 50 digits agree with those by foot points in extended "
+     "precision and by ternary search.",
      distances_agree}};
 
 Finding uncertainties_are_small(const Subject&) {
@@ -124,8 +125,8 @@ Finding uncertainties_are_small(const Subject&) {
   for (const Comparison& comparison : comparisons)
     largest.row(comparison.name, largest_uncertainty(comparison.answers()));
   return judge_worst(largest, 1e-5,
-                     "two answers may agree because one promises little: the crudest, by "
-                     "differences in double precision, promises five digits");
+                     "two answers may agree because one is very uncertain: the crudest, by "
+                     "differences in double precision, is good to five digits");
 }
 
 }  // namespace
@@ -137,7 +138,7 @@ std::vector<Check> oracle_checks() {
         {comparison.name, comparison.claim, "verification/oracles/README.md",
          [answers = comparison.answers](const Subject&) { return judged_agreement(answers()); }});
   list.push_back({"oracle.uncertainties-are-small",
-                  "Each two answers that are compared leave a small part of the answer open.",
+                  "The uncertainty of any two compared answers is a small part of the answer.",
                   "verification/oracles/README.md", uncertainties_are_small});
   return list;
 }

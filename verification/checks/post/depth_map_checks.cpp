@@ -114,7 +114,7 @@ Finding order_is_kept(const Subject&) {
   }
   return judge_worst(
       measured, 0,
-      "f rises; of 500 steps over the band not one may fall, and for the blend none may stay",
+      "f rises; none of 500 steps over the band may fall, and for the blend none may stay equal",
       "The power law rises too, but its steps at the bottom can be smaller than a rounding of "
       "eps.");
 }
@@ -161,7 +161,7 @@ Finding senseless_bands_are_rejected(const Subject&) {
     measured.row(name, accepted);
   }
   return judge_worst(measured, 0,
-                     "0 <= eps < tau and t^ >= 0, all finite, or there is no such map");
+                     "without 0 <= eps < tau and t^ >= 0, all finite, there is no such map");
 }
 
 }  // namespace
@@ -179,7 +179,7 @@ std::vector<Check> depth_map_checks() {
           {"projection.map-preserves-order", "No map turns the order of two depths round.", source,
            order_is_kept},
           {"projection.blend-compression-is-bounded",
-           "The blend presses no depths together by more than (tau + t^ - w/2)/(tau - eps - w/2).",
+           "The blend compresses no depths by more than (tau + t^ - w/2)/(tau - eps - w/2).",
            source, compression_is_bounded},
           {"projection.impossible-bands-are-rejected", "A band that no map can have is refused.",
            source, senseless_bands_are_rejected}};

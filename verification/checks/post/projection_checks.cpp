@@ -136,7 +136,7 @@ Finding one_move_is_enough(const Subject&) {
 Finding fates_are_true(const Subject&) {
   Table measured{
       {"case", ""},
-      {"points with another fate than their distances say, or that are not moved to the end", "1"}};
+      {"points with another outcome than their distances imply, or not moved to the end", "1"}};
   for (const ProjectionCase& specimen : unpinched_cases()) {
     for (const DepthMap& map : depth_maps()) {
       const FoldProjection projection = projection_by(std::string(map.name));
@@ -150,7 +150,7 @@ Finding fates_are_true(const Subject&) {
   }
   return judge_worst(
       measured, 0,
-      "where there is room every point is moved to the end, and what is told of it is true");
+      "where there is room every point is moved to the end, and its reported outcome is true");
 }
 
 /// Pairs, neighbours in depth, that changed their order by more than the tolerance.
@@ -216,7 +216,8 @@ Finding far_points_are_untouched(const Subject&) {
     }
   }
   return judge_worst(
-      measured, 0, "not a bit of a point from tau up may change, and it is reported as untouched");
+      measured, 0,
+      "no bit of a point at tau or farther out may change, and it is reported as untouched");
 }
 
 Finding pinched_points_are_left_alone(const Subject&) {
@@ -238,7 +239,7 @@ Finding pinched_points_are_left_alone(const Subject&) {
   }
   return judge_worst(
       measured, 0,
-      "not a bit of a point inside both balls may change, and just those are reported as pinched");
+      "no bit of a point inside both balls may change, and exactly those are reported as pinched");
 }
 
 Finding plain_is_idempotent(const Subject&) {
@@ -249,9 +250,8 @@ Finding plain_is_idempotent(const Subject&) {
     const ProjectedCloth again = project_specimen(specimen, projection);
     measured.row(specimen.name, count_differing_entries(again.x, specimen.x));
   }
-  return judge_worst(
-      measured, 0,
-      "what lies at eps or beyond is where plain projection wants it: not a bit moves");
+  return judge_worst(measured, 0,
+                     "a point at eps or beyond is where plain projection wants it: no bit changes");
 }
 
 Finding projecting_twice_compresses(const Subject&) {
@@ -274,10 +274,9 @@ Finding projecting_twice_compresses(const Subject&) {
     }
     measured.row(map, room[1] / room[0]);
   }
-  return judge_worst(
-      measured, 0.95,
-      "f(phi) = phi at tau alone, so a second projection presses together what the first one left: "
-      "by a twentieth at least, or the map would hardly move anything");
+  return judge_worst(measured, 0.95,
+                     "f(phi) = phi at tau alone, so a second projection compresses the result of "
+                     "the first: by at least a twentieth, or the map would hardly move anything");
 }
 
 Finding gaps_without_room_are_reported(const Subject&) {
@@ -316,14 +315,15 @@ std::vector<Check> projection_checks() {
        "No point that is not pinched is inside after the projection.", source,
        no_point_is_left_inside},
       {"projection.meaningless-settings-are-rejected",
-       "A projection without a tolerance, a move, a band or a map is refused in words.",
+       "A projection without a tolerance, a move, a band or a map is refused with the reason.",
        "a rule of this suite: bad input is refused in words", senseless_ones_are_rejected},
       {"projection.one-move-is-enough",
-       "Where distances are exact, a point needs one move, and as many are made as are allowed.",
+       "Where distances are exact a point needs one move; the allowed number of moves is never "
+       "exceeded.",
        source, one_move_is_enough},
       {"projection.reported-outcomes-are-true",
-       "Each point is told to be untouched, or moved to where the map wants it, just as its "
-       "distances say; none is left on the way.",
+       "Each point is reported as untouched or as moved to the map's depth, exactly as its "
+       "distances imply; none is left half way.",
        "the promise of the reference's header", fates_are_true},
       {"projection.order-of-depths-is-preserved", "Of two points the deeper one stays the deeper.",
        source, order_of_depths_is_kept},
@@ -336,11 +336,11 @@ std::vector<Check> projection_checks() {
       {"projection.plain-projection-is-idempotent",
        "Plain projection done twice is plain projection.", source, plain_is_idempotent},
       {"projection.projecting-twice-compresses-more",
-       "The other maps, done twice, compress more: they are not idempotent.", source,
+       "The other maps, applied twice, compress more: they are not idempotent.", source,
        projecting_twice_compresses},
       {"projection.narrow-gaps-are-reported",
-       "A point between objects closer than the map asks is reported and not made worse.", source,
-       gaps_without_room_are_reported}};
+       "A point between objects that are closer than the map needs is reported and not made worse.",
+       source, gaps_without_room_are_reported}};
 }
 
 }  // namespace foldproof

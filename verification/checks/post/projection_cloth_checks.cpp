@@ -75,8 +75,8 @@ Finding pinched_points_would_tear(const Subject&) {
   }
   return judge_worst(measured, finding, 0.2,
                      "neighbours on different sides of the middle leave by different balls, each a "
-                     "tenth of a metre away, where edges are an eightieth: a fifth leaves room for "
-                     "edges that a few particles' fate spares");
+                     "tenth of a metre away, where edges are an eightieth: a fifth allows for "
+                     "edges that stay short because of a few particles");
 }
 
 /// A wavy sheet that cuts through the ball about the origin, 5 cm below its top.
@@ -157,7 +157,7 @@ Finding subdividing_afterwards_spoils_it(const Subject&) {
     measured.row(std::to_string(levels) + " levels after the projection", inside == 0, inside);
   }
   return judge_worst(measured, "cloths without a triangle inside", 0,
-                     "the same eps, but the coarse cloth is projected: smoothing draws its points "
+                     "the same eps, but the coarse cloth is projected: smoothing pulls its points "
                      "towards the ball, and new ones lie on edges that cut into it");
 }
 
@@ -213,18 +213,18 @@ std::vector<Check> projection_cloth_checks() {
   return {
       {"projection.projecting-pinched-points-would-tear-the-cloth",
        "Cloth pinched between two balls would be torn apart if its points were projected, and is "
-       "not when they are left alone.",
+       "not if they are left alone.",
        source, pinched_points_would_tear},
       {"projection.subdividing-first-leaves-no-triangle-inside",
-       "Cloth subdivided first and projected then has no triangle inside.", source,
+       "Cloth that is subdivided first and then projected has no triangle inside.", source,
        serves_the_subdivided_cloth},
       {"projection.subdividing-afterwards-leaves-triangles-inside",
-       "Cloth projected first and subdivided then, by Loop's rule, has triangles inside.", source,
-       subdividing_afterwards_spoils_it},
+       "Cloth that is projected first and then subdivided, by Loop's rule, has triangles inside.",
+       source, subdividing_afterwards_spoils_it},
       {"subdivision.midpoint-subdivision-preserves-the-surface",
        "Subdivision at midpoints keeps points and area.", "geometry", midpoints_keep_the_surface},
       {"subdivision.loop-subdivision-is-affine-invariant",
-       "Loop's subdivision commutes with affine maps and has his weights.", "Loop (1987)",
+       "Loop's subdivision commutes with affine maps and has Loop's weights.", "Loop (1987)",
        loop_is_affine}};
 }
 

@@ -110,12 +110,12 @@ Finding no_triangle_is_left_inside(const Subject&) {
     const bool began_inside = target.inside(soup_of(sunk.mesh, sunk.x)) > 0;
     return began_inside ? double(target.inside(soup_of(sunk.mesh, x))) : NAN;
   };
-  return judge_worst(over_sheets(true, "triangles left inside", inside), 0,
-                     "vertices eps from a ball of radius R keep edges of length L clear of it from "
-                     "eps = L^2/(6 R) on; whatever the body, no point of a triangle is farther "
-                     "than L/sqrt(3) from all its corners, and phi falls by no more than the way",
-                     "Whole-number arithmetic on the cloth's and the body's coordinates; no "
-                     "distance field is asked.");
+  return judge_worst(
+      over_sheets(true, "triangles left inside", inside), 0,
+      "vertices eps from a ball of radius R keep edges of length L clear of it from eps = L^2/(6 "
+      "R) on; for any body, no point of a triangle is farther than L/sqrt(3) from all its corners, "
+      "and phi falls by at most the distance moved",
+      "Integer arithmetic on the cloth's and the body's coordinates; no distance field is used.");
 }
 
 Finding no_eps_is_too_little(const Subject&) {

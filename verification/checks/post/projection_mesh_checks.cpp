@@ -118,7 +118,7 @@ Finding no_triangle_is_left_inside(const Subject&) {
   }
   return judge_worst(measured, "triangles left inside", 0,
                      "no point of a triangle is farther than L/sqrt(3) from all its corners, and "
-                     "phi falls by no more than the way");
+                     "phi falls by at most the distance moved");
 }
 
 }  // namespace

@@ -290,7 +290,8 @@ Finding rejection_finding(const Subject&) {
 std::vector<Check> scene_body_checks() {
   const char* const source = "cases/KEYS.md";
   return {{"scene.octree-bodies-are-as-written",
-           "The octree of a body has the cells and the tolerance that the case says, and keeps it.",
+           "The octree of a body has the cells and the tolerance that the case says, and meets the "
+           "tolerance.",
            source, octree_finding},
           {"scene.deformations-are-as-written",
            "A body bends, twists and breathes as the case says, about the axis through its middle.",
@@ -299,12 +300,11 @@ std::vector<Check> scene_body_checks() {
            "The frames of an animated body are scaled, placed and timed as the case says.", source,
            frames_finding},
           {"scene.deforming-surfaces-lie-on-their-level-sets",
-           "The surface that is drawn of a deforming body is that of the level sets that the cloth "
-           "meets.",
+           "The surface drawn of a deforming body is that of the level sets that the cloth meets.",
            "BMF03 section 5.1", surface_finding},
           {"scene.invalid-bodies-are-rejected",
-           "What a case must not say of octrees and deforming bodies is refused with file, line "
-           "and what is known.",
+           "Invalid settings of octrees and deforming bodies are refused with file, line and what "
+           "is known.",
            source, rejection_finding}};
 }
 

@@ -52,7 +52,7 @@ Finding absent_finding(const Subject&) {
                   in_roundings((*falls.gravity - Vector3(0, -9.80665, 0)).norm(), 9.80665));
   return judged_differences(
       differences, 0,
-      "what is absent is not built; a stiffness of zero adds zeros, which change no digit");
+      "absent parts are not built; a stiffness of zero adds zeros, which change no digit");
 }
 
 Finding numbers_finding(const Subject&) {

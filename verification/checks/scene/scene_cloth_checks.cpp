@@ -309,7 +309,7 @@ Finding self_collision_finding(const Subject&) {
   differences.row("absent, it is not built",
                   infinite_unless(build_system(trial_scene("")).filters.empty()));
   return judged_differences(differences, 0,
-                            "a number is read as it is written; what is not named is not built");
+                            "a number is read as written; parts that are not named are not built");
 }
 
 Finding self_collision_rejected_finding(const Subject&) {
@@ -343,13 +343,13 @@ std::vector<Check> scene_cloth_checks() {
   const std::string source = "cases/KEYS.md";
   return {
       {"scene.shapes-are-read",
-       "Discs, cylinders, spheres, statues and hinges are made in the sizes written.", source,
+       "Discs, cylinders, spheres, statues and hinges have the sizes written.", source,
        shapes_finding},
       {"scene.patterns-are-read",
        "Sheets have the pattern, the number of triangles and the area written.", source,
        patterns_finding},
       {"scene.copies-and-pleats-are-read",
-       "Copies are turned and moved on one from the other, and pleats are folded.", source,
+       "Each copy is turned and moved from the one before, and pleats are folded.", source,
        copies_finding},
       {"scene.invalid-cloth-is-rejected",
        "Shapes, patterns and copies that make no sense are refused, with the line.", source,
@@ -358,13 +358,13 @@ std::vector<Check> scene_cloth_checks() {
        "Cloth that starts folded lies in a serpentine whose lengths are the cloth's own.", source,
        folded_finding},
       {"scene.invalid-folded-start-is-rejected",
-       "Folds that the cloth is too short for, or that have no direction, are refused.", source,
+       "Folds without a direction, or longer than the cloth, are refused.", source,
        folded_rejected_finding},
       {"scene.self-collision-is-read",
-       "What a case says of cloth meeting itself is read as written, and built.", source,
+       "A case's settings of self-collision are read as written, and built.", source,
        self_collision_finding},
       {"scene.invalid-self-collision-is-rejected",
-       "Self-collision with a thickness that the mesh cannot resolve, or of cloth that starts "
+       "Self-collision with a thickness that the mesh cannot resolve, or with cloth that starts "
        "crossed, is refused.",
        source, self_collision_rejected_finding},
   };

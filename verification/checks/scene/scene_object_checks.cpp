@@ -158,10 +158,10 @@ std::vector<Check> scene_object_checks() {
            "Objects have the place, motion, friction and response that the case says.",
            "cases/KEYS.md", meaning_finding},
           {"scene.drawn-surfaces-match-their-solids",
-           "The surface that is drawn of an object is that of its solid, facing outwards.",
-           "cases/KEYS.md", surface_finding},
+           "The surface drawn of an object is that of its solid, facing outwards.", "cases/KEYS.md",
+           surface_finding},
           {"scene.invalid-objects-are-rejected",
-           "What a case must not say of objects is refused with file, line and what is known.",
+           "Invalid settings of objects are refused with file, line and what is known.",
            "cases/KEYS.md", rejection_finding}};
 }
 

@@ -173,7 +173,7 @@ std::vector<Check> scene_place_checks() {
   const std::string source = "good practice";
   return {
       {"scene.held-particles-are-as-written",
-       "The reference holds and leads the particles that a case names, as it says.", source,
+       "The reference holds or moves the particles that a case names, as the case says.", source,
        hold_finding},
       {"scene.start-state-is-as-written",
        "The reference starts with the stretch, spin, velocity and noise that a case says.", source,

@@ -175,10 +175,10 @@ Finding rejections_finding(const Subject&) {
 std::vector<Check> sticking_scene_checks() {
   const std::string source = "cases/KEYS.md";
   return {{"scene.sticky-regions-are-read",
-           "The reference reads of [[sticky]] what lists, boxes and spheres name, and its values.",
+           "The reference reads the lists, boxes, spheres and values of [[sticky]] as written.",
            source, regions_finding},
           {"scene.objects-carry-sticky-surfaces",
-           "The reference lets an object carry the sticky triangles that its region names.", source,
+           "The reference attaches sticky triangles to the object that their region names.", source,
            carried_finding},
           {"scene.obj-groups-are-kept",
            "The reference keeps the groups and objects of an OBJ file, and regions name them.",
