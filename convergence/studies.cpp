@@ -17,6 +17,7 @@ namespace foldproof {
 std::vector<Study> all_studies() {
   return {hinge_time_order_study(),
           sheet_time_order_study(),
+          filtered_order_study(),
           work_precision_study(),
           solve_tolerance_study(),
           mesh_error_study(),
@@ -28,6 +29,7 @@ std::vector<Study> all_studies() {
           stability_sheet_study(),
           variable_step_stability_study(),
           transient_growth_study(),
+          frame_long_steps_study(),
           bending_rigidity_study(),
           cantilever_study(),
           strip_vibration_study(),
@@ -50,13 +52,17 @@ std::vector<Study> all_studies() {
           pointwise_contact_study(),
           self_collision_cost_study(),
           crossing_queries_study(),
+          contact_answers_study(),
           strain_sweeps_study(),
           strain_momentum_study(),
           biphasic_study(),
           folding_study(),
           sticking_lag_study(),
           heavy_cantilever_study(),
-          strip_tests_study()};
+          strip_tests_study(),
+          fold_tests_study(),
+          pressed_strip_study(),
+          fabric_strip_study()};
 }
 
 }  // namespace foldproof

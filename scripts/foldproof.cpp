@@ -250,6 +250,14 @@ void add_twins(CLI::App* converge, Options& options) {
       ->capture_default_str();
 }
 
+void add_errors(CLI::App* command, Options& options, const std::string& what) {
+  command->add_option("--errors", options.errors, what)
+      ->type_name("ERRORS")
+      ->check(positive_number())
+      ->delimiter(',')
+      ->allow_extra_args(false);
+}
+
 void add_converge(CLI::App& app, Options& options) {
   CLI::App* converge = add_command(
       app, options,
@@ -260,6 +268,9 @@ void add_converge(CLI::App& app, Options& options) {
   add_input(converge, "CASE", options.file, case_words);
   add_ladder(converge, options);
   add_twins(converge, options);
+  add_errors(converge, options,
+             "In both: errors to find the cheapest step and mesh for, as shares of the motion "
+             "(default: 1e-2,1e-3)");
   add_overrides(converge, options);
   add_folder(converge, options,
              "Folder whose store/ keeps every run; a second call runs only missing ones")
@@ -282,13 +293,7 @@ void add_precision(CLI::App& app, Options& options) {
       ->check(some_text("integrators, or all"))
       ->delimiter(',')
       ->allow_extra_args(false);
-  precision
-      ->add_option("--errors", options.errors,
-                   "Wanted errors, as shares of the motion (default: 1e-2,1e-3)")
-      ->type_name("ERRORS")
-      ->check(positive_number())
-      ->delimiter(',')
-      ->allow_extra_args(false);
+  add_errors(precision, options, "Wanted errors, as shares of the motion (default: 1e-2,1e-3)");
   precision
       ->add_option("--until", options.until,
                    "Use only the beginning of the run, up to this time [s]")
@@ -508,13 +513,18 @@ void add_readers(CLI::App& app, Options& options) {
       show_claims);
   claims->add_option("ID", options.names,
                      "One claim, such as T17: why, and the findings that decide it");
+  claims->add_option("--paper", options.paper, "Only the claims of one paper, such as BFA02")
+      ->type_name("KEY");
   add_folder(claims, options, "Folder of the finished run")->capture_default_str();
   add_json(claims, options);
   add_pages(app, options);
   CLI::App* mesh = add_command(
-      app, options, {"inspect", "Can a mesh serve as a body? Is it a solid?", help::inspect},
+      app, options,
+      {"inspect", "Can a mesh serve as a body, or what does it make of a cloth?", help::inspect},
       inspect);
   add_input(mesh, "MESH.obj", options.file, "An OBJ file");
+  mesh->add_flag("--cloth", options.as_cloth,
+                 "As a cloth: rigidity by direction, elastic limit, thinnest triangles");
   mesh->add_option("--cells", options.cells, "Grid cells along the longest side")
       ->type_name("N")
       ->check(whole_number(4, 1000))

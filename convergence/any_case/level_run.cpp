@@ -52,50 +52,32 @@ void add(const std::string& text, ContentKey& key) {
   key.add(text.data(), text.size());
 }
 
-StoredResult pack(const LevelRun& run) {
-  StoredResult kept;
-  std::vector<double> positions;
-  for (const PerParticle3& x : run.x)
-    positions.insert(positions.end(), x.data(), x.data() + x.size());
-  kept.arrays = {{"values", run.values},       {"times", run.times},
-                 {"positions", positions},     {"kinetic", run.kinetic},
-                 {"elastic", run.elastic},     {"contacts", run.contacts},
-                 {"step_ends", run.step_ends}, {"cost", {run.work, run.seconds}}};
-  kept.texts["stopped"] = run.stopped;
+StoredResult packed(const LevelRun& run) {
+  StoredResult kept = packed_frames(run);
+  kept.arrays.insert({{"values", run.values},
+                      {"kinetic", run.kinetic},
+                      {"elastic", run.elastic},
+                      {"contacts", run.contacts},
+                      {"step_ends", run.step_ends},
+                      {"work", {run.work}}});
   return kept;
 }
 
-/// The array of this name; empty where it is none.
-std::vector<double> array_of(const StoredResult& kept, const std::string& name) {
-  const auto found = kept.arrays.find(name);
-  return found == kept.arrays.end() ? std::vector<double>() : found->second;
-}
-
 /// The run; none where something is missing of it, or of the level's measurements and particles.
-std::optional<LevelRun> unpack(const StoredResult& kept, const Level& level) {
+std::optional<LevelRun> unpacked(const StoredResult& kept, const Level& level) {
   LevelRun run;
+  const size_t particles = level.common.empty() ? size_t(level.particles) : level.common.size();
+  if (!unpack_frames(kept, Eigen::Index(particles), run)) return {};
   run.values = array_of(kept, "values");
-  run.times = array_of(kept, "times");
   run.kinetic = array_of(kept, "kinetic");
   run.elastic = array_of(kept, "elastic");
   run.contacts = array_of(kept, "contacts");
   run.step_ends = array_of(kept, "step_ends");
-  const std::vector<double> positions = array_of(kept, "positions"), cost = array_of(kept, "cost");
-  const int kept_particles = level.common.empty() ? level.particles : int(level.common.size());
-  const size_t numbers = 3 * size_t(kept_particles);  // of a frame
-  const auto stopped = kept.texts.find("stopped");
-  if (cost.size() != 2 || stopped == kept.texts.end() ||
-      run.values.size() != level.measurements.size() ||
-      positions.size() != run.times.size() * numbers)
-    return {};
+  const std::vector<double> work = array_of(kept, "work");
+  if (work.size() != 1 || run.values.size() != level.measurements.size()) return {};
   for (const std::vector<double>* of_frames : {&run.kinetic, &run.elastic, &run.contacts})
     if (of_frames->size() != run.times.size()) return {};
-  run.work = cost[0];
-  run.seconds = cost[1];
-  run.stopped = stopped->second;
-  for (size_t k = 0; k < run.times.size(); ++k)
-    run.x.push_back(
-        Eigen::Map<const PerParticle3>(positions.data() + k * numbers, 3, kept_particles));
+  run.work = work[0];
   return run;
 }
 
@@ -144,13 +126,9 @@ std::string key_of(const Level& level, const std::string& program) {
 
 LevelRun stored_level(const Level& level, const LevelSetProvider& level_sets, ResultStore& store,
                       const std::string& program, const Progress& progress) {
-  const std::string key = key_of(level, program);
-  if (const auto kept = store.find(key))
-    if (std::optional<LevelRun> run = unpack(*kept, level)) return *std::move(run);
-  store.start(key, level.label);
-  LevelRun run = run_level(level, level_sets, progress);
-  store.keep(key, pack(run));
-  return run;
+  const RunKeeper<LevelRun> keeper{[&] { return run_level(level, level_sets, progress); }, packed,
+                                   [&](const StoredResult& kept) { return unpacked(kept, level); }};
+  return stored_or_made(store, key_of(level, program), level.label, keeper);
 }
 
 double field_difference(const LevelRun& a, const LevelRun& b, const PerParticle& mass) {

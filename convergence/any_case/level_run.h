@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "convergence/any_case/framed_run.h"
 #include "reference/bodies/level_set_provider.h"
 #include "reference/dynamics/simulate.h"
 #include "verification/cases/expectations.h"
@@ -11,16 +12,13 @@
 
 namespace foldproof {
 
-struct LevelRun {
+/// x: of the first N particles, or of those that the level names.
+struct LevelRun : FramedRun {
   std::vector<double> values;            // one a measurement
-  std::vector<double> times;             // of the frames [s]
-  std::vector<PerParticle3> x;           // in each frame, 3 x N, of the first N particles [m]
   std::vector<double> kinetic, elastic;  // energies in each frame [J]
   std::vector<double> contacts;   // in each frame: points that objects corrected in the last step
   std::vector<double> step_ends;  // s
   double work = 0;                // evaluations, preparations and products of all forces [1]
-  double seconds = 0;             // of the processor, in the run's own thread
-  std::string stopped;            // why the run came to no end, or ""
 };
 
 /// One run of the ladder: a case at the resolution of its scene and schedule.

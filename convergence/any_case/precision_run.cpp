@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <optional>
 
 #include "convergence/any_case/level_run.h"
 #include "convergence/work_precision/timed_run.h"
@@ -72,43 +73,32 @@ TrialRun timed_trial(const Scene& scene, double budget, const BuiltScene& built)
   return run;
 }
 
-StoredResult packed(const TrialRun& run) {
-  StoredResult kept;
-  std::vector<double> positions, work;
-  for (const PerParticle3& x : run.x)
-    positions.insert(positions.end(), x.data(), x.data() + x.size());
+StoredResult packed_trial(const TrialRun& run) {
+  StoredResult kept = packed_frames(run);
+  std::vector<double> work;
   for_each_counter(run.work, [&](auto value) { work.push_back(double(value)); });
-  kept.arrays = {{"times", run.times},
-                 {"positions", positions},
-                 {"work", work},
-                 {"cost", {double(run.steps), run.seconds, run.part, run.over_budget}}};
-  kept.texts["stopped"] = run.stopped;
+  kept.arrays.insert({{"work", work}, {"end", {double(run.steps), run.part, run.over_budget}}});
   return kept;
 }
 
-TrialRun unpacked(const StoredResult& kept) {
+/// The run; none where something is missing of it, and where a smaller budget ended it.
+std::optional<TrialRun> unpacked_trial(const StoredResult& kept, double budget) {
   TrialRun run;
-  const auto array = [&](const char* name) {
-    const auto found = kept.arrays.find(name);
-    return found == kept.arrays.end() ? std::vector<double>() : found->second;
-  };
-  run.times = array("times");
-  const std::vector<double> positions = array("positions"), work = array("work"),
-                            cost = array("cost");
+  const size_t numbers = array_of(kept, "positions").size(),
+               frames = array_of(kept, "times").size();
+  const Eigen::Index particles = frames > 0 ? Eigen::Index(numbers / frames / 3) : 0;
+  const std::vector<double> work = array_of(kept, "work"), end = array_of(kept, "end");
+  size_t counters = 0;
+  for_each_counter(run.work, [&](auto&) { ++counters; });
+  if (!unpack_frames(kept, particles, run) || work.size() != counters || end.size() != 3) return {};
   size_t next = 0;
   for_each_counter(run.work, [&](auto& value) {
-    value = std::remove_reference_t<decltype(value)>(work.at(next++));
+    value = std::remove_reference_t<decltype(value)>(work[next++]);
   });
-  run.steps = long(cost.at(0));
-  run.seconds = cost.at(1);
-  run.part = cost.at(2);
-  run.over_budget = cost.at(3);
-  run.stopped = kept.texts.at("stopped");
-  if (run.times.empty()) return run;
-  const Eigen::Index size = Eigen::Index(positions.size() / run.times.size());
-  for (size_t k = 0; k < run.times.size(); ++k)
-    run.x.push_back(
-        Eigen::Map<const PerParticle3>(positions.data() + Eigen::Index(k) * size, 3, size / 3));
+  run.steps = long(end[0]);
+  run.part = end[1];
+  run.over_budget = end[2];
+  if (run.over_budget > 0 && run.over_budget < budget) return {};
   return run;
 }
 
@@ -153,15 +143,10 @@ TrialRun stored_trial(const Case& input_case, const PrecisionTrial& trial,
               {},
               input_case.scene.mesh.particles()};
   level.input_case.scene = scene_of(input_case.scene, trial);
-  const std::string key = key_of(level, program + "; precision");
-  if (const auto kept = store.find(key)) {
-    const TrialRun run = unpacked(*kept);
-    if (!(run.over_budget > 0) || run.over_budget >= trial.budget) return run;
-  }
-  store.start(key, level.label);
-  TrialRun run = run_trial(input_case, trial, level_sets);
-  store.keep(key, packed(run));
-  return run;
+  const RunKeeper<TrialRun> keeper{
+      [&] { return run_trial(input_case, trial, level_sets); }, packed_trial,
+      [&](const StoredResult& kept) { return unpacked_trial(kept, trial.budget); }};
+  return stored_or_made(store, key_of(level, program + "; precision"), level.label, keeper);
 }
 
 }  // namespace foldproof

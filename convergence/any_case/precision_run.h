@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "convergence/any_case/framed_run.h"
 #include "reference/bodies/level_set_provider.h"
 #include "reference/dynamics/simulate.h"
 #include "verification/cases/expectations.h"
@@ -20,15 +21,12 @@ struct PrecisionTrial {
   double budget = 0;  // of the run [visits]
 };
 
-struct TrialRun {
-  std::vector<double> times;    // of the frames that are kept [s]
-  std::vector<PerParticle3> x;  // in each of them, 3 x N [m]
+/// Of long runs only some frames are kept.
+struct TrialRun : FramedRun {
   long steps = 0;
   Work work;
-  double seconds = 0;        // of the processor, on its own thread
-  double part = 0;           // of the time that it was to reach [1]
-  double over_budget = 0;    // the budget at which it was ended [visits]; 0: it was not
-  std::string stopped = "";  // why it came to no end, or ""
+  double part = 0;         // of the time that it was to reach [1]
+  double over_budget = 0;  // the budget at which it was ended [visits]; 0: it was not
 };
 
 /// Visits of a spring, a hinge, or a point or pair that is asked about contact: what a run costs,

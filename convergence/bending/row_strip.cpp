@@ -47,13 +47,25 @@ Eigen::VectorXd generalised_forces(const RowStrip& strip, const Eigen::VectorXd&
   return generalised;
 }
 
-/// How the last panel's slope [rad] and its middle's place [m] change with slopes and strains:
-/// 3 x 2 n.
+using oracles::EndHold;
+
+bool is_clamp(const RowStrip& strip) {
+  return strip.hold().last && strip.hold().last->hold == EndHold::clamped;
+}
+
+/// How many numbers the hold of the last end prescribes: the last of slope, along, up.
+Eigen::Index held_numbers(const RowStrip& strip) {
+  if (!strip.hold().last) return 0;
+  return strip.hold().last->hold == EndHold::clamped ? 3 : 2;
+}
+
+/// How the last panel's slope [rad] and its held place [m] change with slopes and strains: 3 x 2 n.
 Eigen::Matrix3Xd motion_of_end(const RowStrip& strip, const Eigen::VectorXd& unknowns) {
   const Eigen::Index n = strip.panels();
   Eigen::Matrix3Xd motion = Eigen::Matrix3Xd::Zero(3, 2 * n);
   for (Eigen::Index k = 0; k < n; ++k) {
-    const double part = k + 1 < n ? 1 : 0.5;  // of the panel, before the last one's middle
+    // of the panel, before the held place
+    const double part = k + 1 < n || !is_clamp(strip) ? 1 : 0.5;
     const Eigen::Vector2d along = part * strip.spacing() * direction(unknowns[k]);
     motion.col(k).tail(2) = unknowns[n + k] * Eigen::Vector2d(-along.y(), along.x());
     motion.col(n + k).tail(2) = along;
@@ -67,22 +79,23 @@ Eigen::Vector3d miss_of_end(const RowStrip& strip, const Eigen::VectorXd& unknow
   const Eigen::Index n = strip.panels();
   const Eigen::Matrix2Xd rows =
       strip.rows(unknowns.head(n), strip.spacing() * unknowns.segment(n, n));
+  const Eigen::Vector2d held =
+      is_clamp(strip) ? Eigen::Vector2d((rows.col(n) + rows.col(n + 1)) / 2) : rows.col(n + 1);
   Eigen::Vector3d miss;
   miss << unknowns[n - 1] - strip.hold().last->slope,
-      (rows.col(n) + rows.col(n + 1)) / 2 - rows.col(1) / 2 - strip.hold().last->place;
+      held - rows.col(1) / 2 - strip.hold().last->place;
   return miss;
 }
 
 /// The residual, which vanishes at rest: generalised forces, those that hold the last panel
-/// included, and that panel's misses. The unknowns are slopes, strains, and the holding
-/// moment and force.
+/// included, and that panel's misses. The unknowns are slopes, strains, and what holds the end.
 Eigen::VectorXd imbalance(const RowStrip& strip, const Eigen::VectorXd& unknowns) {
   if (!strip.hold().last) return generalised_forces(strip, unknowns);
-  const Eigen::Index n = 2 * strip.panels();
-  Eigen::VectorXd all(n + 3);
+  const Eigen::Index n = 2 * strip.panels(), held = held_numbers(strip);
+  Eigen::VectorXd all(n + held);
   all << generalised_forces(strip, unknowns.head(n)) +
-             motion_of_end(strip, unknowns).transpose() * unknowns.tail(3),
-      miss_of_end(strip, unknowns);
+             motion_of_end(strip, unknowns).bottomRows(held).transpose() * unknowns.tail(held),
+      miss_of_end(strip, unknowns).tail(held);
   return all;
 }
 
@@ -96,7 +109,9 @@ Eigen::MatrixXd jacobian(const RowStrip& strip, const Eigen::VectorXd& unknowns)
     behind[k] -= change;
     matrix.col(k) = (imbalance(strip, ahead) - imbalance(strip, behind)) / (2 * change);
   }
-  if (strip.hold().last) matrix.topRightCorner(n, 3) = motion_of_end(strip, unknowns).transpose();
+  const Eigen::Index held = held_numbers(strip);
+  if (held > 0)
+    matrix.topRightCorner(n, held) = motion_of_end(strip, unknowns).bottomRows(held).transpose();
   return matrix;
 }
 
@@ -116,7 +131,7 @@ RowStrip::RowStrip(const Subject& subject, const StripPattern& pattern, int pane
     : pattern_(pattern),
       panels_(panels),
       hold_(hold),
-      spacing_(strip_length / (hold.last ? panels : panels + 0.5)),
+      spacing_(strip_length / (is_clamp(*this) ? panels : panels + 0.5)),
       width_(cells_across * spacing_ / pattern.spacing_over_edge),
       load_(load),
       scene_(strip_scene(pattern, panels, spacing_, load)),
@@ -159,7 +174,7 @@ StripAtRest at_rest(const RowStrip& strip, StripAtRest start) {
   constexpr int most_steps = 40;
   constexpr double longest = 0.3;  // of one step [rad]: keeps the chain from folding on its way
   const Eigen::Index n = strip.panels();
-  Eigen::VectorXd unknowns = Eigen::VectorXd::Zero(2 * n + (strip.hold().last ? 3 : 0));
+  Eigen::VectorXd unknowns = Eigen::VectorXd::Zero(2 * n + held_numbers(strip));
   unknowns.head(2 * n) << start.slopes, start.lengths / strip.spacing();
   double before = std::numeric_limits<double>::infinity();
   for (int i = 0; i < most_steps; ++i) {
@@ -181,6 +196,7 @@ StripAtRest at_rest(const RowStrip& strip, StripAtRest start) {
   Worst strain;
   for (Eigen::Index k = 0; k < n; ++k) strain.observe(std::abs(unknowns[n + k] - 1));
   start.strain = strain.value();
+  if (strip.hold().last) start.hold_force = unknowns.tail(2);
   return start;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "reference/mesh/shapes.h"
+#include "verification/oracles/elastica.h"
 #include "verification/specimens/probe.h"
 
 namespace foldproof {
@@ -34,13 +35,14 @@ struct StripLoad {
   double stretch = 0;  // Y of the springs [N/m]; 0: none
 };
 
-/// How the strip is held: its first panel (rows 0 and 1) has a slope (upward positive
-/// [rad]); the last one is free, or has a slope too, and its middle is at a place from the
-/// first one's middle [m].
+/// How the strip is held: its first panel (rows 0 and 1) has a slope (upward positive [rad]); the
+/// last one is free; or clamped: it has a slope too, and its middle is at a place from the first
+/// one's middle [m]; or its last row is pinned to a place.
 struct StripHold {
   struct End {
-    double slope;
+    double slope;           // of a clamp
     Eigen::Vector2d place;  // along and up
+    oracles::EndHold hold = oracles::EndHold::clamped;
   };
   double slope = 0;
   std::optional<End> last;
@@ -48,7 +50,7 @@ struct StripHold {
 
 /// The hinges of a held row stand for the curvature from half a cell before to half a cell behind
 /// them, so that the strip is clamped in the middle of its held panels. There are `panels` more
-/// than the first; L is (panels + 1/2) spacings with a free end, else `panels` spacings.
+/// than the first; L is `panels` spacings between two clamps, else (panels + 1/2) spacings.
 class RowStrip {
  public:
   RowStrip(const Subject& subject, const StripPattern& pattern, int panels, const StripLoad& load,
@@ -84,6 +86,7 @@ struct StripAtRest {
   double drop = 0, reach = 0;  // of the tip from the middle of the clamp panel [m]
   double strain = 0;           // largest, of a panel [1]
   double last_step = 0;        // of Newton's method, the largest of its turns [rad] and strains [1]
+  Eigen::Vector2d hold_force = {0, 0};  // on a held last end, along and up [N]
 };
 
 /// For a strip with springs: Newton's method on slopes and lengths from a start, with a Jacobian by

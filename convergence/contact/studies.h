@@ -5,6 +5,7 @@
 
 namespace foldproof {
 
+Study filtered_order_study();  // filtered-order: order under contact and strain limits
 // wrinkle-preservation: what each map of depth leaves of wrinkles inside an object
 Study wrinkles_kept_study();
 Study eps_needed_study();  // required-eps: how far out the deepest points must go
@@ -18,6 +19,8 @@ Study self_collision_cost_study();  // self-collision-cost: search, zones, gaps 
 Study pointwise_contact_study();
 // crossing-queries: moving features that meet, and whether that is noticed
 Study crossing_queries_study();
+// contact-answers: contacts that repulsion, impulses and zones answer
+Study contact_answers_study();
 Study folding_study();  // folding: 0 % compression between ends that come together
 
 }  // namespace foldproof

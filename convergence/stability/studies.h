@@ -15,4 +15,7 @@ Study transient_growth_study();  // transient-growth: how far a stable scheme ca
 // hard-limits: largest stable steps of hard sheets, under damping, over jumps
 Study hard_limits_study();
 
+// frame-long-steps: implicit methods in steps of a frame, on cloth that crumples
+Study frame_long_steps_study();
+
 }  // namespace foldproof

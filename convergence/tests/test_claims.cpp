@@ -1,7 +1,10 @@
 // The ledger: what follows from which outcomes, and that its texts name only what there is.
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <fstream>
+#include <iterator>
 #include <limits>
+#include <map>
 #include <optional>
 #include <regex>
 #include <set>
@@ -9,6 +12,8 @@
 #include "convergence/studies.h"
 #include "verification/checks.h"
 #include "verification/claims/read_claims.h"
+#include "verification/specimens/scratch_folder.h"
+#include "verification/subjects/reference_subject.h"
 
 using namespace foldproof;
 
@@ -74,9 +79,15 @@ TEST_CASE("a finding of the full tier decides if it ran, and is not missed if it
         Ruling::undecided);
 }
 
-TEST_CASE("every claim names the paragraph and the first words of the paper's sentence") {
-  for (const Claim& claim : read_claims(CLAIMS_FOLDER)) {
+TEST_CASE(
+    "every claim that was looked up names the paragraph and the first words of its sentence") {
+  for (const Claim& claim : written_claims()) {
     INFO(claim.id << ": " << claim.cited.begins);
+    if (claim.cited.begins.empty()) {
+      CHECK(claim.paper != "BMF03");
+      CHECK(claim.cited.paragraph == 0);
+      continue;
+    }
     CHECK(claim.cited.paragraph >= 1);
     const auto blanks = std::ranges::count(claim.cited.begins, ' ');
     CHECK(blanks >= 3);   // enough words to find the sentence
@@ -216,7 +227,7 @@ TEST_CASE(
   std::vector<std::string> ids, expected;
   std::vector<int> objects;
   for (const Claim& claim : written_claims()) {
-    CHECK(claim.paper == "BMF03");
+    if (claim.paper != "BMF03") continue;
     claim.id.starts_with("C") ? objects.push_back(std::stoi(claim.id.substr(1)))
                               : ids.push_back(claim.id);
   }
@@ -228,6 +239,45 @@ TEST_CASE(
     CHECK((objects[k] >= 1 && objects[k] <= 17));
     if (k > 0) CHECK(objects[k - 1] < objects[k]);
   }
+}
+
+TEST_CASE("the other papers have all their claims, and each undecided one says what is missing") {
+  std::map<std::string, int> count;
+  for (const Claim& claim : written_claims()) {
+    ++count[claim.paper];
+    INFO(claim.id);
+    CHECK((claim.recorded == Ruling::undecided) == !claim.missing.empty());
+  }
+  CHECK(count["BFA02"] == 13);
+  CHECK(count["BW98"] == 5);
+  CHECK(count["CK02"] == 3);
+  CHECK(count["GHDS03"] == 4);
+  CHECK(count["BWHZG06"] == 1);
+  CHECK(count.size() == 6);
+}
+
+TEST_CASE("the paper of the page for authors of claims is read, and ruled by checks that run") {
+  std::ifstream file(std::string(CLAIMS_FOLDER) + "/README.md");
+  const std::string page{std::istreambuf_iterator<char>(file), {}};
+  const std::size_t begin = page.find("```toml\n") + 8;
+  const ScratchFolder folder;
+  std::ofstream(folder.file("abc99.toml")) << page.substr(begin, page.find("```", begin) - begin);
+  const std::vector<Claim> claims = read_claims(folder.file("."));
+  REQUIRE(claims.size() == 2);
+  std::vector<Record> records;
+  for (const Check& check : all_checks())
+    for (const Decider& decider : claims[0].decided_by)
+      if (check.name == decider.finding) records.push_back(run_check(check, reference_subject()));
+  const ClaimRecord decided = rule_claim(claims[0], records), open = rule_claim(claims[1], records);
+  CHECK(decided.ruling == Ruling::confirmed);
+  CHECK(outcome_of(decided) == holds);
+  CHECK(decided.claim.why.find('{') == std::string::npos);
+  CHECK(outcome_of(open) == Outcome::inconclusive);
+  CHECK(is_out_of_reach(open));
+  CHECK(!is_out_of_reach(decided));
+  CHECK(place_of(claims[0]) == "ABC99 section 3");
+  CHECK(place_of(claims[1]) == "ABC99, knots");
+  CHECK(!is_covered(claims[1], records));
 }
 
 TEST_CASE("every decided claim names only findings that there are") {

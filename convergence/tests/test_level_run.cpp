@@ -55,6 +55,17 @@ std::string key_after(const std::function<void(Level&)>& change) {
 
 }  // namespace
 
+TEST_CASE("counts have no rounding, and other values have") {
+  const auto bar_of = [](const std::vector<double>& values) {
+    std::vector<LevelRun> runs(values.size());
+    for (size_t k = 0; k < values.size(); ++k) runs[k].values = {values[k]};
+    return value_over_levels({"q", "lowest"}, 0, runs, 2).bar.half_width;
+  };
+  CHECK(bar_of({9, 9, 9, 9}) == 0);
+  CHECK(bar_of({9, 8, 7, 7}) == 3);
+  CHECK(bar_of({9.5, 9.5, 9.5, 9.5}) == Approx(9.5e3 * epsilon));
+}
+
 TEST_CASE("divided steps keep the ends of the undivided ones to the bit") {
   const std::vector<double> ends = {0.1, 0.1 + 1.0 / 3, 0.9};
   const std::vector<double> finer = divide_steps(ends, 0.04, 3);
@@ -154,8 +165,8 @@ TEST_CASE("a run that stopped is kept with its reason") {
 
 TEST_CASE("a stored run that lacks something is made again") {
   const Level level = time_level(trial(), 0, {});
-  for (const char* lacking :
-       {"values", "times", "positions", "kinetic", "elastic", "contacts", "cost", "stopped"}) {
+  for (const char* lacking : {"values", "times", "positions", "kinetic", "elastic", "contacts",
+                              "work", "seconds", "stopped"}) {
     INFO(lacking);
     const ScratchFolder scratch;
     ResultStore store(scratch.file("store"));
@@ -168,6 +179,19 @@ TEST_CASE("a stored run that lacks something is made again") {
     CHECK(stored_level(level, computing_provider(), store, "p").x == made.x);
     CHECK(store.starts(key) == 2);
   }
+}
+
+TEST_CASE("a stored run of other particles is made again") {
+  const Level level = time_level(trial(), 0, {});
+  const ScratchFolder scratch;
+  ResultStore store(scratch.file("store"));
+  const LevelRun made = stored_level(level, computing_provider(), store, "p");
+  const std::string key = key_of(level, "p");
+  StoredResult kept = *store.find(key);
+  kept.arrays["positions"].push_back(0);
+  store.keep(key, kept);
+  CHECK(stored_level(level, computing_provider(), store, "p").x == made.x);
+  CHECK(store.starts(key) == 2);
 }
 
 TEST_CASE("fields differ by the largest root mean square over the frames") {

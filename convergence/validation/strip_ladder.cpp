@@ -22,7 +22,8 @@ RowStrip row_strip(const Subject& subject, const StripTest& test, int panels) {
   StripHold hold{test.strip.first_slope, {}};
   if (test.strip.last)
     hold.last = {test.strip.last->slope,
-                 strip_length * Eigen::Vector2d(test.strip.last->across, test.strip.last->up)};
+                 strip_length * Eigen::Vector2d(test.strip.last->across, test.strip.last->up),
+                 test.strip.last->hold};
   return {subject, strip_patterns()[0], panels, {gravity, 0, largest / stretch_share}, hold};
 }
 
@@ -80,6 +81,18 @@ double largest_distance(const std::vector<oracles::StripPoint>& one,
 
 }  // namespace
 
+StripOnMesh strip_on_mesh(const Subject& subject, const StripTest& test, int panels) {
+  const RowStrip strip = row_strip(subject, test, panels);
+  StripOnMesh mesh;
+  mesh.rest = rest_of(strip, test.strip, Stations(strip));
+  mesh.points = rows_over_length(strip, mesh.rest);
+  mesh.spacing = strip.spacing() / strip_length;
+  mesh.unit_of_force = strip_D / std::pow(strip_length, 2) * strip.width();
+  mesh.force_on_row_1 =
+      strip.forces(strip.rows(mesh.rest.slopes, mesh.rest.lengths))(1, 1) / mesh.unit_of_force;
+  return mesh;
+}
+
 StripLadder strip_ladder(const Subject& subject, const StripTest& test,
                          const std::vector<int>& panels) {
   StripLadder ladder;
@@ -97,7 +110,7 @@ StripLadder strip_ladder(const Subject& subject, const StripTest& test,
     const StripAtRest rest = rest_of(strip, test.strip, stations);
     ladder.points = rows_over_length(strip, rest);
     std::vector<double> inside = stations.rows;  // a held last panel ends behind the clamp
-    if (test.strip.last) inside.pop_back();
+    if (test.strip.last && test.strip.last->hold == oracles::EndHold::clamped) inside.pop_back();
     inside.back() = std::min(inside.back(), 1.0);
     const oracles::StripShape elastica = oracles::strip_by_collocation(test.strip, inside);
     update_worst(ladder.floor, rest.strain + rest.last_step + elastica.uncertainty);

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "convergence/bending/row_strip.h"
 #include "convergence/order.h"
 #include "verification/oracles/elastica.h"
 #include "verification/subject.h"
@@ -30,6 +31,16 @@ struct StripLadder {
 
 constexpr const char *height_column = "height over L", *reach_column = "reach over L",
                      *distance_column = "largest distance from the elastica over L";
+
+/// One mesh of a strip at rest.
+struct StripOnMesh {
+  StripAtRest rest;
+  std::vector<oracles::StripPoint> points;  // rows from row 1 on, from the first end over L
+  double spacing = 0;                       // of the rows over L [1]
+  double force_on_row_1 = 0;                // of the strip, upward, over B/L^2 times the width [1]
+  double unit_of_force = 0;                 // B/L^2 times the width [N]
+};
+StripOnMesh strip_on_mesh(const Subject& subject, const StripTest& test, int panels);
 
 /// panels: ascending. The strip has the rigidity of its mesh, held cylindrical. Newton's method
 /// starts from the elastica's slopes, which choose the branch.

@@ -7,6 +7,9 @@
 namespace foldproof {
 
 Study heavy_cantilever_study();  // heavy-cantilever: over five decades of weight
+Study fold_tests_study();        // fold-tests: strips folded over on a floor
+Study pressed_strip_study();     // pressed-strip: when the tip of a strip on a floor slips
+Study fabric_strip_study();      // fabric-strip: a simulated strip in the laboratory's test
 Study strip_tests_study();       // strip-tests: a laboratory's loops, rings and wrinkles
 
 }  // namespace foldproof

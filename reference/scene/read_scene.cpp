@@ -3,8 +3,10 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <optional>
 
 #include "reference/scene/key_values.h"
+#include "reference/scene/fabrics.h"
 #include "reference/scene/read_objects.h"
 #include "reference/scene/read_region.h"
 #include "reference/scene/read_self_collision.h"
@@ -27,9 +29,11 @@ StretchMaterial read_stretch(const KeyTable& keys) {
   return material;
 }
 
-BendingMaterial read_bending(const KeyTable& keys) {
+BendingMaterial read_bending(const KeyTable& keys, const std::optional<FabricOnMesh>& fabric) {
   BendingMaterial material;
-  material.stiffness = non_negative_or(keys, "stiffness", keys.number("stiffness"));
+  material.stiffness = fabric && !keys.has("stiffness")
+                           ? fabric->stiffness
+                           : non_negative_or(keys, "stiffness", keys.number("stiffness"));
   material.damping = non_negative_or(keys, "damping", 0);
   material.weighting = choice<Weighting>(
       keys, "weighting", {{"rest", Weighting::rest}, {"current", Weighting::current}});
@@ -151,6 +155,20 @@ void reject_overflow(const KeyTable& cloth, const Scene& scene) {
     throw InputError(cloth.where() + ": a particle has the mass 0, or one that is not finite");
 }
 
+/// The fabric that the cloth names, if it does.
+std::optional<Fabric> read_fabric(const KeyTable& cloth, const std::string& folder) {
+  if (!cloth.has("fabric")) {
+    if (cloth.has("fabrics"))
+      throw InputError(cloth.where("fabrics") +
+                       ": 'fabrics' is a file to look 'fabric' up in; name one");
+    return std::nullopt;
+  }
+  const std::filesystem::path file = cloth.text_or("fabrics", "fabrics.toml");
+  const std::string path =
+      (file.is_absolute() ? file : std::filesystem::path(folder) / file).string();
+  return fabric_named(read_fabrics(path), cloth.text("fabric"), cloth.where("fabric"));
+}
+
 }  // namespace
 
 Scene scene_from(const CaseKeys& of, const SceneLimits& limits) {
@@ -161,7 +179,10 @@ Scene scene_from(const CaseKeys& of, const SceneLimits& limits) {
   if (!cloth || !time)
     throw InputError(keys.where() + ": a case needs the tables [cloth] and [time]");
   PlacedMesh placed = read_cloth_mesh(*cloth, folder, limits);
-  Scene scene = scene_at_rest(std::move(placed.mesh), positive(*cloth, "density"));
+  const std::optional<Fabric> fabric = read_fabric(*cloth, folder);
+  const double density =
+      fabric && !cloth->has("density") ? fabric->density : positive(*cloth, "density");
+  Scene scene = scene_at_rest(std::move(placed.mesh), density);
   scene.x = std::move(placed.start);
   scene.copy_of = std::move(placed.copy_of);
   scene.title = keys.text_or("title", "");
@@ -174,7 +195,10 @@ Scene scene_from(const CaseKeys& of, const SceneLimits& limits) {
   if (const auto stretch = keys.table("stretch")) scene.stretch = read_stretch(*stretch);
   read_strain_limits(keys, scene);
   if (const auto bending = keys.table("bending")) {
-    scene.bending = read_bending(*bending);
+    std::optional<FabricOnMesh> on_mesh;
+    if (fabric) on_mesh = fabric_on_mesh(*fabric, scene.mesh);
+    if (fabric) scene.about += (scene.about.empty() ? "" : " ") + on_mesh->report;
+    scene.bending = read_bending(*bending, on_mesh);
     scene.rest_angles = read_rest_angles(*bending, scene.mesh);
   }
   refine(*cloth, limits, scene);

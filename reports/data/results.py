@@ -129,6 +129,9 @@ class Claim:
     begins: str = ""        # the first words of the paper's sentence
     printed: str = ""       # a formula as printed, and
     restored: str = ""      # as it must read; "" where they agree
+    paper: str = ""         # its key, "BMF03"; "" in files that do not hold it
+    paper_title: str = ""   # with its year
+    missing: str = ""       # undecided without findings: what a ruling needs and the suite lacks
 
 
 @dataclass
@@ -361,7 +364,8 @@ def _curve(name: str, group: h5py.Group) -> Curve:
 def _claim(name: str, group: h5py.Group) -> Claim:
     attributes = attributes_of(group)
     texts = {key: text_of(attributes, key)
-             for key in ("section", "statement", "ruling", "recorded", "condition", "why", "begins", "printed", "restored")}
+             for key in ("section", "statement", "ruling", "recorded", "condition", "why", "begins", "printed", "restored",
+                         "paper", "paper_title", "missing")}
     names, roles = texts_of(attributes, "decided_by"), texts_of(attributes, "roles")
     paragraph = number_of(attributes, "paragraph")
     return Claim(name=name, **texts, decided_by=list(zip(names, roles + [""] * len(names))),

@@ -48,6 +48,14 @@ def count_rulings(claims: Iterable[Claim]) -> list[tuple[str, int]]:
     return [(ruling, counted[ruling]) for ruling in (*RULINGS, *others) if counted[ruling]]
 
 
+def by_paper(views: Iterable[ClaimView]) -> list[tuple[str, list[ClaimView]]]:
+    """Rows by paper, in the order of their first row, each under "BMF03: its title (2003)"."""
+    grouped: dict[str, list[ClaimView]] = {}
+    for view in views:
+        grouped.setdefault(": ".join(part for part in (view.claim.paper, view.claim.paper_title) if part), []).append(view)
+    return list(grouped.items())
+
+
 def by_section(views: Iterable[ClaimView]) -> list[tuple[str, list[ClaimView]]]:
     """Rows by the section of the paper, in the order of their first row."""
     grouped: dict[str, list[ClaimView]] = {}

@@ -143,7 +143,7 @@ def render(page: Page, since: list[Piece] | None = None, cuts: Cuts | None = Non
     environment.globals.update(
         keys=figure_keys, notes=figure_notes, map_notes=map_notes, orders=order_table, table=select_rows, groups=group_by_prefix,
         margin=margin_percent, plain=all_hold, whole_study_table=WHOLE_STUDY_TABLE, whole_table=WHOLE_TABLE,
-        most_open=MOST_OPEN, viewer=Markup(_viewer()), rulings=ledger.ruling_counts, sections=ledger.by_section,
+        most_open=MOST_OPEN, viewer=Markup(_viewer()), rulings=ledger.ruling_counts, sections=ledger.by_section, papers=ledger.by_paper,
         cheapest=cheapest_of(view.study for view in page.studies),
         known_faults={fault.name: fault for fault in page.faults}, caught=CaughtCount(page.faults),
         by_file=faults_by_file, fault_outcomes=fault_outcomes, kill_tables=kill_tables(page.faults),

@@ -14,10 +14,11 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-from data.results import Column, Study, Table
+from data.results import Claim, Column, Study, Table
 from make_report import make_report
 from pages.answers import Choice, cheapest_of
 from pages.chromium import Browser, NoBrowser, find_browser
+from pages.ledger import by_paper, claim_views
 from tests.made_up_run import NAMES, put_run
 
 REPORTS = Path(__file__).resolve().parents[1]
@@ -123,6 +124,18 @@ class Order(MadeUpPage):
     def test_groups_with_something_to_look_at_are_open(self) -> None:
         self.assertRegex(self.text, r'<details class="group" id="checks-springs" open>')
         self.assertNotRegex(self.text, r'<details class="group" id="findings-of-sharp_fold" open>')
+
+
+class Papers(unittest.TestCase):
+    """Claims of several papers."""
+
+    def test_claims_stand_under_their_paper(self) -> None:
+        claims = [Claim(name=name, section="3", statement="s", ruling="undecided", recorded="undecided", condition="", why="w",
+                        decided_by=[], paper=paper, paper_title="Title (1999)", missing="m")
+                  for name, paper in (("T1", "ABC99"), ("X1", "XYZ00"), ("T2", "ABC99"))]
+        grouped = by_paper(claim_views(claims, []))
+        self.assertEqual([(heading, [view.claim.name for view in views]) for heading, views in grouped],
+                         [("ABC99: Title (1999)", ["T1", "T2"]), ("XYZ00: Title (1999)", ["X1"])])
 
 
 class Answers(unittest.TestCase):

@@ -50,6 +50,28 @@ json claims_in(const json& findings, const std::string& folder) {
   return claims;
 }
 
+/// Those of one paper, if one is asked for.
+json of_paper(const json& claims, const std::string& paper) {
+  if (paper.empty()) return claims;
+  json chosen = json::array();
+  std::string known;
+  for (const json& row : claims) {
+    const std::string key = text_of(row, "paper");
+    if (key == paper) chosen.push_back(row);
+    if (!key.empty() && known.find(key) == std::string::npos)
+      known += (known.empty() ? "" : ", ") + key;
+  }
+  if (chosen.empty())
+    throw InputError("there are no claims of '" + paper + "' in this run; papers: " + known);
+  return chosen;
+}
+
+bool has_several_papers(const json& claims) {
+  return std::ranges::any_of(claims, [&](const json& row) {
+    return text_of(row, "paper") != text_of(claims.front(), "paper");
+  });
+}
+
 json chosen_of(const json& claims, const std::vector<std::string>& ids) {
   if (ids.empty()) return claims;
   json chosen = json::array();
@@ -65,7 +87,7 @@ json chosen_of(const json& claims, const std::vector<std::string>& ids) {
 
 void print_row(const json& claim) {
   const bool differs = text_of(claim, "ruling") != text_of(claim, "recorded");
-  fmt::print("{:<4} {:<27} {}{}\n", text_of(claim, "id"), text_of(claim, "ruling"),
+  fmt::print("{:<7} {:<27} {}{}\n", text_of(claim, "id"), text_of(claim, "ruling"),
              text_of(claim, "statement"),
              differs ? "  [recorded: " + text_of(claim, "recorded") + "]" : "");
 }
@@ -106,6 +128,7 @@ void print_whole(const json& claim, const json& findings) {
   if (!text_of(claim, "condition").empty())
     fmt::print("\nCondition: {}.\n", text_of(claim, "condition"));
   if (!text_of(claim, "why").empty()) fmt::print("\n{}\n", text_of(claim, "why"));
+  if (!text_of(claim, "missing").empty()) fmt::print("\nMissing: {}\n", text_of(claim, "missing"));
   fmt::print("\n");
   for (const json& decider : claim.value("decided_by", json::array()))
     print_decider(decider, findings);
@@ -115,12 +138,19 @@ void print_whole(const json& claim, const json& findings) {
 
 int show_claims(const Options& options) {
   const json findings = findings_of(options.out);
-  const json claims = chosen_of(claims_in(findings, options.out), options.names);
+  const json claims =
+      chosen_of(of_paper(claims_in(findings, options.out), options.paper), options.names);
   if (options.json) {
     fmt::print("{}\n", json_text(claims));
     return all_hold;
   }
+  const bool has_headings = options.names.empty() && has_several_papers(claims);
+  std::string paper;
   for (const json& claim : claims) {
+    if (has_headings && text_of(claim, "paper") != paper) {
+      paper = text_of(claim, "paper");
+      fmt::print("{}: {}\n", paper, text_of(claim, "paper_title"));
+    }
     if (options.names.empty())
       print_row(claim);
     else

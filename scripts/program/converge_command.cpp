@@ -7,6 +7,8 @@
 #include <optional>
 
 #include "convergence/any_case/converge.h"
+#include "convergence/any_case/error_map.h"
+#include "convergence/any_case/ladder_study.h"
 #include "convergence/any_case/space_ladder.h"
 #include "scripts/program/command_line/input_files.h"
 #include "scripts/program/command_line/out_folder.h"
@@ -25,10 +27,12 @@ namespace foldproof {
 
 namespace {
 
-/// A ladder, and of one in time how long its positions are predictable.
+/// A ladder; of one in time how long its positions are predictable; of one in space, beside a
+/// ladder in time, the map over both.
 struct Told {
   LadderAnswer ladder;
   std::optional<PredictabilityAnswer> twins;
+  std::optional<MapAnswer> map;
 };
 
 /// How the questions of one call are answered.
@@ -55,7 +59,7 @@ Told told_in_time(const LadderPlan& plan, const Answering& by) {
   if (!done.refused.empty()) log_line(done.refused);
   PredictabilityAnswer twins = run_twins(plan, done.runs, by.level_sets, by.store, by.options);
   LadderAnswer ladder = answer_before_horizon(plan, done.runs, twins);
-  return {std::move(ladder), std::move(twins)};
+  return {std::move(ladder), std::move(twins), {}};
 }
 
 Told told_in_space(const CaseSource& source, const Answering& by) {
@@ -63,7 +67,7 @@ Told told_in_space(const CaseSource& source, const Answering& by) {
   const SpaceRuns done = run_meshes(space_ladder(source, by.options.levels, objects), by.level_sets,
                                     by.store, by.options.running, limits_of(by.options.hours));
   if (!done.levels.refused.empty()) log_line(done.levels.refused);
-  return {space_answer(done.ladder, done.levels.runs, done.halved), {}};
+  return {space_answer(done.ladder, done.levels.runs, done.halved), {}, {}};
 }
 
 std::vector<Told> told_for(const CaseSource& source, const Answering& by) {
@@ -73,6 +77,8 @@ std::vector<Told> told_for(const CaseSource& source, const Answering& by) {
   std::vector<Told> all;
   if (by.options.in != "space") all.push_back(told_in_time(plan, by));
   if (by.options.in != "time") all.push_back(told_in_space(source, by));
+  if (all.size() == 2)
+    all[1].map = map_answer(all[0].ladder, all[1].ladder, all[0].twins->of.motion, by.options);
   return all;
 }
 
@@ -91,6 +97,7 @@ std::vector<std::string> methods_of(const Options& options) {
 nlohmann::json to_json(const Told& told) {
   nlohmann::json all = to_json(told.ladder);
   if (told.twins) all["predictability"] = to_json(*told.twins);
+  if (told.map) all["map"] = to_json(*told.map);
   return all;
 }
 
@@ -119,6 +126,7 @@ int report(const std::vector<Told>& all, const Options& options) {
     if (options.json) continue;
     print(told.ladder);
     if (told.twins) print(*told.twins);
+    if (told.map) print(*told.map);
     if (&told != &all.back()) fmt::print("\n");
   }
   if (options.json) fmt::print("{}\n", json_text(to_json(all, options)));
@@ -136,15 +144,16 @@ int converge(const Options& options) {
   require_replaceable(options.out + "/converge.h5");
   ResultStore store(options.out + "/store");
   std::vector<Told> all;
-  std::vector<LadderAnswer> ladders;
+  std::vector<StudyRecord> studies;
   for (const std::string& method : methods) {
     source.method = method;
     for (Told& told : told_for(source, {options, level_sets, store})) {
-      ladders.push_back(told.ladder);
+      studies.push_back(study_of(told.ladder));
+      if (told.map) studies.push_back(map_study(told.map->map, told.map->pairs));
       all.push_back(std::move(told));
     }
   }
-  write_answers(options.out + "/converge.h5", ladders, options.command);
+  write_studies(options.out + "/converge.h5", std::move(studies), options.command);
   return report(all, options);
 }
 

@@ -4,13 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "convergence/any_case/converge.h"
+#include "verification/verdict.h"
 
 namespace foldproof {
 
-/// Writes the answers as studies of a run that has nothing else, as HDF5 (verification/FORMAT.md).
+/// Writes the studies as a run that has nothing else, as HDF5 (verification/FORMAT.md).
 /// command: what was typed. Throws std::runtime_error naming the file.
-void write_answers(const std::string& path, const std::vector<LadderAnswer>& answers,
+void write_studies(const std::string& path, std::vector<StudyRecord> studies,
                    const std::string& command);
 
 }  // namespace foldproof

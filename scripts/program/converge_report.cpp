@@ -72,6 +72,50 @@ json to_json(const QuantityOverLevels& q) {
 
 }  // namespace
 
+MapAnswer map_answer(const LadderAnswer& in_time, const LadderAnswer& in_space, double motion,
+                     const Options& options) {
+  MapAnswer answer{error_map(in_time, in_space, motion), {}};
+  if (answer.map.reason.empty())
+    for (const std::string& error : options.errors)
+      answer.pairs.push_back(cheapest_pair(answer.map, std::stod(error)));
+  return answer;
+}
+
+void print(const MapAnswer& answer) {
+  fmt::print("\nstep and mesh together:\n");
+  for (const std::string& line : map_in_words(answer.map, answer.pairs)) fmt::print("{}\n", line);
+}
+
+json to_json(const MapAnswer& answer) {
+  const ErrorMap& map = answer.map;
+  json told = {
+      {"because", map.reason},
+      {"step", map.step},
+      {"edge", map.edge},
+      {"motion", map.motion},
+      {"step_error", {{"as_it_is", map.step_error.as_it_is}, {"order", map.step_error.exponent}}},
+      {"mesh_error", {{"as_it_is", map.mesh_error.as_it_is}, {"order", map.mesh_error.exponent}}},
+      {"work", map.work},
+      {"work_by_step", map.work_by_step},
+      {"work_by_edge", map.work_by_edge},
+      {"seconds_by_work", map.seconds_by_work},
+      {"particles", map.particles},
+      {"particles_by_edge", map.particles_by_edge},
+      {"longest_step_by_edge", map.longest_by_edge},
+      {"step_error_ratio", map.step_error_ratio},
+      {"warnings", map.warnings},
+      {"cheapest", json::array()}};
+  for (const CheapestPair& pair : answer.pairs)
+    told["cheapest"].push_back({{"error", pair.wanted},
+                                {"step", pair.step},
+                                {"edge", pair.edge},
+                                {"particles", pair.particles},
+                                {"seconds", pair.seconds},
+                                {"halving_costs", pair.halving_costs},
+                                {"limited_by_rule", pair.is_limited_by_rule}});
+  return told;
+}
+
 void print(const LadderAnswer& answer) {
   const bool in_space = is_in_space(answer);
   print_head(answer);

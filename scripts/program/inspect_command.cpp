@@ -7,6 +7,7 @@
 #include "reference/mesh/obj.h"
 #include "scripts/program/commands.h"
 #include "scripts/program/command_line/input_files.h"
+#include "scripts/program/inspect_cloth.h"
 #include "scripts/program/json_text.h"
 
 namespace foldproof {
@@ -56,6 +57,7 @@ nlohmann::json to_json(const std::string& file, const MeshInspection& found) {
 
 int inspect(const Options& options) {
   require_input(options.file, mesh_kind);
+  if (options.as_cloth) return inspect_cloth(options);
   const MeshInspection found = inspect_mesh(read_obj_soup(options.file), options.cells);
   if (options.json)
     fmt::print("{}\n", json_text(to_json(options.file, found)));

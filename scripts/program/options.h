@@ -18,6 +18,8 @@ struct Options {
   std::string out = "results", tier = "quick", file, rest_file;
   std::vector<std::string> names, overrides;
   std::string log;                 // of history: file of JSON lines
+  std::string paper;               // of claims: key of a paper, or empty for all
+  bool as_cloth = false;           // of inspect: as a cloth, not as a body
   std::string cache;               // folder that keeps level sets; none if empty
   std::string map, rule = "loop";  // of project: a depth map, a rule of subdivision
   double reach = 0, eps = 0;       // of project [m]

@@ -44,7 +44,8 @@ std::string summary(const RunRecord& run);
 
 /// 0 if every finding holds (or is not applicable, or measured only) and every claim is ruled
 /// as recorded, else
-/// 1. A claim that is undecided, and recorded so, fails the full tier only.
+/// 1. A claim that is undecided, and recorded so, fails the full tier only, unless it says what no
+/// run has.
 int exit_code(const RunRecord& run);
 
 /// A line for each finding: outcome, name, measured, bound, unit.

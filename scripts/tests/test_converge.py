@@ -5,6 +5,7 @@ scripts/tests/test_converge.py [ConvergeTest.test_...]
 """
 
 import json
+import math
 import subprocess
 import sys
 import time
@@ -42,6 +43,30 @@ what = "lowest"
 name = "swing"
 what = "kinetic_energy"
 when = "maximum"
+"""
+
+DROOP = """
+[cloth]
+shape = "sheet"
+width = 0.2
+height = 0.2
+columns = 4
+rows = 4
+density = 0.2
+turn = { axis = [1, 0, 0], angle = -60 }
+[gravity]
+[stretch]
+stiffness = 20.0
+damping = 0.2
+[bending]
+stiffness = 2e-3
+[[hold]]
+box = [[-1, 0.0999, -1], [1, 1, 1]]
+[solver]
+tolerance = 1e-10
+[time]
+end = 0.3
+frames_per_second = 50
 """
 
 
@@ -139,6 +164,23 @@ class ConvergeTest(FileTest):
         values = (said["ladders"][0] if "ladders" in said else said)["quantities"][1]["values"]
         self.assertLess(len(values), 12)
         self.assertGreaterEqual(len(values), 3)
+
+    def test_what_a_map_foresees_of_a_finer_mesh_comes_true(self) -> None:
+        coarse, fine = (json.loads(self.converge(self.write("droop.toml", DROOP), "--in", "both", "--levels", levels, "--json").stdout)["ladders"][1]
+                        for levels in ("3", "4"))
+        law, after = coarse["map"], fine["map"]
+        self.assertEqual((law["because"], after["because"]), ("", ""))
+        h, edge = fine["mean_step_of_finest"] / law["step"], fine["mean_edge"][-1] / law["edge"]
+        work = law["work"] * h ** -law["work_by_step"] * edge ** -law["work_by_edge"]
+        measured = fine["work"][-1] * fine["particles"][-1]
+        self.assertLess(abs(math.log2(work / measured)), 1, "a cost that grows as between coarser meshes is right to a factor of two")
+        self.assertAlmostEqual(law["particles"] * edge ** -law["particles_by_edge"] / fine["particles"][-1], 1, delta=0.1)
+        foreseen = law["mesh_error"]["as_it_is"] * edge ** law["mesh_error"]["order"]
+        found = after["mesh_error"]["as_it_is"] * edge ** after["mesh_error"]["order"]
+        self.assertAlmostEqual(foreseen / found, 1, delta=0.3)  # orders apart by 0.1 over three halvings: a factor of 1.23
+        for pair in law["cheapest"]:
+            self.assertLessEqual(pair["step"], law["step"] * (pair["edge"] / law["edge"]) ** law["longest_step_by_edge"] * (1 + 1e-9))
+        self.assertEqual([pair["error"] for pair in law["cheapest"]], [1e-2, 1e-3])
 
     def test_wrong_input_is_one_line(self) -> None:
         sheet = self.write("sheet.toml", SHEET)

@@ -85,6 +85,8 @@ class Recorded(unittest.TestCase):
         self.assertEqual(self.record(late, early, self.precision("p.json", "fold")).returncode, 0)
         self.assertEqual(self.recorded()["fold"]["program"]["date"][:10], "2026-01-03")
         self.assertEqual(self.record(early).stdout, "0 of 1 cases are new in cases/errors.json\n")
+        self.assertEqual(self.record(self.precision("again.json", "fold", prices=[])).stdout, "1 of 1 cases are new in cases/errors.json\n")
+        self.assertEqual(self.record(self.precision("p.json", "fold")).stdout, "1 of 1 cases are new in cases/errors.json\n")
         self.assertEqual(self.record(self.ladder("last.json", "fold", "2026-01-04T00:00:00Z", method="A")).returncode, 0)
         row = self.recorded()["fold"]
         self.assertEqual((row["method"], row["precision"]["good_down_to"]), ("A", 1e-3))

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -284,9 +285,14 @@ std::vector<std::string> findings_named_in(const Claim& claim) {
 
 // ---- a whole claim
 
+std::string place_of(const Claim& claim) {
+  const bool is_number = !claim.section.empty() && std::isdigit(claim.section.front());
+  return claim.paper + (is_number ? " section " : ", ") + claim.section;
+}
+
 bool is_covered(const Claim& claim, const std::vector<Record>& records) {
   const std::vector<std::string> names = findings_named_in(claim);
-  return std::all_of(names.begin(), names.end(), [&](const std::string& name) {
+  return !names.empty() && std::all_of(names.begin(), names.end(), [&](const std::string& name) {
     return record_named(name, records) != nullptr;
   });
 }
@@ -311,6 +317,10 @@ Outcome outcome_of(const ClaimRecord& record) {
   if (record.ruling != record.claim.recorded) return Outcome::fails;
   const bool is_open = record.ruling == Ruling::undecided;
   return is_open ? Outcome::inconclusive : Outcome::holds;
+}
+
+bool is_out_of_reach(const ClaimRecord& record) {
+  return record.ruling == Ruling::undecided && !record.claim.missing.empty();
 }
 
 }  // namespace foldproof

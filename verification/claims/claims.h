@@ -32,7 +32,7 @@ struct Decider {
 /// Where in its section the paper says it, to be found on the page.
 struct Citation {
   int paragraph = 0;   // of the section, counted from 1; lists and formulas belong to it
-  std::string begins;  // the first words of the sentence
+  std::string begins;  // the first words of the sentence; empty (and 0) if it was not looked up
   // a formula as printed and as it must read; empty where they agree
   std::string printed, restored;
 };
@@ -48,7 +48,13 @@ struct Claim {
   std::string condition;  // in words, if recorded as conditional; else empty
   std::string why;        // a paragraph with placeholders for its numbers, see filled()
   Citation cited = {};
+  // recorded as undecided without deciders: what a ruling needs and this suite lacks; else empty
+  std::string missing = "";
+  std::string paper_title = "";  // with its year
 };
+
+/// "BMF03 section 3.1", or "BFA02, abstract" where the part of the paper has no number.
+std::string place_of(const Claim& claim);
 
 /// Ruling of a claim in one run.
 struct ClaimRecord {
@@ -81,7 +87,7 @@ std::vector<std::string> findings_in_text(const std::string& text);
 /// The findings that a claim rests on or takes numbers from; some more than once.
 std::vector<std::string> findings_named_in(const Claim& claim);
 
-/// True if the run contains all findings that the claim names.
+/// True if the run contains all findings that the claim names, and it names some.
 bool is_covered(const Claim& claim, const std::vector<Record>& records);
 
 /// Decides a claim. The text of an undecided claim keeps placeholders whose number is missing.
@@ -90,5 +96,8 @@ ClaimRecord rule_claim(const Claim& claim, const std::vector<Record>& records);
 
 /// holds if the ruling is the recorded one, fails if not; inconclusive if both are undecided.
 Outcome outcome_of(const ClaimRecord& record);
+
+/// Undecided for a reason that the claim states: no run can decide it.
+bool is_out_of_reach(const ClaimRecord& record);
 
 }  // namespace foldproof

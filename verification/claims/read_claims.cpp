@@ -52,19 +52,25 @@ std::string id_of(const KeyTable& row) {
   return id;
 }
 
-/// Checks [paper] and returns its key, by which claims are cited.
-std::string paper_of(const KeyTable& root) {
+struct Paper {
+  std::string key;    // by which claims are cited
+  std::string title;  // with its year
+};
+
+/// Checks [paper].
+Paper paper_of(const KeyTable& root) {
   const auto paper = root.table("paper");
   if (!paper) throw InputError(root.where() + ": there is no [paper]");
-  written_text(*paper, "title");
+  const std::string title = written_text(*paper, "title");
   if (paper->texts("authors").empty())
     throw InputError(paper->where("authors") + ": 'authors' is empty");
-  paper->integer("year");
-  return written_text(*paper, "key");
+  const int year = paper->integer("year");
+  return {written_text(*paper, "key"), title + " (" + std::to_string(year) + ")"};
 }
 
 std::vector<Decider> deciders_of(const KeyTable& row) {
   std::vector<Decider> deciders;
+  if (row.has("missing") && !row.has("decided_by")) return deciders;
   for (const auto& entry : row.tables("decided_by")) {
     const std::string finding = written_text(*entry, "finding");
     if (std::ranges::any_of(deciders,
@@ -80,6 +86,18 @@ std::vector<Decider> deciders_of(const KeyTable& row) {
   if (deciders.empty())
     throw InputError(row.where("decided_by") + ": no finding decides this claim");
   return deciders;
+}
+
+/// Empty for a claim that findings decide.
+std::string missing_for(const KeyTable& row, Ruling recorded) {
+  if (!row.has("missing")) return "";
+  if (recorded != Ruling::undecided)
+    throw InputError(row.where("missing") + ": something is missing, but '" +
+                     std::string(name_of(Ruling::undecided)) + "' is not recorded");
+  if (row.has("decided_by"))
+    throw InputError(row.where("missing") +
+                     ": a claim has findings that decide it or says what is missing, not both");
+  return written_text(row, "missing");
 }
 
 /// Empty for a claim that is not recorded as conditional.
@@ -98,12 +116,17 @@ std::string condition_of(const KeyTable& row, Ruling recorded) {
 
 Citation citation_of(const KeyTable& row) {
   Citation cited;
-  cited.paragraph = row.integer("paragraph");
-  if (cited.paragraph < 1)
-    throw InputError(row.where("paragraph") + ": 'paragraph' is counted from 1");
-  cited.begins = written_text(row, "begins");
+  if (row.has("paragraph") != row.has("begins"))
+    throw InputError(row.where(row.has("begins") ? "begins" : "paragraph") +
+                     ": 'paragraph' and 'begins' belong together; only one is given");
+  if (row.has("begins")) {
+    cited.paragraph = row.integer("paragraph");
+    if (cited.paragraph < 1)
+      throw InputError(row.where("paragraph") + ": 'paragraph' is counted from 1");
+    cited.begins = written_text(row, "begins");
+  }
   if (row.has("printed") != row.has("restored"))
-    throw InputError(row.where("begins") +
+    throw InputError(row.where(row.has("printed") ? "printed" : "restored") +
                      ": 'printed' and 'restored' belong together; only one is given");
   if (row.has("printed")) {
     cited.printed = written_text(row, "printed");
@@ -114,8 +137,8 @@ Citation citation_of(const KeyTable& row) {
   return cited;
 }
 
-Claim claim_of(const KeyTable& row, const std::string& paper) {
-  Claim claim{paper,
+Claim claim_of(const KeyTable& row, const Paper& paper) {
+  Claim claim{paper.key,
               id_of(row),
               written_text(row, "section"),
               written_text(row, "statement"),
@@ -126,6 +149,8 @@ Claim claim_of(const KeyTable& row, const std::string& paper) {
               text_with_numbers(row, "why")};
   claim.condition = condition_of(row, claim.recorded);
   claim.cited = citation_of(row);
+  claim.missing = missing_for(row, claim.recorded);
+  claim.paper_title = paper.title;
   return claim;
 }
 
@@ -143,7 +168,7 @@ std::vector<Claim> read_claims(const std::string& folder) {
   std::map<std::string, std::string> places;  // of each id
   for (const std::filesystem::path& path : paths) {
     const auto root = parse_keys(read_text(path.string()), path.string());
-    const std::string paper = paper_of(*root);
+    const Paper paper = paper_of(*root);
     const auto rows = root->tables("claim");
     if (rows.empty()) throw InputError(path.string() + ": there is no [[claim]]");
     for (const auto& row : rows) {

@@ -56,6 +56,8 @@ void write_claims(const Hdf5& file, const std::vector<ClaimRecord>& claims) {
       roles.emplace_back(name_of(decider.role));
     }
     here.attribute("order", order++);
+    here.attribute("paper", record.claim.paper);
+    here.attribute("paper_title", record.claim.paper_title);
     here.attribute("section", record.claim.section);
     here.attribute("paragraph", record.claim.cited.paragraph);
     here.attribute("begins", record.claim.cited.begins);
@@ -66,6 +68,7 @@ void write_claims(const Hdf5& file, const std::vector<ClaimRecord>& claims) {
     here.attribute("recorded", std::string(name_of(record.claim.recorded)));
     here.attribute("condition", record.claim.condition);
     here.attribute("why", record.claim.why);
+    here.attribute("missing", record.claim.missing);
     here.attribute("decided_by", findings);
     here.attribute("roles", roles);
     here.attribute("outcomes", record.outcomes);

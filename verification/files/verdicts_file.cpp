@@ -48,7 +48,9 @@ nlohmann::json to_json(const ClaimRecord& record) {
           {"kind", "claim"},
           {"id", claim.id},
           {"section", claim.section},
-          {"source", claim.paper + " section " + claim.section},
+          {"source", place_of(claim)},
+          {"paper", claim.paper},
+          {"paper_title", claim.paper_title},
           {"paragraph", claim.cited.paragraph},
           {"begins", claim.cited.begins},
           {"printed", claim.cited.printed},
@@ -59,6 +61,7 @@ nlohmann::json to_json(const ClaimRecord& record) {
           {"outcome", name_of(outcome_of(record))},
           {"condition", claim.condition},
           {"why", claim.why},
+          {"missing", claim.missing},
           {"decided_by", deciders}};
 }
 

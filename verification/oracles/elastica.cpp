@@ -87,16 +87,19 @@ struct Equations {
     for (const Eigen::Index end : {Eigen::Index(0), n}) change.row(end).setZero();
     miss[0] = theta[0] - strip.first_slope;
     change(0, 0) = 1;
-    if (strip.last) {
+    if (strip.last && strip.last->hold == EndHold::clamped) {
       miss[n] = theta[n] - strip.last->slope;
       change(n, n) = 1;
+    } else {
+      miss[n] = nodes.derivative.row(n).dot(theta);
+      change.row(n).head(n + 1) = nodes.derivative.row(n);
+    }
+    if (strip.last) {
       miss[n + 1] = whole.dot(cosine) - strip.last->across;
       miss[n + 2] = whole.dot(sine) - strip.last->up;
       change.row(n + 1).head(n + 1) = -whole.cwiseProduct(sine.transpose());
       change.row(n + 2).head(n + 1) = whole.cwiseProduct(cosine.transpose());
     } else {
-      miss[n] = nodes.derivative.row(n).dot(theta);
-      change.row(n).head(n + 1) = nodes.derivative.row(n);
       miss.tail(2) = unknowns.tail(2);
       change(n + 1, n + 1) = change(n + 2, n + 2) = 1;
     }
@@ -191,7 +194,7 @@ ReferenceSolution shoot(const HeavyStrip& strip, const Aim& aim, std::span<const
 
 Eigen::Vector3d miss_of(const StripEnd& end, const ReferenceSolution& shot) {
   const std::vector<double>& y = shot.values.back();
-  return {y[0] - end.slope, y[2] - end.across, y[3] - end.up};
+  return {end.hold == EndHold::clamped ? y[0] - end.slope : y[1], y[2] - end.across, y[3] - end.up};
 }
 
 /// Shots with each number of the aim a little larger.
@@ -215,18 +218,25 @@ StripShape strip_by_collocation(const HeavyStrip& strip, std::span<const double>
   std::vector<StripPoint> before, points;
   double difference = std::numeric_limits<double>::infinity();
   int n = 48;
+  StripShape shape;
   for (; n <= 300 && difference > 1e-11; n += n / 2) {
     const Collocation nodes(n);
     before = std::move(points);
-    points = points_of(nodes, equilibrium(strip, nodes), arc_lengths);
+    const Eigen::VectorXd unknowns = equilibrium(strip, nodes);
+    points = points_of(nodes, unknowns, arc_lengths);
+    shape.first_curvature = nodes.derivative.row(0).dot(unknowns.head(nodes.s.size()));
+    shape.force_across = unknowns[nodes.s.size()];
+    shape.force_up = unknowns[nodes.s.size() + 1];
     if (!before.empty()) difference = largest_difference(points, before);
   }
-  return {points, difference + 64 * n * rounding};
+  shape.points = std::move(points);
+  shape.uncertainty = difference + 64 * n * rounding;
+  return shape;
 }
 
 StripShape strip_by_shooting(const HeavyStrip& strip, std::span<const double> arc_lengths) {
   require_known_weight(strip);
-  if (!strip.last) throw InputError("oracle elastica: shooting needs a strip clamped at both ends");
+  if (!strip.last) throw InputError("oracle elastica: shooting needs a strip held at both ends");
   const Collocation nodes(48);
   const Eigen::VectorXd start = equilibrium(strip, nodes);
   const Eigen::Index n = nodes.s.size() - 1;
@@ -254,6 +264,9 @@ StripShape strip_by_shooting(const HeavyStrip& strip, std::span<const double> ar
   // an error of the miss moves the points as far as the aim that makes up for it does
   const double off = miss_of(*strip.last, hit).cwiseAbs().maxCoeff() + hit.uncertainty.back();
   shape.uncertainty = hit.uncertainty.back();
+  shape.first_curvature = aim[0];
+  shape.force_across = aim[1];
+  shape.force_up = aim[2];
   const Eigen::Matrix3d rows = change.transpose();
   for (std::size_t k = 0; k < 3; ++k) {
     double moved = 0;

@@ -6,17 +6,22 @@
 
 namespace foldproof::oracles {
 
-/// A clamped end: its slope, and its place from the first end.
+/// How the last end is held: slope and place, or place alone.
+enum class EndHold { clamped, pinned };
+
+/// A held end: its slope, and its place from the first end. The slope of a pinned end is a first
+/// guess, which chooses the branch.
 struct StripEnd {
   double slope;       // of the direction along the strip, upward positive; whole turns count [rad]
   double across, up;  // over L [1]
+  EndHold hold = EndHold::clamped;
 };
 
 /// An inextensible strip of length L, bent in a vertical plane by its weight and its ends (the
 /// heavy elastica). With s the arc length over L and theta the slope above the horizontal,
 ///   theta'' = F_x sin(theta) - (F_y - gamma (1 - s)) cos(theta),   theta(0) = first_slope,
-/// where (F_x, F_y) B/L^2 is what holds the last end. That end is clamped, or free: then F = 0
-/// and theta'(1) = 0.
+/// where (F_x, F_y) B/L^2 is what holds the last end. That end is clamped, pinned (theta'(1) = 0),
+/// or free: then F = 0 and theta'(1) = 0.
 struct HeavyStrip {
   double gamma;                  // rho_A g L^3/B >= 0 [1]
   double first_slope;            // rad
@@ -35,6 +40,8 @@ struct StripPoint {
 struct StripShape {
   std::vector<StripPoint> points;
   double uncertainty;  // of any of their numbers
+  // curvature at the first end [1/L], and what holds the last [B/L^2]
+  double first_curvature = 0, force_across = 0, force_up = 0;
 };
 
 /// By collocation: theta is a polynomial through Chebyshev's nodes, and Newton's method solves
@@ -44,9 +51,9 @@ struct StripShape {
 /// there is no equilibrium.
 StripShape strip_by_collocation(const HeavyStrip& strip, std::span<const double> arc_lengths);
 
-/// A strip clamped at both ends, by shooting from the first with GSL's ODE solver: curvature and
-/// force there are found by Newton's method. They start from what collocation found, which chooses
-/// the branch and no more. arc_lengths ascend. InputError for a free end.
+/// A strip held at both ends, by shooting from the first with GSL's ODE solver: curvature and force
+/// there are found by Newton's method. They start from what collocation found, which chooses the
+/// branch and no more. arc_lengths ascend. InputError for a free end.
 StripShape strip_by_shooting(const HeavyStrip& strip, std::span<const double> arc_lengths);
 
 }  // namespace foldproof::oracles

@@ -74,6 +74,28 @@ std::array<Vector3, 4> shortcut_gradient(const Corners& x, EdgeLength edge_lengt
   return gradient;
 }
 
+//   |E|/h = |E| / ((2 A1/|E| + 2 A2/|E|)/6) = 3 |E|^2/(A1 + A2)
+std::array<Vector3, 4> discrete_shells_force(const Corners& x, const Corners& rest,
+                                             double rest_angle) {
+  const Vector3 N1 = (x[0] - x[2]).cross(x[0] - x[3]), N2 = (x[1] - x[3]).cross(x[1] - x[2]);
+  const Vector3 n1 = N1.normalized(), n2 = N2.normalized(), e = (x[3] - x[2]).normalized();
+  const double theta = std::atan2(n1.cross(n2).dot(e), n1.dot(n2));
+  const Vector3 edge = rest[3] - rest[2];
+  const double area =
+      (edge.cross(rest[0] - rest[2]).norm() + edge.cross(rest[1] - rest[2]).norm()) / 2;
+  // with the normals' lengths alone taken as constant, the shortcut loses nothing
+  std::array<Vector3, 4> force = shortcut_gradient(x, EdgeLength::differentiated);
+  for (Vector3& f : force) f *= -6 * edge.squaredNorm() / area * (theta - rest_angle);
+  return force;
+}
+
+double quadratic_bending_energy(const Corners& x, const Corners& rest) {
+  const std::array<Vector3, 4> force = quadratic(x, rest);
+  double twice = 0;  // a quadratic form: W = -x.F/2
+  for (int k = 0; k < 4; ++k) twice -= x[k].dot(force[k]);
+  return twice / 2;
+}
+
 std::vector<BendingAlternative> bending_alternatives() {
   return {
       {"bending.spring-across-the-hinge-acts-in-plane", "A spring between the far corners",

@@ -26,4 +26,13 @@ std::vector<BendingAlternative> bending_alternatives();
 enum class EdgeLength { differentiated, taken_as_constant };
 std::array<Vector3, 4> shortcut_gradient(const Corners& x, EdgeLength edge_length);
 
+/// Discrete Shells (Grinspun, Hirani, Desbrun, Schroeder 2003): the energy of a hinge of stiffness
+/// 1 J is (theta - theta0)^2 |E|/h, with h a third of the mean height of its triangles at rest.
+/// Forces on x1..x4 [N] for the rest angle theta0 [rad].
+std::array<Vector3, 4> discrete_shells_force(const Corners& x, const Corners& rest,
+                                             double rest_angle);
+
+/// The quadratic model's energy [J] for stiffness 1 J and a flat rest shape.
+double quadratic_bending_energy(const Corners& x, const Corners& rest);
+
 }  // namespace foldproof

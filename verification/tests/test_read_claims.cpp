@@ -116,12 +116,27 @@ TEST_CASE("an unknown key of a claim, of a decider or of a paper is refused") {
 }
 
 TEST_CASE("a claim without its place in the paper, or with half a formula, is refused") {
-  rejected("paragraph = 3\n", "", 7, "'paragraph'");
+  rejected("paragraph = 3\n", "", 10, "'paragraph' and 'begins' belong together");
   rejected("paragraph = 3", "paragraph = 0", 10, "counted from 1");
-  rejected("begins = \"Sums of all kinds\"\n", "", 7, "'begins'");
+  rejected("begins = \"Sums of all kinds\"\n", "", 10, "'paragraph' and 'begins' belong together");
   rejected("begins = \"Sums of all kinds\"", "begins = \" \"", 11, "'begins' is empty");
-  rejected("restored = \"a + b\"\n", "", 11, "belong together");
+  rejected("restored = \"a + b\"\n", "", 12, "belong together");
   rejected("a + b", "a - b", 13, "'restored' is what is printed");
+}
+
+TEST_CASE("a claim may leave its paragraph out, and say what is missing in place of its findings") {
+  std::string text = with(claim, "paragraph = 3\nbegins = \"Sums of all kinds\"\n", "");
+  CHECK(read(paper + text)[0].cited.paragraph == 0);
+  text = with(text, "condition = \"below {sums.overflow|bound}\"\n", "");
+  text = with(text, "confirmed under a condition", "undecided");
+  const std::string deciders =
+      text.substr(text.find("decided_by"), text.find("recorded =") - text.find("decided_by"));
+  const Claim open = read(paper + with(text, deciders, "missing = \"a sum\"\n"))[0];
+  CHECK(open.missing == "a sum");
+  CHECK(open.decided_by.empty());
+  CHECK_THROWS_WITH(read(paper + with(text, deciders, deciders + "missing = \"a sum\"\n")),
+                    Contains("not both"));
+  rejected("recorded =", "missing = \"a sum\"\nrecorded =", 21, "'undecided' is not recorded");
 }
 
 TEST_CASE("an unknown role and an unknown ruling are refused, with those that are known") {

@@ -29,8 +29,8 @@ Exit codes:
 
 constexpr const char* claims =
     R"(Examples:
-  foldproof claims                                     all claims and their rulings
   foldproof claims B10                                 one claim: its ruling, and the findings
+  foldproof claims --paper BFA02                       the claims of one paper
 
 Exit codes:
   0    shown; the rulings do not matter
@@ -84,11 +84,11 @@ Exit codes:
 
 constexpr const char* inspect =
     R"(Examples:
-  foldproof inspect cases/statue.obj
   foldproof inspect cases/limb.obj --cells 100 --json
+  foldproof inspect cases/skirt.obj --cloth            its rigidity by direction, its elastic limit
 
 Exit codes:
-  0    the mesh is a solid, and ray casting agrees on what is inside
+  0    the mesh is a solid, and ray casting agrees on what is inside; or a cloth was inspected
   1    the mesh is not a solid, or ray casting disagrees
   2    bad input)";
 
@@ -245,6 +245,8 @@ the case's [[quantity]] tables; without any: positions, energies, heights, quant
              own particles. In [[hold]], a box holds a region, a list of particles holds points.
              All meshes take the steps that the finest one needs; one more run, with half the
              step, measures their error.
+--in both    does both, and maps the error over step and mesh: names the cheapest pair for each of
+             --errors, forecasts its cost, and says what half the error costs.
 
 Two more runs start disturbed: by 1e-12 of the cloth's extent, and by the size of the step's error.
 When they differ from the undisturbed run by --fraction of its motion, positions are no longer

@@ -7,6 +7,7 @@
 #include "verification/oracles/dense_algebra.h"
 #include "verification/oracles/depth_maps.h"
 #include "verification/oracles/elastica.h"
+#include "verification/oracles/folds.h"
 #include "verification/oracles/gsl.h"
 #include "verification/oracles/heavy_cantilever.h"
 #include "verification/oracles/homogenised_bending.h"
@@ -191,13 +192,15 @@ Table bent_strips_agree() {
   using oracles::HeavyStrip;
   Table answers = no_answers();
   const std::array<double, 3> s{.13, .5, .81};
-  const std::array<std::pair<const char*, HeavyStrip>, 6> strips{
+  using oracles::EndHold;
+  const std::array<std::pair<const char*, HeavyStrip>, 7> strips{
       {{"heart loop", {37, pi / 2, {{-5 * pi / 2, 0, 0}}, 0}},
        {"pear loop", {110, -pi / 2, {{-3 * pi / 2, 0, 0}}, 0}},
        {"hanging ring", {53, 0, {{-2 * pi, 0, 0}}, 0}},
        {"standing ring", {71, 0, {{2 * pi, 0, 0}}, 0}},
        {"standing wrinkle", {29, 0, {{0, .7, 0}}, 1}},
-       {"slanting wrinkle", {17, .2, {{-.3, .85, .11}}, .9}}}};
+       {"slanting wrinkle", {17, .2, {{-.3, .85, .11}}, .9}},
+       {"pressed strip", {0, -pi / 2, {{-2, 0, -.93, EndHold::pinned}}, .5}}}};
   for (const auto& [name, strip] : strips) {
     const oracles::StripShape one = oracles::strip_by_collocation(strip, s),
                               other = oracles::strip_by_shooting(strip, s);
@@ -209,6 +212,11 @@ Table bent_strips_agree() {
             {{one.points[i].*part, one.uncertainty}, {other.points[i].*part, other.uncertainty}});
     compare_worst(answers, std::string(name) + ", collocation and shooting", pairs);
   }
+  const HeavyStrip folded{17, 0, {{pi, 0, 0}}, 0};
+  const oracles::Fold one = oracles::fold_on_floor(folded, .15, .3, oracles::strip_by_collocation),
+                      other = oracles::fold_on_floor(folded, .15, .3, oracles::strip_by_shooting);
+  compare_worst(answers, "clamped fold, collocation and shooting",
+                {{one.lift_off, other.lift_off}, {one.height, other.height}});
   for (const double gamma : {.1, 13., 700., 1e4}) {
     const oracles::StripShape shape =
         oracles::strip_by_collocation({gamma, 0, {}, 0}, std::array<double, 1>{1});

@@ -1,0 +1,77 @@
+// One method's error against its work, over all its runs.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "convergence/any_case/precision.h"
+#include "convergence/any_case/trial_ladder.h"
+
+namespace foldproof {
+
+namespace {
+
+/// How contact and strain limits act in the last two halvings, where it may explain why a method
+/// has no order; "" where they do not act.
+std::string how_filters_act(const TrialLevels& levels) {
+  const auto ladder = fine_end(levels);
+  if (ladder.size() < 2) return "";
+  const auto rate = [&](size_t back, const auto& count) {
+    const TrialRun& run = *ladder[ladder.size() - back].second;
+    return double(count(run.work)) / std::max(1., double(run.steps));
+  };
+  std::string words;
+  const auto add = [&](const char* name, const auto& count) {
+    if (rate(1, count) > 0 || rate(2, count) > 0)
+      words +=
+          fmt::format("; {} a step: {:.3g}, then {:.3g}", name, rate(2, count), rate(1, count));
+  };
+  add("contacts with objects", [](const Work& w) { return w.object_contacts; });
+  add("close pairs of cloth", [](const Work& w) { return w.close_pairs + w.crossings; });
+  add("strain sweeps", [](const Work& w) { return w.strain_sweeps; });
+  add("bonds", [](const Work& w) { return w.bonds; });
+  return words;
+}
+
+MethodCurve method_curve(const PrecisionPlan& plan, const std::string& method,
+                         const TrialLevels& levels, const CaseTruth& truth) {
+  MethodCurve curve{
+      method, {integrator_named(method), {}}, {}, {}, ladder_bar(plan, method, levels)};
+  if (!curve.bar.reason.empty()) curve.bar.reason += how_filters_act(levels);
+  const double frames = plan.input_case.scene.schedule.end / frame_of(plan);
+  for (const auto& [parts, run] : levels) {
+    if (run.over_budget > 0) continue;
+    double error = nan;
+    if (is_whole(run)) error = frame_distance(run.x, truth.first.x, plan.mass) / truth.motion;
+    if (!(error <= diverged_error)) error = nan;
+    curve.curve.runs.push_back({int(std::lround(parts * frames)), error,
+                                operator_applications(run.work), run.seconds,
+                                std::isnan(error) ? std::max(run.part, 1e-3) : 1, run.work});
+    curve.parts.push_back(parts);
+    curve.stopped.push_back(run.stopped);
+  }
+  for (size_t k = curve.parts.size(); k-- > 0;) {
+    const double step = frame_of(plan) / curve.parts[k];
+    if (std::isnan(curve.curve.runs[k].error)) {
+      curve.unstable_step = step;
+      break;
+    }
+    curve.stable_step = step;
+  }
+  return curve;
+}
+
+}  // namespace
+
+std::vector<MethodCurve> method_curves(const PrecisionPlan& plan, const TrialRuns& runs,
+                                       const CaseTruth& truth) {
+  std::vector<MethodCurve> curves;
+  for (const std::string& method : all_methods(plan)) {
+    const auto levels = runs.find(method);
+    curves.push_back(
+        method_curve(plan, method, levels == runs.end() ? TrialLevels() : levels->second, truth));
+  }
+  return curves;
+}
+
+}  // namespace foldproof

@@ -1,0 +1,216 @@
+// Which runs to make next, until all is answered or exceeds the budget.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "convergence/any_case/precision.h"
+#include "convergence/any_case/trial_ladder.h"
+
+namespace foldproof {
+
+namespace {
+
+// of the step over the elastic limit at the start: if it fails, shorter do
+constexpr double hopeless_step = 1. / 16;
+constexpr double truth_budget = 2.5;  // of a run for the truth over that of others [1]
+constexpr double least_solve = 8;     // applications of an implicit step, at least [1]
+constexpr int levels_wanted = 3;      // of a method that come to an end
+constexpr double narrow = 1.3;        // of steps between which a price lies
+constexpr double contender = 2.5;     // of a price over the cheapest whose bracket is narrowed
+
+/// The input of next_trials.
+struct Survey {
+  const PrecisionPlan& plan;
+  const TrialRuns& runs;
+  CaseTruth truth;
+  std::vector<MethodCurve> curves;
+};
+
+const MethodCurve& curve_of(const Survey& survey, const std::string& method) {
+  return *std::ranges::find(survey.curves, method, &MethodCurve::method);
+}
+
+Price price_of(const Survey& survey, const MethodCurve& curve, double wanted) {
+  return price_at(curve.curve, survey.plan.input_case.scene.schedule.end, wanted);
+}
+
+/// The least work that any method pays for the smallest error that one
+/// reaches; infinite if none does.
+double cheapest_work(const Survey& survey) {
+  for (auto wanted = survey.plan.wanted.rbegin(); wanted != survey.plan.wanted.rend(); ++wanted) {
+    double least = INFINITY;
+    for (const MethodCurve& curve : survey.curves) {
+      const double work = price_of(survey, curve, *wanted).applications;
+      if (work < least) least = work;
+    }
+    if (std::isfinite(least)) return least;
+  }
+  return INFINITY;
+}
+
+using Cost = std::function<double(const TrialRun&)>;
+
+/// Predicted cost of a run with so many steps a frame: the last two halvings continued linearly, or
+/// one alone in proportion. Work of implicit solves hardly grows before steps are short: theirs is
+/// that of the last run and, for each step more, at least least_solve.
+double expected_cost(const TrialLevels& levels, Family family, double parts, const Cost& cost) {
+  const int last = finest(levels).first;
+  const TrialRun& run = levels.at(last);
+  const double now = cost(run);
+  double each = now / last;
+  const auto before = levels.find(last / 2);
+  const bool has_two = before != levels.end() && is_whole(before->second) && is_whole(run);
+  if (has_two) each = std::max(0., now - cost(before->second)) / (last - before->first);
+  if (family == Family::fully_implicit) {
+    const double least = least_solve * double(run.steps) / last * now /
+                         std::max(1., operator_applications(run.work));
+    each = has_two ? std::max(each, least) : least;
+  }
+  return now + each * (parts - last);
+}
+
+bool is_affordable(const Survey& survey, const std::string& method, double parts, double most_work,
+                   double budget) {
+  const Scene& scene = survey.plan.input_case.scene;
+  const TrialLevels& levels = survey.runs.at(method);
+  const Family family = family_of(method);
+  const auto whole = [](const TrialRun& run) { return std::max(run.part, 1e-3); };
+  return expected_cost(levels, family, parts,
+                       [&](const TrialRun& run) { return visits(scene, run.work) / whole(run); }) <=
+             budget &&
+         expected_cost(levels, family, parts, [&](const TrialRun& run) {
+           return operator_applications(run.work) / whole(run);
+         }) <= most_work;
+}
+
+/// The method's order as far as it showed in its last two halvings, at most its formal one.
+double seen_order(const MethodCurve& curve, const std::string& method) {
+  const double formal = integrator_named(method).order;
+  const auto last = std::ranges::find(curve.parts, curve.parts.back() / 2);
+  if (last == curve.parts.end()) return formal;
+  const double before = curve.curve.runs[size_t(last - curve.parts.begin())].error;
+  const double order = std::log2(before / curve.curve.runs.back().error);
+  return std::isnan(order) ? formal : std::clamp(order, 0.01, formal);
+}
+
+/// Steps a frame with which the method would reach the largest wanted error that it has not, by the
+/// order that it showed; 0 if it has reached them all.
+double parts_needed(const Survey& survey, const std::string& method, int parts, double error) {
+  const double order = seen_order(curve_of(survey, method), method);
+  for (const double wanted : survey.plan.wanted)
+    if (std::isnan(error) || error > wanted) return parts * std::pow(error / wanted, 1 / order);
+  return 0;
+}
+
+bool needs_halving(const Survey& survey, const std::string& method, double most_work) {
+  const TrialLevels& levels = survey.runs.at(method);
+  const auto [parts, run] = finest(levels);
+  const int first = survey.plan.first.at(method);
+  if (2 * parts > most_parts) return false;
+  if (run->over_budget > 0)  // long steps can be dearer than short ones, for Newton's method
+    return family_of(method) == Family::fully_implicit && parts < beyond_limit * first;
+  const auto affordable = [&](double steps) {
+    return steps < most_parts &&
+           is_affordable(survey, method, steps, most_work, survey.plan.budget);
+  };
+  if (!is_whole(*run))
+    return parts * hopeless_step < beyond_limit * first && affordable(2. * parts);
+  const size_t whole = fine_end(levels).size();
+  const double error = curve_of(survey, method).curve.runs.back().error;
+  const double needed = parts_needed(survey, method, parts, error);
+  if (needed > parts && !affordable(needed)) return false;
+  if (whole < 2 && family_of(method) == Family::fully_implicit) return true;
+  return affordable(2. * parts) && (needed > 0 || whole < levels_wanted);
+}
+
+/// The longest step that came to an end is not known to be the longest: for a fully implicit method
+/// that matters only where it is exact enough.
+bool needs_coarser(const Survey& survey, const std::string& method) {
+  const auto& [coarsest, run] = *survey.runs.at(method).begin();
+  if (!is_whole(run) || coarsest % 2 != 0) return false;
+  const double error = curve_of(survey, method).curve.runs.front().error;
+  return error <= (family_of(method) == Family::fully_implicit ? survey.plan.wanted.front()
+                                                               : diverged_error);
+}
+
+/// The method's next run on its ladder of halved steps; parts 0: none.
+PrecisionTrial next_on_ladder(const Survey& survey, const std::string& method, double most_work) {
+  const auto found = survey.runs.find(method);
+  if (found == survey.runs.end()) return {method, survey.plan.first.at(method), survey.plan.budget};
+  if (needs_coarser(survey, method))
+    return {method, found->second.begin()->first / 2, survey.plan.budget};
+  if (needs_halving(survey, method, most_work))
+    return {method, 2 * finest(found->second).first, survey.plan.budget};
+  return {method, 0, 0};
+}
+
+std::vector<PrecisionTrial> refined_truth(const Survey& survey) {
+  std::vector<PrecisionTrial> trials;
+  if (survey.truth.uncertainty <= truth_part * survey.plan.wanted.back()) return trials;
+  for (const Opinion* opinion : {&survey.truth.first, &survey.truth.second}) {
+    if (opinion->parts == 0) continue;
+    const TrialLevels& levels = survey.runs.at(opinion->method);
+    const auto [parts, run] = finest(levels);
+    const double budget = truth_budget * survey.plan.budget;
+    if (is_whole(*run) && is_affordable(survey, opinion->method, 2. * parts, INFINITY, budget))
+      trials.push_back({opinion->method, 2 * parts, budget});
+  }
+  return trials;
+}
+
+/// The runs between which a wanted error's price lies: the index of the finer
+/// one; 0: there are no two.
+size_t bracket(const MethodCurve& curve, double wanted) {
+  const std::vector<PrecisionRun>& runs = curve.curve.runs;
+  size_t first = runs.size();
+  while (first > 0 && runs[first - 1].error <= wanted) --first;
+  return first == runs.size() ? 0 : first;
+}
+
+std::vector<PrecisionTrial> narrowed_brackets(const Survey& survey) {
+  std::vector<PrecisionTrial> trials;
+  for (const double wanted : survey.plan.wanted) {
+    if (!(wanted >= least_error(survey.truth))) continue;
+    double least = INFINITY;
+    for (const MethodCurve& curve : survey.curves) {
+      const double work = price_of(survey, curve, wanted).applications;
+      if (work < least) least = work;
+    }
+    for (const MethodCurve& curve : survey.curves) {
+      const size_t fine = bracket(curve, wanted);
+      if (fine == 0 || !(price_of(survey, curve, wanted).applications <= contender * least))
+        continue;
+      const int few = curve.parts[fine - 1], many = curve.parts[fine];
+      const PrecisionTrial middle{curve.method, (few + many) / 2, survey.plan.budget};
+      if (many > narrow * few && many - few > 1 &&
+          std::ranges::none_of(trials, [&](const PrecisionTrial& t) {
+            return t.method == middle.method && t.parts == middle.parts;
+          }))
+        trials.push_back(middle);
+    }
+  }
+  return trials;
+}
+
+}  // namespace
+
+std::vector<PrecisionTrial> next_trials(const PrecisionPlan& plan, const TrialRuns& runs) {
+  const CaseTruth truth = case_truth(plan, runs);
+  const Survey survey{plan, runs, truth, method_curves(plan, runs, truth)};
+  const double most_work = dearest * cheapest_work(survey);
+  std::vector<PrecisionTrial> trials;
+  // whose steps are dear; by then it is known how dear
+  for (const bool is_implicit : {false, true}) {
+    if (!trials.empty()) break;
+    for (const std::string& method : all_methods(plan)) {
+      if ((family_of(method) == Family::fully_implicit) != is_implicit) continue;
+      const PrecisionTrial trial = next_on_ladder(survey, method, most_work);
+      if (trial.parts > 0) trials.push_back(trial);
+    }
+  }
+  if (trials.empty()) trials = refined_truth(survey);
+  if (trials.empty()) trials = narrowed_brackets(survey);
+  return trials;
+}
+
+}  // namespace foldproof

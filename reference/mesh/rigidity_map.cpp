@@ -1,0 +1,153 @@
+#include "reference/mesh/rigidity_map.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace foldproof {
+
+namespace {
+
+//      x1      With w the height of the corners over the plane, cotangents at x3 and x4 (of x1's
+//     /  \     triangle c01, c03, of x2's c02, c04) and
+//   x3 -- x4   K1 = -(c01 + c03), K2 = -(c02 + c04), K3 = c03 + c04, K4 = c01 + c02,
+//     \  /     the hinge turns by theta = sum K_i w_i/|E|, to first order.
+//      x2
+struct FlatHinge {
+  Eigen::Vector3d turn;  // q: theta over k = (K11, K22, 2 K12) [m]
+  double weight;         // c/2 [1]: energy = ke c theta^2/4
+  double area;           // a third of the two triangles [m^2]
+};
+
+double cotangent(const Vector3& a, const Vector3& b) { return a.dot(b) / a.cross(b).norm(); }
+
+FlatHinge flat_hinge(const TriangleMesh& mesh, const Hinge& hinge, const RestPlane& plane) {
+  std::array<Vector3, 4> x;
+  for (std::size_t k = 0; k < 4; ++k) x[k] = mesh.rest.col(hinge.particles[k]);
+  const Vector3 edge = x[3] - x[2];
+  const double c01 = cotangent(edge, x[0] - x[2]), c02 = cotangent(edge, x[1] - x[2]);
+  const double c03 = cotangent(-edge, x[0] - x[3]), c04 = cotangent(-edge, x[1] - x[3]);
+  const std::array<double, 4> K = {-(c01 + c03), -(c02 + c04), c03 + c04, c01 + c02};
+  // |N1| + |N2|
+  const double twice_areas = edge.cross(x[0] - x[2]).norm() + edge.cross(x[1] - x[2]).norm();
+  FlatHinge flat{Eigen::Vector3d::Zero(), edge.squaredNorm() / twice_areas / 2, twice_areas / 6};
+  for (std::size_t k = 0; k < 4; ++k) {
+    const double a = (x[k] - x[2]).dot(plane.first), b = (x[k] - x[2]).dot(plane.second);
+    flat.turn += K[k] * Eigen::Vector3d(a * a / 2, b * b / 2, a * b / 2);
+  }
+  flat.turn /= edge.norm();
+  return flat;
+}
+
+/// Sums hinges: R = sum c/2 q q^T over the sum of their areas.
+struct Sum {
+  Eigen::Matrix3d energy = Eigen::Matrix3d::Zero();
+  double area = 0;
+  int hinges = 0;
+
+  void add(const FlatHinge& hinge) {
+    energy += hinge.weight * hinge.turn * hinge.turn.transpose();
+    area += hinge.area;
+    ++hinges;
+  }
+  Rigidity rigidity() const { return {energy / area}; }
+};
+
+RestPlane plane_across(const Vector3& normal) {
+  const Vector3 n = normal.normalized();
+  Vector3 axis = Vector3::UnitX();
+  if (std::abs(n.x()) > std::numbers::sqrt2 / 2)
+    axis = std::abs(n.y()) > std::numbers::sqrt2 / 2 ? Vector3::UnitZ() : Vector3::UnitY();
+  const Vector3 first = (axis - axis.dot(n) * n).normalized();
+  return {first, n.cross(first)};
+}
+
+Vector3 area_normal(const TriangleMesh& mesh, const Triangle& t) {
+  const Vector3 a = mesh.rest.col(t[0]);
+  return (mesh.rest.col(t[1]) - a).cross(mesh.rest.col(t[2]) - a);
+}
+
+}  // namespace
+
+double Rigidity::along(double angle) const {
+  const double c = std::cos(angle), s = std::sin(angle);
+  const Eigen::Vector3d k(c * c, s * s, 2 * c * s);
+  return k.dot(R * k);
+}
+
+// The curvature along the strip is a.k with a = (cos^2, sin^2, cos sin); the least k.R k for a.k =
+// 1 is 1/(a.R^{-1} a).
+double Rigidity::of_strip(double angle) const {
+  const double c = std::cos(angle), s = std::sin(angle);
+  const Eigen::Vector3d a(c * c, s * s, c * s);
+  const double determinant = R.determinant();
+  if (!(determinant > 1e-12 * std::pow(R.trace(), 3)))
+    return std::numeric_limits<double>::quiet_NaN();
+  return 1 / a.dot(R.inverse() * a);
+}
+
+RigidityExtremes extremes_of(const Rigidity& rigidity) {
+  constexpr int directions = 180;
+  RigidityExtremes found{std::numeric_limits<double>::infinity(), 0, 0};
+  for (int k = 0; k < directions; ++k) {
+    const double angle = k * std::numbers::pi / directions, D = rigidity.along(angle);
+    found.least = std::min(found.least, D);
+    if (D > found.greatest) {
+      found.greatest = D;
+      found.greatest_angle = angle;
+    }
+  }
+  return found;
+}
+
+bool is_flat(const TriangleMesh& mesh, RestPlane& plane) {
+  Vector3 normal = Vector3::Zero();
+  for (const Triangle& t : mesh.triangles) normal += area_normal(mesh, t);
+  const Vector3 first = mesh.rest.col(0);
+  const double extent = (mesh.rest.colwise() - first).colwise().norm().maxCoeff();
+  if (!(normal.norm() > 0)) return false;
+  normal.normalize();
+  plane = plane_across(normal);
+  return (normal.transpose() * (mesh.rest.colwise() - first)).cwiseAbs().maxCoeff() <=
+         1e-6 * extent;
+}
+
+Rigidity rigidity_of(const TriangleMesh& mesh, const RestPlane& plane) {
+  Sum sum;
+  for (const Hinge& hinge : mesh.hinges) sum.add(flat_hinge(mesh, hinge, plane));
+  return sum.rigidity();
+}
+
+std::vector<RigidityExtremes> rigidity_around_particles(const TriangleMesh& mesh) {
+  std::vector<Vector3> normals(std::size_t(mesh.particles()), Vector3::Zero());
+  std::vector<std::vector<int>> corners(std::size_t(mesh.particles()));
+  for (int t = 0; t < int(mesh.triangles.size()); ++t)
+    for (const int i : mesh.triangles[std::size_t(t)]) {
+      normals[std::size_t(i)] += area_normal(mesh, mesh.triangles[std::size_t(t)]);
+      corners[std::size_t(i)].push_back(t);
+    }
+  std::vector<std::vector<int>> hinges_of(mesh.triangles.size());
+  for (int k = 0; k < int(mesh.hinges.size()); ++k)
+    for (const int t : mesh.edges[std::size_t(mesh.hinges[std::size_t(k)].edge)].triangles)
+      hinges_of[std::size_t(t)].push_back(k);
+
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  std::vector<RigidityExtremes> around(std::size_t(mesh.particles()), {none, none, none});
+  std::vector<int> last_use(mesh.hinges.size(), -1);
+  for (std::size_t i = 0; i < around.size(); ++i) {
+    Sum sum;
+    if (!(normals[i].norm() > 0)) continue;
+    const RestPlane plane = plane_across(normals[i]);
+    for (const int t : corners[i])
+      for (const int k : hinges_of[std::size_t(t)]) {
+        if (last_use[std::size_t(k)] == int(i)) continue;
+        last_use[std::size_t(k)] = int(i);
+        sum.add(flat_hinge(mesh, mesh.hinges[std::size_t(k)], plane));
+      }
+    if (sum.hinges >= 3) around[i] = extremes_of(sum.rigidity());
+  }
+  return around;
+}
+
+}  // namespace foldproof

@@ -1,0 +1,12 @@
+// foldproof inspect --cloth: what a mesh makes of a cloth's material.
+#pragma once
+
+#include "scripts/program/options.h"
+
+namespace foldproof {
+
+/// Prints the mesh's rigidity by direction, its largest anisotropy, the elastic limits that it
+/// imposes and its thinnest triangles. Throws InputError for a mesh that can be no cloth.
+int inspect_cloth(const Options& options);
+
+}  // namespace foldproof
