@@ -170,7 +170,9 @@ StudyResult run_shape_return(const Subject& subject, Tier tier, const Progress& 
 }  // namespace
 
 Study shape_return_study() {
-  return {"shape-recovery", "Rest angles of its own keep and restore a sculpted shape.",
+  return {"shape-recovery",
+          "A sculpted shell that is pulled out of shape by about a tenth returns to it if its own "
+          "angles are its rest angles, and does not if they are flat.",
           "BMF03 section 4: non-zero rest angles",
           "A closed shell with bumps is squeezed, sheared and dented by about a tenth of its size, "
           "released and damped. Its distance from the rest shape falls until it is invisible, on "

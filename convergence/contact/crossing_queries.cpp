@@ -272,7 +272,9 @@ StudyResult run_crossing_queries(const Subject&, Tier tier, const Progress& prog
 }  // namespace
 
 Study crossing_queries_study() {
-  return {"crossing-queries", "The test for crossings misses none, for any motion.",
+  return {"crossing-queries",
+          "The test for crossings misses no meeting among random, degenerate and far-away motions, "
+          "each decided exactly.",
           "Bridson, Fedkiw and Anderson (2002), section 6",
           "A vertex and a triangle, or two edges, move in straight lines between points of small "
           "whole coordinates. Whether they ever meet is decided in whole numbers by the signs of "

@@ -261,7 +261,7 @@ StudyResult run_folding(const Subject&, Tier tier, const Progress& progress) {
 
 Study folding_study() {
   return {"folding",
-          "Cloth that may not be compressed folds, and keeps its area; without the limit it is "
+          "Cloth that may not be compressed folds and loses no area; without the limit it is "
           "compressed where its hinges are stiffer than its springs.",
           "BMF03 section 3, after Provot 1995",
           "The clamped ends of a strip are moved together by a fifth of its length within half a "

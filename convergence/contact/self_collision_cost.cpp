@@ -86,9 +86,9 @@ void add_searches(Tier tier, StudyResult& result) {
       {"self-collision-cost.search-time-is-nearly-linear",
        "The search for close pairs takes time nearly proportional to the number of particles.",
        {{found.exponent, 1.2, found.uncertainty, "1",
-         "each particle has the same number of neighbours, and a tree is as deep as the logarithm "
-         "of their number: an exponent of 1.1 at most from a thousand on; a tenth for memory "
-         "beyond the caches"},
+         "empirical: each particle has the same number of neighbours, and a tree is as deep as the "
+         "logarithm of their number, an exponent of 1.1 at most from a thousand on; memory beyond "
+         "the caches adds what runs alone show, less than a tenth"},
         evidence,
         "the uncertainty is by how much the second shortest time at either end was longer"}});
   result.figures.push_back({"search",
@@ -176,8 +176,8 @@ void add_rest(const Subject& subject, StudyResult& result) {
 
 Study self_collision_cost_study() {
   return {"self-collision-cost",
-          "Keeping cloth from itself costs time in proportion to its particles, and its thickness "
-          "is what layers keep.",
+          "With two layers the search for close pairs takes time nearly in proportion to the "
+          "particles; layers come to rest between half and the whole of the thickness apart.",
           "BMF03 section 5; Bridson, Fedkiw, Anderson 2002",
           "Sheets in layers: the cost of the search for close pairs by particles and layers, how "
           "much rounds of impulses leave to rigid zones, and the distance at which layers come to "

@@ -282,8 +282,9 @@ StudyResult run_wrinkles_kept(const Subject&, Tier tier, const Progress& progres
 
 Study wrinkles_kept_study() {
   return {"wrinkle-preservation",
-          "Maps of depth keep the wrinkles that plain projection flattens; how much of them "
-          "depends on tau.",
+          "Plain projection flattens wrinkles; maps of depth keep their wavelength. The blend "
+          "keeps a derived share of their depths; the power law crushes the deepest if tau is "
+          "small beside them.",
           "BMF03 section 5.3, figure 2",
           "Wrinkled strips lie half inside a half space, a ball and a torus, and are projected by "
           "each map over a range of tau. Of the particles that were inside, the standard deviation "

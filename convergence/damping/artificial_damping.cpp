@@ -63,20 +63,24 @@ NamedFinding as_derived(const VibratingSheet& sheet, const Response& response) {
           judge_worst(factors_seen, factor_noise, why_factor_noise)};
 }
 
-/// Powers of the step in what an undamped mode loses per period, by the expansion of |factor|.
+/// Powers of the step in what an undamped mode loses per period, by the expansion of |factor|. The
+/// next term of it shifts the order of a pair: by less than a tenth, but for BDF2, whose loss is
+///   (omega h)^3 pi/2 (1 - 5/2 (omega h)^2 + ...)
+/// so that between omega h = 1/4 and 1/8 the order of the pair is log2(.844/.961) =
+/// .19 below three.
 struct LossLaw {
   std::string name, words;
-  double order;
+  double order, largest_deviation = 0.1;
 };
 
 std::vector<LossLaw> loss_laws() {
-  return {{"forward-euler", "grow by omega h pi per period", 1},
-          {"RK2", "grow by (omega h)^3 pi/4 per period", 3},
-          {"SSP-RK3", "lose (omega h)^3 pi/12 per period", 3},
-          {"RK4", "lose (omega h)^5 pi/72 per period", 5},
-          {"backward-euler", "lose omega h pi per period", 1},
-          {"linear-backward-euler", "lose omega h pi per period", 1},
-          {"BDF2", "lose (omega h)^3 pi/2 per period", 3}};
+  return {{"forward-euler", "grow per period in proportion to the step", 1},
+          {"RK2", "grow per period as the cube of the step", 3},
+          {"SSP-RK3", "lose as the cube of the step per period", 3},
+          {"RK4", "lose as the fifth power of the step per period", 5},
+          {"backward-euler", "lose in proportion to the step per period", 1},
+          {"linear-backward-euler", "lose in proportion to the step per period", 1},
+          {"BDF2", "lose as the cube of the step per period, nearly", 3, 0.2}};
 }
 
 NamedFinding order_of_loss(const VibratingSheet& sheet, const Response& response,
@@ -93,9 +97,9 @@ NamedFinding order_of_loss(const VibratingSheet& sheet, const Response& response
   losses.add({"order of the pair", "1", row_orders(convergence_of(losses, loss))});
   return {"artificial-damping.change-per-period-is-as-derived." + law.name,
           "Under " + law.name + " undamped vibrations " + law.words + ".",
-          {{deviation.value, 0.25, deviation.uncertainty, "1",
-            "a loss of another power of the step is off by 2 (by 1 at least); at omega h = 1/8 the "
-            "next term of the expansion leaves some hundredths"},
+          {{deviation.value, law.largest_deviation, deviation.uncertainty, "1",
+            "a loss of another power of the step is off by 1 at least; the next term of the "
+            "expansion leaves less than this at omega h = 1/8"},
            losses,
            "measured is |order - expected| of the last pair, on the fastest mode of the sheet"}};
 }

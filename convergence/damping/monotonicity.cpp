@@ -237,8 +237,10 @@ StudyResult run_monotonicity(const Subject& subject, Tier tier, const Progress& 
 
 Study monotonicity_study() {
   return {"monotonicity",
-          "In steps far longer than the damping time A overshoots without bound; B and C oscillate "
-          "and overshoot at most by the displacement itself; backward Euler alone is monotone.",
+          "A linear motion that damping alone brings to rest is overshot by A without bound, and "
+          "by B and C by the way itself at most, though they swing, in steps far longer than the "
+          "damping's time; backward Euler is monotone. On a folding hinge C and full backward "
+          "Euler overshoot too, linearised backward Euler does not.",
           "BMF03 section 3",
           "Three motions that damping alone brings to rest: a triangle that expands (linear, known "
           "exactly), a hinge that folds (nonlinear, known by an oracle), a sheet whose modes all "

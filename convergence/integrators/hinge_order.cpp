@@ -93,8 +93,8 @@ StudyResult run_hinge_order(const Subject& subject, Tier tier, const Progress& p
 Study hinge_time_order_study() {
   return {
       "time-order.hinge",
-      "Schemes A, B and C are second order in x and v on a nonlinear, damped, driven hinge, for "
-      "any sequence of steps.",
+      "Schemes A, B and C are second order in x and v on a nonlinear, damped, driven hinge, with "
+      "constant, alternating and random steps.",
       "BMF03 section 3",
       "Two triangles share a fixed edge; one opposite corner follows a periodic path, the other is "
       "free. Springs and bending are both damped, gravity pulls, and the angle covers a large part "

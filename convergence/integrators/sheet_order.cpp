@@ -63,8 +63,8 @@ StudyResult run_sheet_order(const Subject& subject, Tier tier, const Progress& p
 
 Study sheet_time_order_study() {
   return {"time-order.sheet",
-          "Schemes A, B and C are second order in x and v on a damped hanging sheet, for any "
-          "sequence of steps.",
+          "Schemes A, B and C are second order in x and v on a damped hanging sheet, with "
+          "constant, alternating and random steps.",
           "BMF03 section 3",
           "A sheet of squares, rows split along alternating diagonals, hangs by its two upper "
           "corners, which are moved to and fro. It is released from a wavy shape with a wavy "

@@ -34,13 +34,20 @@ struct ExpectedOrder {
   std::string name, claim, unit;  // unit: of the errors
   double order;
   std::string why;
+  double largest_deviation = 0.1;
 };
+
+/// Of orders that are approached slowly.
+constexpr double largest_slow_deviation = 0.2;
+constexpr auto why_slow =
+    "empirical: another order is off by 1; how slowly this one is approached is known from runs "
+    "only, which are off by .04 to .13 on these grids. ";
 
 NamedFinding order_finding(const ExpectedOrder& expected, const Convergence& convergence) {
   const Estimate deviation = order_deviation(convergence, expected.order, 1);
   return {"level-set-resolution." + expected.name,
           expected.claim,
-          {{deviation.value, 0.2, deviation.uncertainty, "1", expected.why},
+          {{deviation.value, expected.largest_deviation, deviation.uncertainty, "1", expected.why},
            columns_of(convergence, expected.unit),
            "measured is how far the order between the two finest grids is from the one expected"}};
 }
@@ -73,7 +80,9 @@ NamedFinding first_order(const KnownBody& body, const std::vector<NodeErrors>& l
   return order_finding(
       {"first-order-marching-converges." + body.name,
        "First-order marching errs by O(h) about a " + body.name + ", in the mean.", "m", 1,
-       "one-cell upwind differences; log h enters where characteristics spread"},
+       std::string(why_slow) +
+           "One-cell upwind differences; log h enters where characteristics spread",
+       largest_slow_deviation},
       against_h(levels, &NodeErrors::mean));
 }
 
@@ -81,13 +90,15 @@ void add_marching(const KnownBody& body, const std::vector<int>& cells, StudyRes
   const auto first = march_all(body, cells, Start::layer, MarchingOrder::first);
   const auto second = march_all(body, cells, Start::layer, MarchingOrder::second);
   const auto banded = march_all(body, cells, Start::band, MarchingOrder::second);
-  result.findings.push_back(order_finding({"second-order-marching-converges." + body.name,
-                                           "Second-order marching errs by O(h^2) about a " +
-                                               body.name + ", in the mean away from its kinks.",
-                                           "m", 2,
-                                           "two-cell upwind differences; only next to kinks, and "
-                                           "where a difference changes sign, is one cell upwind"},
-                                          against_h(second, &NodeErrors::mean_away)));
+  result.findings.push_back(
+      order_finding({"second-order-marching-converges." + body.name,
+                     "Second-order marching errs by O(h^2) about a " + body.name +
+                         ", in the mean away from its kinks.",
+                     "m", 2,
+                     std::string(why_slow) + "Two-cell upwind differences; only next to kinks, and "
+                                             "where a difference changes sign, is one cell upwind",
+                     largest_slow_deviation},
+                    against_h(second, &NodeErrors::mean_away)));
   // the torus's needs finer grids
   if (body.name == "ball") result.findings.push_back(first_order(body, first));
   result.findings.push_back(unit_gradient(body, second));
@@ -131,14 +142,16 @@ void add_interpolation(const std::vector<int>& cells, StudyResult& result) {
          "along each axis h^2/8 times the second derivative; the three add up to 2/|p|"},
         columns_of(value, "m"),
         "measured is the largest error over h^2/(4 |p|) of the innermost cells touched"}});
-  result.findings.push_back(
-      order_finding({"cell-gradient-is-first-order", "The gradient of the cell errs by O(h).", "1",
-                     1, "it is exact in the cell's middle and constant along each axis"},
-                    cell));
+  result.findings.push_back(order_finding(
+      {"cell-gradient-is-first-order", "The gradient of the cell errs by O(h).", "1", 1,
+       std::string(why_slow) + "It is right in the cell's middle and constant along each axis",
+       largest_slow_deviation},
+      cell));
   result.findings.push_back(
       order_finding({"nodal-gradient-is-second-order",
                      "The blend of the nodes' central differences errs by O(h^2).", "1", 2,
-                     "central differences and their blend are both exact for quadratics"},
+                     "central differences and their blend are both exact for quadratics; another "
+                     "order is off by 1"},
                     nodal));
   Figure figure = empty_figure(
       "interpolation", "Error between exact nodes, within a tenth of a metre of a ball",
@@ -180,7 +193,8 @@ void add_crude_start(const std::vector<int>& cells, StudyResult& result) {
       {"crude-start.distance-is-first-order",
        "From small positive and small negative values marching gives the distance, to O(h).", "m",
        1,
-       "the surface is known to a fraction of a cell, and marching carries that error everywhere"},
+       "the surface is known to a part of a cell, which marching carries everywhere; another order "
+       "is off by 1"},
       against_h(nodes, &NodeErrors::mean)));
   const Convergence offset = against_h(crude, &ContourErrors::worst_offset);
   Worst farthest;
@@ -206,7 +220,8 @@ void add_crude_start(const std::vector<int>& cells, StudyResult& result) {
   result.findings.push_back(
       {"level-set-resolution.exact-start.normals-are-second-order",
        "With exact values next to the surface normals there err by O(h^2) at worst.",
-       {{2 - pair_orders(cured).back(), 0.2, 0, "1", "as between exact nodes"},
+       {{2 - pair_orders(cured).back(), 0.1, 0, "1",
+         "as between exact nodes; another order is off by 1"},
         columns_of(cured, "degrees"),
         "measured is 2 less the order between the two finest grids"}});
   Figure figure = empty_figure(
@@ -238,16 +253,17 @@ StudyResult run_level_set_resolution(const Subject&, Tier tier, const Progress& 
 }  // namespace
 
 Study level_set_resolution_study() {
-  return {"level-set-resolution",
-          "From exact values next to the surface second-order marching gives the distance to "
-          "O(h^2); the paper's crude start gives it to O(h), with normals that stay wrong.",
-          "BMF03 section 5.1",
-          "How fine must a grid be, and how much accuracy does a crude start lose? Bodies with a "
-          "closed-form distance are sampled on grids whose spacing is halved. Measured are the "
-          "distance at the nodes after fast marching of both orders; the errors that trilinear "
-          "interpolation and two kinds of gradients add between exact nodes; and the surface and "
-          "normals after a start from inside/outside alone.",
-          run_level_set_resolution};
+  return {
+      "level-set-resolution",
+      "From exact values next to the surface second-order marching errs by O(h^2) in the mean; "
+      "from the paper's crude start it errs by O(h), and the normals at the surface stay wrong.",
+      "BMF03 section 5.1",
+      "How fine must a grid be, and how much accuracy does a crude start lose? Bodies with a "
+      "closed-form distance are sampled on grids whose spacing is halved. Measured are the "
+      "distance at the nodes after fast marching of both orders; the errors that trilinear "
+      "interpolation and two kinds of gradients add between exact nodes; and the surface and "
+      "normals after a start from inside/outside alone.",
+      run_level_set_resolution};
 }
 
 }  // namespace foldproof

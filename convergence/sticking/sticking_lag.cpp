@@ -307,8 +307,8 @@ StudyResult run_sticking_lag(const Subject& subject, Tier tier, const Progress& 
 
 Study sticking_lag_study() {
   return {"sticking-lag",
-          "Stuck particles lag by m a/k; forecasts damp the oscillation and, in scheme C, let the "
-          "step ignore the bond's stiffness.",
+          "What sticks lags by m a/k, in scheme C by more the longer the step; forecasts end its "
+          "swinging and, in scheme C, free the step of its stiffness.",
           "BMF03 section 6",
           "A bond is a spring of zero rest length between the forecast positions of a particle and "
           "its target. Forecasting both adds damping of their relative velocity, which the schemes "

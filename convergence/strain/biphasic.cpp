@@ -159,8 +159,8 @@ NamedFinding bar_finding(const PulledStrip& run) {
 
 NamedFinding phases_finding(const PulledStrip& run) {
   return {"biphasic.gives-way-then-holds",
-          "Beyond three times the load at which it begins to reach its limits, the strip is a "
-          "twelfth as compliant as before.",
+          "Beyond three times the load at which it begins to reach its limits, the strip gives way "
+          "at most an eighth as much as it did before.",
           {{late_over_early(run), 0.125, 0, "1",
             "the compliance of a bar falls to (full load/load)^2 of its start: between 1/9 and "
             "1/16, 1/12 on average; the bound allows half as much again"},
@@ -246,8 +246,8 @@ StudyResult run_biphasic(const Subject&, Tier tier, const Progress& progress) {
 
 Study biphasic_study() {
   return {"biphasic",
-          "Weak springs with limits stretch under a load at first and then no further, and allow "
-          "longer steps than unlimited springs stiff enough for the same load.",
+          "Weak springs with limits give way to a load at first and then at most an eighth as "
+          "much; springs without limits that stretch as little take twice as many steps.",
           "BMF03 section 3, after Provot 1995",
           "A weightless strip is pulled by one end with an acceleration that grows from zero; the "
           "load at its clamp is its mass times the acceleration. The largest load is four times "

@@ -64,6 +64,21 @@ bool is_known(const std::string& name) {
 
 }  // namespace
 
+TEST_CASE("a finding of the full tier decides if it ran, and is not missed if it did not") {
+  const std::vector<Decider> deciders = {{"support", Role::supports},
+                                         {"long", Role::supports, true}};
+  Record held, failed;
+  held.name = "support";
+  held.outcome = Outcome::holds;
+  failed.name = "long";
+  failed.outcome = Outcome::fails;
+  failed.finding.verdict = {3, 2, 0, "1", ""};
+  CHECK(ruling(deciders, {held}) == Ruling::confirmed);
+  CHECK(ruling(deciders, {held, failed}) == Ruling::undecided);
+  CHECK(ruling({{"support", Role::supports}, {"long", Role::supports}}, {held}) ==
+        Ruling::undecided);
+}
+
 TEST_CASE(
     "every claim that was looked up names the paragraph and the first words of its sentence") {
   for (const Claim& claim : written_claims()) {

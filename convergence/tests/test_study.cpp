@@ -2,6 +2,8 @@
 #include <catch2/catch.hpp>
 #include <stdexcept>
 
+#include "convergence/headlines.h"
+#include "convergence/studies.h"
 #include "convergence/study.h"
 #include "verification/subjects/reference_subject.h"
 
@@ -32,4 +34,32 @@ TEST_CASE("each finding of a study is judged by its own verdict") {
   CHECK(records[1].outcome == Outcome::fails);
   CHECK(records[2].outcome == Outcome::inconclusive);
   CHECK(records[3].outcome == Outcome::fails);
+}
+
+TEST_CASE("the sentence of every study names the findings that it rests on") {
+  for (const Study& study : all_studies()) {
+    INFO(study.name);
+    CHECK_FALSE(headline_families(study.name).empty());
+  }
+}
+
+TEST_CASE("a study fails that does not measure what its sentence rests on") {
+  const auto bend = [](const char* last) {
+    return Study{"bending-scaling", "A sentence.", "", "",
+                 [=](const Subject&, Tier, const Progress&) {
+                   StudyResult result;
+                   for (const char* name : {"edge-factor-vanishes-with-cell-width", last})
+                     result.findings.push_back({std::string("bending-scaling.") + name,
+                                                "A sentence.",
+                                                {{1, 2, 0, "1", ""}, {}, ""}});
+                   return result;
+                 }};
+  };
+  const auto outcome = [](const Study& study) {
+    return run_study(study, reference_subject(), Tier::quick, [](double) {}).first[0].outcome;
+  };
+  CHECK(outcome(bend("edge-squared-over-area-factor-tends-to-a-constant")) == Outcome::holds);
+  CHECK(outcome(bend("edge-squared-over-area-factor-tends-to-a-constant.fine")) == Outcome::holds);
+  CHECK(outcome(bend("edge-squared-over-area-factor-tends")) == Outcome::fails);
+  CHECK(outcome(bend("edge-squared-over-area-factor-tends-to-a-constant-too")) == Outcome::fails);
 }

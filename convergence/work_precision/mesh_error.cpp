@@ -113,10 +113,11 @@ NamedFinding second_order(const std::vector<MeshRun>& meshes) {
   Table evidence = differences(meshes);
   evidence.add({"order of the pair", "1", row_orders(errors)});
   const Verdict verdict{deviation.value, 0.5, deviation.uncertainty, "1",
-                        "first order would be off by 1; half of that allows for the border, whose "
-                        "springs and hinges lack a neighbour, on meshes this coarse"};
-  return {"mesh-error.is-second-order-in-cell-width",
-          "Positions of a smooth motion converge with second order in the cells' width.",
+                        "midway between the orders one and two; the border, whose springs and "
+                        "hinges lack a neighbour, leaves no more on meshes this coarse"};
+  return {"mesh-error.order-is-nearer-two-than-one",
+          "Positions of a smooth motion converge with an order in the cells' width that is nearer "
+          "two than one.",
           {verdict, std::move(evidence),
            "measured is |order - 2| of the last pair, at the particles of the coarsest mesh"}};
 }
@@ -193,7 +194,8 @@ StudyResult run_mesh_error(const Subject& subject, Tier tier, const Progress& pr
 
 Study mesh_error_study() {
   return {"mesh-error",
-          "On a smooth motion the mesh's error exceeds that of a step of half the elastic limit.",
+          "On a smooth motion a step of half the elastic limit errs less than a tenth as much as "
+          "the mesh does.",
           "ours",
           "How fine should the step be for my mesh? A sheet held along its upper edge swings by a "
           "smooth velocity, on meshes that each halve the cells of the one before. Errors of the "

@@ -119,6 +119,9 @@ def _verdict(judged: Judged) -> list[Piece]:
         total,
         " findings hold",
     ]
+    generic = sum(one.scope == "generic" and one.outcome == "holds" for one in judged.findings)
+    if generic:
+        said += [", ", _count(generic, "generic findings that hold"), " of them generic"]
     others = [
         [
             _count(count, f"findings: {outcome}"),

@@ -9,6 +9,7 @@
 #include "scripts/program/progress.h"
 #include "scripts/program/run_case.h"
 #include "scripts/program/command_line/suggestions.h"
+#include "verification/finding_kinds.h"
 #include "verification/checks.h"
 
 namespace foldproof {
@@ -180,8 +181,12 @@ std::string summary(const RunRecord& run) {
     return std::count_if(run.claims.begin(), run.claims.end(),
                          [&](const ClaimRecord& c) { return outcome_of(c) == outcome; });
   };
+  const auto generic = std::count_if(run.records.begin(), run.records.end(), [](const Record& r) {
+    return r.outcome == Outcome::holds && scope_of(r) == FindingScope::generic;
+  });
+  const std::string of_them = generic > 0 ? fmt::format(" ({} generic)", generic) : "";
   const std::string findings = fmt::format(
-      "{} hold, {} fail, {} inconclusive, {} not applicable", count(Outcome::holds),
+      "{} hold{}, {} fail, {} inconclusive, {} not applicable", count(Outcome::holds), of_them,
       count(Outcome::fails), count(Outcome::inconclusive), count(Outcome::not_applicable));
   if (run.claims.empty()) return findings;
   return findings + fmt::format("; {} claims ruled as recorded, {} otherwise, {} undecided",

@@ -37,7 +37,9 @@ Answer answer_of(const Record* record) {
 int count_of(const std::vector<Decider>& deciders, const std::vector<Record>& records, Role role,
              Answer answer) {
   return int(std::count_if(deciders.begin(), deciders.end(), [&](const Decider& decider) {
-    return decider.role == role && answer_of(record_named(decider.finding, records)) == answer;
+    const Record* const record = record_named(decider.finding, records);
+    if (decider.only_in_full_tier && !record) return false;
+    return decider.role == role && answer_of(record) == answer;
   }));
 }
 

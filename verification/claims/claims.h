@@ -26,6 +26,7 @@ std::string_view name_of(Ruling ruling);
 struct Decider {
   std::string finding;
   Role role;
+  bool only_in_full_tier = false;  // of a long case: a run without it is ruled by the others
 };
 
 /// Where in its section the paper says it, to be found on the page.

@@ -76,8 +76,12 @@ std::vector<Decider> deciders_of(const KeyTable& row) {
     if (std::ranges::any_of(deciders,
                             [&](const Decider& earlier) { return earlier.finding == finding; }))
       throw InputError(entry->where("finding") + ": the finding '" + finding + "' is named twice");
-    deciders.push_back(
-        {finding, word_of(*entry, "role", {Role::supports, Role::limits, Role::contradicts})});
+    const std::string tier = entry->has("tier") ? entry->text("tier") : "every";
+    if (tier != "every" && tier != "full")
+      throw InputError(entry->where("tier") + ": unknown tier '" + tier + "'; known: every, full");
+    deciders.push_back({finding,
+                        word_of(*entry, "role", {Role::supports, Role::limits, Role::contradicts}),
+                        tier == "full"});
   }
   if (deciders.empty())
     throw InputError(row.where("decided_by") + ": no finding decides this claim");
