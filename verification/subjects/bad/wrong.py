@@ -2,7 +2,8 @@
 """Solvers that keep to the protocol and are wrong, each in one law of physics or one claim: wrong.py KIND
 
 The portable suite must find each by the laws that it breaks. "none" is the unspoiled toy; "backward_euler" and
-"trapezoidal" are other correct schemes, which must raise no alarm, at f8; "single" is one at f4.
+"trapezoidal" are other correct schemes, which must raise no alarm, at f8; "single" and "backward_euler_single" are some
+at f4.
 """
 from __future__ import annotations
 
@@ -207,6 +208,16 @@ class BackwardEuler(Implicit):
     scheme = "backward Euler"
 
 
+class BackwardEulerInSingle(BackwardEuler):
+    """Its state is rounded to single precision after each step."""
+
+    precision = "f4"
+
+    def solve_step(self, dt: float) -> None:
+        super().solve_step(dt)
+        self.x, self.v = self.x.astype("f4").astype("f8"), self.v.astype("f4").astype("f8")
+
+
 class Trapezoidal(Implicit):
     theta, scheme, order = 0.5, "trapezoidal rule", 2
 
@@ -228,7 +239,7 @@ class Single(ToySolver):
 
 
 KINDS = {
-    "none": Unspoiled, "backward_euler": BackwardEuler, "trapezoidal": Trapezoidal, "single": Single,
+    "none": Unspoiled, "backward_euler": BackwardEuler, "backward_euler_single": BackwardEulerInSingle, "trapezoidal": Trapezoidal, "single": Single,
     "wrong_mass": WrongMass, "own_masses_ignored": OwnMassesIgnored,
     "gravity_scaled": GravityScaled, "momentum_dropped": MomentumDropped,
     "single_for_double": SingleForDouble, "first_order_as_second": FirstOrderAsSecond, "hidden_damping": HiddenDamping,
