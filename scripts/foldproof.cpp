@@ -583,6 +583,19 @@ void add_judge(CLI::App& app, Options& options) {
       ->check(some_text("a command"))
       ->required();
   add_solver_options(subject, options);
+  CLI::App* served =
+      add_command(app, options,
+                  {"serve", "Answer the protocol of `judge` as the reference: `judge` starts this",
+                   help::serve},
+                  serve);
+  served->add_option("--integrator", options.integrator, "Of `foldproof list`")
+      ->type_name("NAME")
+      ->check(some_text("an integrator"))
+      ->capture_default_str();
+  served->add_option("--precision", options.precision, "Of its answers: f8 or f4")
+      ->type_name("TYPE")
+      ->check(one_of({"f8", "f4"}))
+      ->capture_default_str();
 }
 
 int run(int argc, char** argv) {

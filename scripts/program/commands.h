@@ -25,8 +25,9 @@ int run_bench(const Options& options);
 int show_crossings(const Options& options);  // crossings_command.cpp
 int compare_frames(const Options& options);  // compare_command.cpp
 int evaluate_queries(const Options& options);
-int judge_another_solver(const Options& options);  // judge_command.cpp, as the next
+int judge_another_solver(const Options& options);  // judge_command.cpp, as the next two
 int check_subject(const Options& options);
+int serve(const Options& options);
 int show_claims(const Options& options);  // claims_command.cpp
 
 }  // namespace foldproof

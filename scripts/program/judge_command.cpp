@@ -1,4 +1,4 @@
-// foldproof judge and foldproof subject: another solver on trial, and its adapter.
+// foldproof judge, subject, serve: another solver on trial, its adapter, and the reference as one.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -9,6 +9,7 @@
 #include "scripts/program/provenance.h"
 #include "scripts/program/run_all.h"
 #include "verification/files/verdicts_file.h"
+#include "verification/subjects/served/reference_server.h"
 #include "verification/subjects/suite/conformance.h"
 #include "verification/subjects/suite/laws.h"
 
@@ -94,6 +95,10 @@ int check_subject(const Options& options) {
   fmt::print("{}\n", is_broken ? "the adapter does not keep to the protocol"
                                : "the adapter keeps to the protocol");
   return is_broken ? some_fail : all_hold;
+}
+
+int serve(const Options& options) {
+  return serve_reference({options.integrator, options.precision == "f4"});
 }
 
 }  // namespace foldproof

@@ -49,6 +49,7 @@ struct Options {
   double effort = 1;         // of precision: largest work of a run over the usual budget [1]
   std::string solver, name;  // of judge, subject: command; of judge: name in the report
   double patience = 60;      // of judge, subject: limit of silence [s]
+  std::string integrator = "C", precision = "f8";  // of serve
   bool json = false, quick = false, no_report = false, no_bench = false, resumes = false,
        restarts = false, pdf = false, papers = false, summary = false, site = false;
   int (*run)(const Options&) = nullptr;  // the command; returns the exit code

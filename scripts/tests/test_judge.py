@@ -114,6 +114,12 @@ class Judge(unittest.TestCase):
         verdicts = json.loads((out / "verdicts.json").read_text(encoding="utf-8"))
         self.assertEqual({row["outcome"] for row in verdicts["findings"]}, {"holds"})
 
+    def test_the_reference_can_be_asked_like_any_other(self) -> None:
+        done = run("judge", "--solver", f"exec '{PROGRAM}' serve --integrator backward-euler --precision f4")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertIn("foldproof reference", done.stdout)
+        self.assertIn("L2, f4, backward Euler of order 1", done.stdout)
+
     def test_a_wrong_solver_fails_by_the_name_of_the_law(self) -> None:
         done = run("judge", "--solver", bad("wrong", "gravity_scaled"), "--json")
         self.assertEqual(done.returncode, 1)
@@ -150,7 +156,10 @@ class Judge(unittest.TestCase):
             (["judge"], "--solver"), (["judge", "--solver", ""], "--solver"),
             (["judge", "--solver", TOY, "--settings", "iterations"], "write KEY=VALUE"),
             (["judge", "--solver", TOY, "--settings", "=3"], "write KEY=VALUE"),
-            (["judge", "--solver", TOY, "--seconds", "0"], "--seconds"), (["subject"], "--check")
+            (["judge", "--solver", TOY, "--seconds", "0"], "--seconds"), (["subject"], "--check"),
+            (["serve"], "FOLDPROOF_IN is not set"),
+            (["serve", "--integrator", "X"], "known: A, B, C"),
+            (["serve", "--precision", "f2"], "--precision"),
         ):
             done = run(*words)
             self.assertEqual((done.returncode, done.stdout), (2, ""), words)

@@ -40,6 +40,15 @@ bool sticks(const System& system) {
 
 }  // namespace
 
+void set_masses(PreparedScene& prepared, const PerParticle& masses) {
+  System& system = static_cast<PreparedReferenceScene&>(prepared).system;
+  for (Eigen::Index i = 0; i < masses.size(); ++i)
+    if (system.inverse_mass[i] > 0) system.inverse_mass[i] = 1 / masses[i];
+  system.mass = masses;
+  for (Force& force : system.forces)
+    if (auto* weight = std::get_if<Gravity>(&force)) weight->mass = masses;
+}
+
 Subject reference_subject() {
   Subject subject;
   subject.name = "foldproof reference";

@@ -8,4 +8,8 @@ namespace foldproof {
 /// It offers every operation.
 Subject reference_subject();
 
+/// Gives the particles of a scene that the reference prepared these masses (N [kg], each > 0) in
+/// place of those of its density; their weights, too. Particles with prescribed motion keep it.
+void set_masses(PreparedScene& prepared, const PerParticle& masses);
+
 }  // namespace foldproof

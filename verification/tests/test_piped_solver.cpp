@@ -170,16 +170,13 @@ TEST_CASE("subject: after a failure the next law goes on") {
 }
 
 TEST_CASE("subject: correct solvers raise no alarm, in single and double precision") {
-  for (const char* kind : {"none", "single"}) {
+  for (const char* kind : {"none", "single", "backward_euler", "backward_euler_single"}) {
     INFO(kind);
     CHECK(failing_laws(kind) == std::set<std::string>{});
   }
   const std::vector<Law> laws =
       laws_of({"smoke", "rest", "inertia", "gravity", "momentum", "held", "symmetry.r", "order"});
-  for (const char* kind : {"backward_euler", "trapezoidal"}) {
-    INFO(kind);
-    CHECK(failing_laws(kind, laws) == std::set<std::string>{});
-  }
+  CHECK(failing_laws("trapezoidal", laws) == std::set<std::string>{});
 }
 
 TEST_CASE("subject: wrong masses and gravity are found") {

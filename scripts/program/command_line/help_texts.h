@@ -117,6 +117,18 @@ Exit codes:
   1    the adapter breaks the protocol; the message names the first violation
   2    bad input)";
 
+constexpr const char* serve =
+    R"(Started by `judge`, `subject` or another program that speaks verification/subjects/PROTOCOL.md: it
+reads from the descriptor FOLDPROOF_IN and writes to FOLDPROOF_OUT.
+
+Examples:
+  foldproof judge --solver "foldproof serve"
+  foldproof judge --solver "foldproof serve --integrator A --precision f4"
+
+Exit codes:
+  0    asked to stop
+  2    bad input, or no other program has started it)";
+
 constexpr const char* crossings =
     R"(Examples:
   foldproof crossings results/fast.h5

@@ -63,6 +63,8 @@ struct Solver {
   virtual Numbers forces() { throw Declined("forces"); }
   virtual Numbers damping() { throw Declined("damping forces"); }
   virtual double energy() { throw Declined("energy"); }
+  /// Work since the last answer, counted in units of your own; null: not counted.
+  virtual Json work() { return nullptr; }
 };
 
 namespace detail {
@@ -186,6 +188,8 @@ inline void ask(Solver& solver, const Scene& message, const std::string& operati
   if (operation == "step") {
     solver.advance(message.header["dt"], 1);
     add_state(solver, answer);
+    const Json work = solver.work();
+    if (!work.is_null()) answer.header["work"] = work;
   } else if (operation == "forces") {
     answer.add("f", solver.forces(), solver.declared.precision, {particles, 3});
   } else if (operation == "damping") {

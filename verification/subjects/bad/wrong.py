@@ -4,7 +4,7 @@ physics or one claim: wrong.py KIND
 
 The portable suite must find each by the laws that it breaks. "none" is the unspoiled toy;
 "backward_euler" and "trapezoidal" are other correct schemes, which must raise no alarm, at f8;
-"single" is one at f4.
+"single" and "backward_euler_single" are some at f4.
 """
 from __future__ import annotations
 
@@ -213,6 +213,16 @@ class BackwardEuler(Implicit):
     scheme = "backward Euler"
 
 
+class BackwardEulerInSingle(BackwardEuler):
+    """Its state is rounded to single precision after each step."""
+
+    precision = "f4"
+
+    def solve_step(self, dt: float) -> None:
+        super().solve_step(dt)
+        self.x, self.v = self.x.astype("f4").astype("f8"), self.v.astype("f4").astype("f8")
+
+
 class Trapezoidal(Implicit):
     theta, scheme, order = 0.5, "trapezoidal rule", 2
 
@@ -236,6 +246,7 @@ class Single(ToySolver):
 KINDS = {
     "none": Unspoiled,
     "backward_euler": BackwardEuler,
+    "backward_euler_single": BackwardEulerInSingle,
     "trapezoidal": Trapezoidal,
     "single": Single,
     "wrong_mass": WrongMass,

@@ -50,6 +50,23 @@ std::vector<std::string> texts_of(const json& header, const char* key) {
   return texts;
 }
 
+/// Counters in the order of for_each_counter; zeros where the answer counts otherwise.
+Work work_of(const json& header) {
+  const json counts = header.value("work", json());
+  Work work;
+  size_t due = 0;
+  for_each_counter(work, [&](auto&) { ++due; });
+  if (!counts.is_array() || counts.size() != due) return {};
+  size_t k = 0;
+  for_each_counter(work, [&](auto& count) {
+    using Number = std::remove_reference_t<decltype(count)>;
+    const json& sent = counts[k++];
+    if (std::is_integral_v<Number> ? sent.is_number_integer() : sent.is_number())
+      count = sent.get<Number>();
+  });
+  return work;
+}
+
 Declaration read_declaration(const json& header) {
   if (header.value("protocol", json()) != protocol_version)
     throw SolverFailure("header", fmt::format("does not speak protocol {}", protocol_version));
@@ -204,8 +221,9 @@ struct PipedSolver::Impl {
     return {{"x", {particles, 3}}, {"v", {particles, 3}}};
   }
 
-  Snapshot ask_state(Request request) {
+  Snapshot ask_state(Request request, Work* counted = nullptr) {
     const Answer answer = ask(std::move(request), state_arrays());
+    if (counted) *counted = work_of(answer.header);
     return {as_particles(answer.arrays[0]), as_particles(answer.arrays[1])};
   }
 
@@ -270,7 +288,7 @@ Snapshot PipedSolver::step(const std::vector<Snapshot>& past, const std::vector<
     request.add("x_before", past.front().x);
     request.add("v_before", past.front().v);
   }
-  return impl_->ask_state(std::move(request));
+  return impl_->ask_state(std::move(request), &last_work_);
 }
 
 PerParticle3 PipedSolver::forces(const Snapshot& state, double time) {
@@ -302,6 +320,8 @@ std::vector<Snapshot> PipedSolver::run(const PortableScene& scene,
     states.push_back({frame(answer.arrays[0], k), frame(answer.arrays[1], k)});
   return states;
 }
+
+bool PipedSolver::has_failed() const { return impl_->failed.has_value(); }
 
 bool PipedSolver::declines_unknown_operation() {
   try {

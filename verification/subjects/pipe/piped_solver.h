@@ -72,12 +72,19 @@ class PipedSolver {
   /// latest, for solvers with capability "history".
   Snapshot step(const std::vector<Snapshot>& past, const std::vector<double>& times, double dt);
 
+  /// What the last step's answer counted, in the order of for_each_counter; zeros if it
+  /// counted nothing.
+  const Work& last_work() const { return last_work_; }
+
   PerParticle3 forces(const Snapshot& state, double time);   // elastic and external [N], 3 x N
   PerParticle3 damping(const Snapshot& state, double time);  // [N], 3 x N
   double energy(const Snapshot& state, double time);         // potential [J]
 
   /// The states after these numbers of steps of scene.dt, ascending.
   std::vector<Snapshot> run(const PortableScene& scene, const std::vector<long>& frames);
+
+  /// Whether a call went wrong: the process has then ended.
+  bool has_failed() const;
 
   /// Asks for an operation that no protocol has. Is it declined?
   bool declines_unknown_operation();
@@ -89,6 +96,7 @@ class PipedSolver {
   struct Impl;
   std::unique_ptr<Impl> impl_;
   Declaration declaration_;
+  Work last_work_ = {};
 };
 
 }  // namespace foldproof

@@ -66,8 +66,15 @@ Finding order_is_as_claimed(Trial& trial) {
     runs.push_back(positions_after(trial, count));
   std::vector<double> differences;
   for (size_t k = 1; k < runs.size(); ++k) differences.push_back((runs[k] - runs[k - 1]).norm());
+  // a difference of runs that is mostly rounding, which grows like a random walk, shows no order;
+  // a scheme of less order than it claims leaves larger ones
+  const double rounding =
+      trial.declaration().rounding() * std::sqrt(8.0 * steps) * runs.back().norm();
+  if (differences[1] <= rounding)
+    throw NotOffered{"enough digits: its errors in these steps are rounding"};
   const double coarse = std::log2(differences[0] / differences[1]);
-  const double fine = std::log2(differences[1] / differences[2]);
+  const double fine =
+      differences[2] > rounding ? std::log2(differences[1] / differences[2]) : coarse;
   Table measured{{"observed", "1"},
                  {"observed on coarser steps", "1"},
                  {"claimed", "1"},

@@ -1,0 +1,108 @@
+#include "verification/subjects/served/reference_server.h"
+
+#include <cstdlib>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "reference/dynamics/integrator.h"
+#include "verification/subjects/reference_subject.h"
+#include "verification/subjects/served/scene_message.h"
+
+namespace foldproof {
+
+namespace {
+
+using foldproof_solver::Json;
+using foldproof_solver::Numbers;
+
+Numbers as_rows(const PerParticle3& columns) {
+  return {columns.data(), columns.data() + columns.size()};
+}
+
+Json counted(const Work& work) {
+  Json counts = Json::array();
+  for_each_counter(work, [&](auto count) { counts.push_back(count); });
+  return counts;
+}
+
+/// The reference keeps the states that its integrator looks back on; a state that is
+/// set forgets them.
+struct ReferenceSolver : foldproof_solver::Solver {
+  Subject subject = reference_subject();
+  ServedReference served;
+  std::unique_ptr<PreparedScene> prepared;
+  std::vector<State> past;
+  int history = 1;
+  Work counts;
+
+  explicit ReferenceSolver(const ServedReference& s) : served(s) {
+    const Integrator& integrator = integrator_named(served.integrator);
+    declared.name = subject.name, declared.version = subject.version;
+    declared.level = "L2", declared.precision = served.is_single ? "f4" : "f8";
+    declared.scheme = integrator.title, declared.order = integrator.order;
+    declared.capabilities = {"set_state", "held", "masses", "history"};
+    declared.solve_tolerance =
+        integrator.family == Family::fully_explicit ? 0 : SolverSettings{}.tolerance;
+  }
+
+  foldproof_solver::Mapping prepare(const foldproof_solver::Scene& message) override {
+    Scene scene = reference_scene(message);
+    const Json& constants = message.header.at("scene");
+    const bool is_own = constants.contains("extension");
+    if (!is_own) scene.integrator = served.integrator;
+    prepared = subject.prepare(scene);
+    if (constants.at("own_masses")) give_masses(message.numbers.at("mass"));
+    history = integrator_named(scene.integrator).history;
+    const State start = is_own ? State{0, scene.x, scene.v} : start_state(scene);
+    set_state(as_rows(start.x), as_rows(start.v), 0);
+    return {{"stretch", "a spring per edge, of stiffness Y A_e/L0^2 [N/m]"},
+            {"bending", "ke = 4 B [J]: exact on equilateral meshes"},
+            {"damping", "kd_s [N s/m] and kd [N s] of the paper"},
+            {"integrator", scene.integrator}};
+  }
+
+  void give_masses(const Numbers& masses) {
+    set_masses(*prepared,
+               Eigen::Map<const PerParticle>(masses.data(), Eigen::Index(masses.size())));
+  }
+
+  void set_state(Numbers new_x, Numbers new_v, double new_time) override {
+    Solver::set_state(std::move(new_x), std::move(new_v), new_time);
+    past = {{time, as_columns(x), as_columns(v)}};
+  }
+
+  void set_state_before(Numbers x_before, Numbers v_before, double time_before) override {
+    past.insert(past.begin(), {time_before, as_columns(x_before), as_columns(v_before)});
+  }
+
+  void advance(double dt, long steps) override {
+    for (long k = 0; k < steps; ++k) {
+      past.push_back(subject.step(*prepared, past, dt, counts));
+      if (past.size() > size_t(history)) past.erase(past.begin());
+    }
+    time = past.back().time;
+    x = as_rows(past.back().x), v = as_rows(past.back().v);
+  }
+
+  Json work() override { return counted(std::exchange(counts, Work{})); }
+  Numbers forces() override { return as_rows(subject.elastic_forces(*prepared, past.back())); }
+  Numbers damping() override {
+    return as_rows(subject.damping_forces(*prepared, past.back(), past.back().v));
+  }
+  double energy() override { return subject.potential_energy(*prepared, past.back()); }
+};
+
+}  // namespace
+
+int serve_reference(const ServedReference& served) {
+  ReferenceSolver solver(served);
+  for (const char* name : {"FOLDPROOF_IN", "FOLDPROOF_OUT"})
+    if (!std::getenv(name))
+      throw InputError(
+          std::string(name) +
+          " is not set: start this command with `foldproof judge --solver \"foldproof serve\"`");
+  return foldproof_solver::serve(solver);
+}
+
+}  // namespace foldproof
