@@ -115,7 +115,10 @@ class Judge(unittest.TestCase):
         self.assertEqual({row["outcome"] for row in verdicts["findings"]}, {"holds"})
 
     def test_the_reference_can_be_asked_like_any_other(self) -> None:
-        done = run("judge", "--solver", f"exec '{PROGRAM}' serve --integrator backward-euler --precision f4")
+        done = run(
+            "judge", "--solver",
+            f"exec '{PROGRAM}' serve --integrator backward-euler --precision f4"
+        )
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assertIn("foldproof reference", done.stdout)
         self.assertIn("L2, f4, backward Euler of order 1", done.stdout)
