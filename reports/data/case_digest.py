@@ -37,4 +37,5 @@ def mesh_files(value: Any) -> list[str]:
 
 def case_files(cases: Path) -> dict[str, str]:
     """The file name of each case, as used by case_digest."""
-    return {file.stem: str(file.relative_to(cases)) for file in sorted(cases.glob("**/*.toml"))}
+    return {file.stem: str(file.relative_to(cases)) for file in sorted(cases.glob("**/*.toml"))
+            if not file.name.endswith(".campaign.toml")}

@@ -92,7 +92,7 @@ class Cases(unittest.TestCase):
 
     def test_every_shipped_case_is_listed(self) -> None:
         text = (ROOT / "cases/CASES.md").read_text(encoding="utf-8")
-        cases = {path.stem for path in (ROOT / "cases").rglob("*.toml")}
+        cases = {path.stem for path in (ROOT / "cases").rglob("*.toml") if not path.name.endswith(".campaign.toml")}
         self.assertEqual({case for case in cases if f"`{case}`" not in text}, set())
 
 
