@@ -22,7 +22,7 @@ _foldproof_case_findings() { _foldproof_cases "$1" | sed 's|.*/||; s|^|case.|'; 
 
 _foldproof_kind() {
   case $1 in
-    simulate | ablate | converge | precision) echo toml ;;
+    simulate | ablate | converge | precision | campaign) echo toml ;;
     inspect) echo obj ;;
     project | film | export | compare) echo h5 ;;
     crossings) echo 'h5|obj' ;;
@@ -44,6 +44,8 @@ _foldproof() {
     words='bending springs integrator forecast friction projection sticking'
   elif [[ $command == evaluate && $COMP_CWORD == 2 ]]; then
     words='bending crossings'
+  elif [[ $command == campaign && $COMP_CWORD == 2 ]]; then
+    words='plan run table report status watch cancel emit work'
   else
     kind=$(_foldproof_kind "$command")
     [[ $kind == toml ]] && words=$(_foldproof_cases "$program")

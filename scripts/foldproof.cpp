@@ -8,6 +8,7 @@
 #include <new>
 
 #include "scripts/program/command_line/command_line.h"
+#include "scripts/program/campaign/campaign_commands.h"
 #include "scripts/program/commands.h"
 #include "scripts/program/data_folder.h"
 #include "scripts/program/command_line/help_texts.h"
@@ -598,6 +599,65 @@ void add_judge(CLI::App& app, Options& options) {
       ->capture_default_str();
 }
 
+/// Options that `campaign run` and `campaign emit` share with those who work for them.
+void add_campaign_work(CLI::App* command, Options& options) {
+  command->add_option("--slice", options.slice, "Jobs a slice; of `work`: the number of the slice")
+      ->type_name("N")
+      ->check(whole_number(0, 10'000'000));
+  add_threads(command, options);
+  add_cache(command, options);
+  command
+      ->add_option("--scratch", options.scratch,
+                   "Folder on each node; results are copied to the store at the end of a slice")
+      ->type_name("DIR")
+      ->check(some_text("a folder"));
+}
+
+void add_campaign(CLI::App& app, Options& options) {
+  CLI::App* campaign = app.add_subcommand(
+      "campaign", "Run a case, or another command, over many parameters, here or on a cluster");
+  campaign->group("Commands");
+  campaign->require_subcommand(0, 1);
+  campaign->footer(help::campaign);
+  const auto add = [&](const CommandText& text, int (*run)(const Options&)) {
+    CLI::App* command = add_command(*campaign, options, text, run);
+    add_input(command, "FILE", options.file,
+              "NAME.campaign.toml (cases/campaigns/README.md), or a shipped campaign");
+    add_folder(command, options, "Folder whose store/ keeps every result")->capture_default_str();
+    return command;
+  };
+  add({"plan", "How many jobs, how long, how many bytes? Runs a sample of three",
+       help::campaign_plan},
+      plan_campaign);
+  CLI::App* run = add({"run", "Run what is missing", help::campaign_run}, run_campaign);
+  run->add_option("--on", options.engine, "Engine: local or slurm")
+      ->type_name("ENGINE")
+      ->capture_default_str();
+  run->add_option("--options", options.engine_options,
+                  "Options for the engine's own command, as \"--partition=long --time=60\"")
+      ->type_name("WORDS");
+  add_campaign_work(run, options);
+  add_json(add({"table", "Write table.csv and table.h5, and judge [expect]", help::campaign_table},
+               show_campaign_table),
+           options);
+  add({"report", "Write a page of maps and curves", help::campaign_report}, report_campaign);
+  add_json(add({"status", "Done, running, failed, missing", help::campaign_status},
+               show_campaign_status),
+           options);
+  add({"watch", "Show the status until nothing runs", help::campaign_watch}, watch_campaign);
+  add({"cancel", "End what runs of the campaign", help::campaign_cancel}, cancel_campaign);
+  CLI::App* emit = add({"emit", "Print a command a line, for another engine", help::campaign_emit},
+                       emit_campaign);
+  emit->add_option("--slice", options.slice, "Jobs a line (default: 50)")
+      ->type_name("N")
+      ->check(whole_number(1, 10'000'000));
+  CLI::App* work = add_command(
+      *campaign, options,
+      {"work", "Run a slice of a batch; engines type this", help::campaign_work}, work_on_batch);
+  add_input(work, "BATCH", options.file, "Folder of the batch, DIR/store/batches/NAME");
+  add_campaign_work(work, options);
+}
+
 int run(int argc, char** argv) {
   Options options;
   options.command = command_line(argc, argv);
@@ -620,6 +680,7 @@ int run(int argc, char** argv) {
   add_precision(app, options);
   add_project(app, options);
   add_judge(app, options);
+  add_campaign(app, options);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

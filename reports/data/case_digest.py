@@ -50,5 +50,5 @@ def case_files(cases: Path) -> dict[str, str]:
     return {
         file.stem: str(file.relative_to(cases))
         for file in sorted(cases.glob("**/*.toml"))
-        if file.stem != "fabrics"
+        if file.stem != "fabrics" and not file.name.endswith(".campaign.toml")
     }

@@ -49,7 +49,9 @@ struct Options {
   double effort = 1;         // of precision: largest work of a run over the usual budget [1]
   std::string solver, name;  // of judge, subject: command; of judge: name in the report
   double patience = 60;      // of judge, subject: limit of silence [s]
-  std::string integrator = "C", precision = "f8";  // of serve
+  std::string integrator = "C", precision = "f8";         // of serve
+  std::string engine = "local", engine_options, scratch;  // of campaign
+  int slice = 0;  // of campaign: jobs a slice, 0: as the engine likes; of work: number of the slice
   bool json = false, quick = false, no_report = false, no_bench = false, resumes = false,
        restarts = false, pdf = false, papers = false, summary = false, site = false;
   int (*run)(const Options&) = nullptr;  // the command; returns the exit code

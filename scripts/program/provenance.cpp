@@ -1,11 +1,13 @@
 #include "scripts/program/provenance.h"
 
 #include <ctime>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <thread>
 #include <vector>
 
+#include "convergence/campaigns/job_keys.h"
 #include "reference/bodies/content_key.h"
 
 #include "build_facts.h"  // written by every build: commit, tree, compiler, flags
@@ -53,6 +55,14 @@ std::string program_identity() {
   key.add(bytes);
   return std::string(FOLDPROOF_VERSION) + ", commit " + FOLDPROOF_COMMIT + ", code " + key.text();
 }
+
+std::string program_digest() { return file_digest("/proc/self/exe"); }
+
+std::string program_commit() { return FOLDPROOF_COMMIT; }
+
+std::string provenance_date() { return utc_now(); }
+
+std::string program_file() { return std::filesystem::read_symlink("/proc/self/exe").string(); }
 
 std::string source_folder() { return FOLDPROOF_FOLDER; }
 

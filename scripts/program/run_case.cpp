@@ -90,20 +90,46 @@ std::vector<Record> judged_run(const BuiltCase& of, const Runner& run, const Obs
   return judge.records(result);
 }
 
-CaseRun recorded_run(const BuiltCase& of, const Runner& run, TrajectoryFile& trajectory,
+Observer joined(const Observer& a, const Observer& b) {
+  return {[=](const State& s) {
+            for (const Observer* one : {&a, &b})
+              if (one->frame) one->frame(s);
+          },
+          [=](const Diagnostics& row) {
+            for (const Observer* one : {&a, &b})
+              if (one->step) one->step(row);
+          }};
+}
+
+/// Runs the case, judges it and measures its quantities.
+CaseRun measured_run(const BuiltCase& of, const Runner& run, const Observer& also,
                      const Progress& progress) {
   const Scene& scene = of.input_case.scene;
+  const std::vector<Measurement> measurements =
+      of.input_case.quantities.empty() ? usual_measurements(scene, {}) : of.input_case.quantities;
+  Measurer measurer(scene, of.built, measurements);
+  const Observer measuring{[&](const State& s) { measurer.record(s); },
+                           [&](const Diagnostics& row) { measurer.record(row); }};
   const auto start = std::chrono::steady_clock::now();
   CaseRun done;
-  done.findings = judged_run(of, run,
-                             {[&](const State& s) { trajectory.add_frame(s); },
-                              [&](const Diagnostics& row) { trajectory.add_diagnostics(row); }},
-                             progress, done.result);
+  done.findings = judged_run(of, run, joined(also, measuring), progress, done.result);
+  const std::vector<double> values = measurer.values(done.result);
+  for (size_t k = 0; k < values.size(); ++k)
+    done.quantities.push_back({measurements[k].name, values[k], unit_of(measurements[k])});
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  done.record = {scene.name,  scene.name + ".h5",
-                 scene.title, scene.about,
-                 seconds,     done.result.stop ? describe(*done.result.stop) : ""};
+  done.record = {scene.name,  "",      scene.title,
+                 scene.about, seconds, done.result.stop ? describe(*done.result.stop) : ""};
+  return done;
+}
+
+CaseRun recorded_run(const BuiltCase& of, const Runner& run, TrajectoryFile& trajectory,
+                     const Progress& progress) {
+  CaseRun done = measured_run(of, run,
+                              {[&](const State& s) { trajectory.add_frame(s); },
+                               [&](const Diagnostics& row) { trajectory.add_diagnostics(row); }},
+                              progress);
+  done.record.file = done.record.name + ".h5";
   trajectory.finish(done.record.stopped, done.record.seconds, done.findings);
   return done;
 }
@@ -144,6 +170,10 @@ CaseRun run_case_with_checkpoints(const BuiltCase& of, const std::string& folder
   CaseRun done = recorded_run(of, from_checkpoints(of, checkpoints, start), trajectory, progress);
   checkpoints.remove_from(0);
   return done;
+}
+
+CaseRun run_case_without_files(const BuiltCase& of, const Progress& progress) {
+  return measured_run(of, from_the_start(of), {}, progress);
 }
 
 std::vector<Record> judge_case(const BuiltCase& of, const Progress& progress) {

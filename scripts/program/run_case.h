@@ -12,10 +12,18 @@
 
 namespace foldproof {
 
+/// A quantity of [[quantity]], or one of the usual ones of a case without any.
+struct MeasuredQuantity {
+  std::string name;
+  double value;  // NaN if the run stopped before its time
+  std::string unit;
+};
+
 struct CaseRun {
   CaseRecord record;
   std::vector<Record> findings;  // what was expected of it, judged
   RunResult result;
+  std::vector<MeasuredQuantity> quantities;
 };
 
 /// A case and what is built of it, once: it is described, judged and run by this.
@@ -47,7 +55,10 @@ enum class Start {
 CaseRun run_case_with_checkpoints(const BuiltCase& of, const std::string& folder, Start start,
                                   const Provenance& provenance, const Progress& progress);
 
-/// The same without files: what is expected, judged.
+/// The same without files, and without the name of one in the record.
+CaseRun run_case_without_files(const BuiltCase& of, const Progress& progress);
+
+/// What is expected, judged; no quantities are measured.
 std::vector<Record> judge_case(const BuiltCase& of, const Progress& progress);
 
 /// The cases that `verify` runs, cases/<name>.toml of the project: those that it shows, and those

@@ -60,10 +60,20 @@ nlohmann::json to_json(const CaseRun& run, const Options& options) {
                          {"solves", work.solves},
                          {"elastic_evaluations", work.elastic_evaluations},
                          {"unfinished_solves", work.unfinished_solves},
-                         {"findings", nlohmann::json::array()}};
-  for (const Record& record : run.findings)
-    json["findings"].push_back(
-        {{"name", record.name}, {"outcome", outcome_text(record)}, {"note", record.finding.note}});
+                         {"findings", nlohmann::json::array()},
+                         {"quantities", nlohmann::json::array()}};
+  for (const Record& record : run.findings) {
+    const Verdict& v = record.finding.verdict;
+    json["findings"].push_back({{"name", record.name},
+                                {"outcome", outcome_text(record)},
+                                {"measured", v.measured},
+                                {"bound", v.bound},
+                                {"unit", v.unit},
+                                {"note", record.finding.note}});
+  }
+  for (const MeasuredQuantity& quantity : run.quantities)
+    json["quantities"].push_back(
+        {{"name", quantity.name}, {"value", quantity.value}, {"unit", quantity.unit}});
   return json;
 }
 

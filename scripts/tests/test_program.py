@@ -581,6 +581,7 @@ step = 0.001
         self.assertEqual(complete("ablate", "hard/tw"), ["hard/twist"])
         self.assertEqual(complete("inspect", "cas"), ["cases/"])
         self.assertEqual(complete("golden", "fri"), ["friction"])
+        self.assertEqual(complete("campaign", "sta"), ["status"])
 
     def test_a_stored_run_becomes_files_pages_and_a_comparison(self) -> None:
         for folder, stiffness in (("one", "1e-4"), ("two", "2e-4")):
@@ -711,7 +712,8 @@ step = 0.001
 
         commands = [[name] for name in commands_in(run("--help").stdout)]
         commands += [["evaluate", name] for name in commands_in(run("evaluate", "--help").stdout)]
-        self.assertEqual(len(commands), 24)
+        commands += [["campaign", name] for name in commands_in(run("campaign", "--help").stdout)]
+        self.assertEqual(len(commands), 34)
         for command in commands:
             text = run(*command, "--help").stdout
             self.assertNotRegex(text, r"\b(TEXT|U?INT|FLOAT|REQUIRED)\b|\(\dx\)", command)

@@ -1,15 +1,9 @@
 #include "verification/files/result_store.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <atomic>
-#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 
 #include "reference/types.h"
 #include "verification/files/hdf5_file.h"
@@ -23,27 +17,6 @@ using nlohmann::json;
 
 std::string one_line(const json& value) {
   return value.dump(-1, ' ', false, json::error_handler_t::replace);
-}
-
-std::atomic<int> stores_opened = 0;  // by this process
-
-/// A name that no other process on any machine takes, for all that is likely.
-std::string new_shard_name() {
-  char host[64] = "host";
-  gethostname(host, sizeof host - 1);
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  return std::string(host) + "-" + std::to_string(getpid()) + "-" +
-         std::to_string(std::chrono::duration_cast<std::chrono::microseconds>(now).count()) + "-" +
-         std::to_string(stores_opened++);
-}
-
-/// The whole text in one call, so that lines of two writers never mix.
-void append_to_file(const std::string& path, const std::string& text) {
-  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-  const bool is_written =
-      file >= 0 && write(file, text.data(), text.size()) == ssize_t(text.size());
-  if (file >= 0) close(file);
-  if (!is_written) throw std::runtime_error(path + ": cannot be written");
 }
 
 }  // namespace
@@ -113,8 +86,8 @@ bool ResultStore::contains(const std::string& key) const {
 }
 
 void ResultStore::append(const std::string& line) {
-  fs::create_directories(folder_ + "/shards");
-  append_to_file(folder_ + "/shards/" + shard_ + ".jsonl", line + "\n");
+  if (!file_) file_ = std::make_unique<ShardFile>(folder_ + "/shards/" + shard_ + ".jsonl");
+  file_->append(line);
 }
 
 void ResultStore::start(const std::string& key, const std::string& label) {

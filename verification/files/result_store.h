@@ -2,10 +2,13 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "verification/files/shard_file.h"
 
 namespace foldproof {
 
@@ -61,6 +64,7 @@ class ResultStore {
   std::string arrays_file(const std::string& key, const std::string& shard) const;
 
   std::string folder_, shard_;                        // shard_: the name without ".jsonl"
+  std::unique_ptr<ShardFile> file_;                   // of this process; from its first line on
   std::map<std::string, std::vector<Line>> results_;  // by key, the latest last
   std::map<std::string, int> starts_;
   mutable std::mutex mutex_;

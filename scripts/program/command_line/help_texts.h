@@ -301,6 +301,113 @@ Exit codes:
   1    an error is not reached, or the truth is not known well enough
   2    bad input, or a file that cannot be written)";
 
+constexpr const char* campaign =
+    R"(Examples:
+  foldproof campaign plan mine.campaign.toml
+  foldproof campaign run mine.campaign.toml            all cores; --on slurm: a cluster
+
+Exit codes:
+  0    as the command's own help says
+  2    bad input)";
+
+constexpr const char* campaign_plan =
+    R"(Asks no engine, and keeps nothing of the sample.
+
+Examples:
+  foldproof campaign plan bending_atlas
+
+Exit codes:
+  0    planned
+  2    bad input)";
+
+constexpr const char* campaign_run =
+    R"(Runs every job that the store has no result of: the same question is never asked twice, in
+whichever campaign. Failures are results. What was killed is started again, up to three times. After
+Ctrl-C the same command goes on; a batch in a queue goes on without it.
+
+Examples:
+  foldproof campaign run bending_atlas --out mine
+  foldproof campaign run bending_atlas --out mine --on slurm
+
+Exit codes:
+  0    every job has a result and holds
+  1    a job failed, stopped, was refused or crashed; or a repetition found something else
+  2    bad input, or a file that cannot be written
+  130  interrupted by Ctrl-C (143: by SIGTERM))";
+
+constexpr const char* campaign_table =
+    R"(Writes DIR/campaigns/NAME/table.csv and table.h5, a row a job. DIR/store/index.sqlite answers SQL.
+
+Examples:
+  foldproof campaign table bending_atlas --out mine
+
+Exit codes:
+  0    written; everything in [expect] holds
+  1    written; an expectation fails, or waits for jobs that have no result
+  2    bad input, or a file that cannot be written)";
+
+constexpr const char* campaign_report =
+    R"(Needs the Debian packages python3-matplotlib and python3-jinja2. Writes
+DIR/campaigns/NAME/report.html, with every [[figure]] of the campaign; failures are drawn as such.
+
+Examples:
+  foldproof campaign report bending_atlas --out mine
+
+Exit codes:
+  0    written; its path is printed
+  2    bad input, or a package is missing)";
+
+constexpr const char* campaign_status =
+    R"(Examples:
+  foldproof campaign status bending_atlas --out mine
+
+Exit codes:
+  0    every job has ended
+  1    jobs run, or are missing
+  2    bad input)";
+
+constexpr const char* campaign_watch =
+    R"(Prints a line every two seconds, and keeps DIR/campaigns/NAME/watch.html, which refreshes itself.
+
+Examples:
+  foldproof campaign watch bending_atlas --out mine
+
+Exit codes:
+  0    nothing runs any more, and every job has ended
+  1    nothing runs any more, and jobs are missing
+  2    bad input)";
+
+constexpr const char* campaign_cancel =
+    R"(Examples:
+  foldproof campaign cancel bending_atlas --out mine
+
+Exit codes:
+  0    cancelled, or nothing ran
+  2    bad input; the engine refuses, or it runs on another machine)";
+
+constexpr const char* campaign_emit =
+    R"(Prints what is missing as commands, each a slice. They may run anywhere that sees the store, in any
+order, and again. Afterwards the other commands find their results.
+
+Examples:
+  foldproof campaign emit bending_atlas --out mine
+
+Exit codes:
+  0    printed
+  2    bad input, or a file that cannot be written)";
+
+constexpr const char* campaign_work =
+    R"(Runs what its slice has no result of, on --threads processes. Refuses a batch that another build of
+the program planned.
+
+Examples:
+  foldproof campaign work mine/store/batches/NAME --slice 0 --threads 1
+
+Exit codes:
+  0    every job of the slice has a result
+  1    some have none
+  2    bad input, or results that cannot be written)";
+
 constexpr const char* compare =
     R"(Frames that have the run's vertices and triangles are compared vertex by vertex, other meshes by
 the nearest points of both surfaces. Prints for each frame: distances, energies of stretching and

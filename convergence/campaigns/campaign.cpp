@@ -1,0 +1,265 @@
+#include "convergence/campaigns/campaign.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include "convergence/campaigns/sample.h"
+
+namespace foldproof {
+
+namespace {
+
+constexpr size_t most_jobs = 10'000'000;
+
+/// A text that would be read as something else after --set, or in a list, needs quotes.
+bool needs_quotes(const std::string& text) {
+  return text.empty() || text == "true" || text == "false" || text == "inf" || text == "nan" ||
+         std::string("+-0123456789[{\"'").find(text[0]) != std::string::npos;
+}
+
+std::string in_quotes(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') quoted += '\\';
+    quoted += c;
+  }
+  return quoted + "\"";
+}
+
+std::string toml_of(const KeyValue& value) {
+  if (const auto* text = std::get_if<std::string>(&value.data)) return in_quotes(*text);
+  if (const auto* list = std::get_if<std::vector<KeyValue>>(&value.data)) {
+    std::vector<std::string> parts;
+    for (const KeyValue& entry : *list) parts.push_back(toml_of(entry));
+    return fmt::format("[{}]", fmt::join(parts, ", "));
+  }
+  if (const auto* table = std::get_if<std::shared_ptr<KeyTable>>(&value.data)) {
+    std::vector<std::string> parts;
+    for (const auto& [key, entry] : (*table)->entries)
+      parts.push_back(in_quotes(key) + " = " + toml_of(entry));
+    return fmt::format("{{ {} }}", fmt::join(parts, ", "));
+  }
+  return text_of(value);
+}
+
+/// The values of one parameter: a list, or { from, to, count, spacing }.
+std::vector<std::string> values_of(const KeyTable& table, const std::string& key) {
+  std::vector<std::string> values;
+  const KeyValue& entry = table.entries.at(key);
+  if (const auto* list = std::get_if<std::vector<KeyValue>>(&entry.data)) {
+    for (const KeyValue& value : *list) values.push_back(text_of(value));
+  } else if (std::holds_alternative<std::shared_ptr<KeyTable>>(entry.data)) {
+    const auto range = table.table(key);
+    const long count = range->integer("count");
+    if (count < 2 || count > long(most_jobs))
+      throw InputError(range->where("count") + ": 'count' must be 2 to 10000000");
+    for (long k = 0; k < count; ++k)
+      values.push_back(fmt::format("{}", spread_over(*range, double(k) / double(count - 1))));
+  } else {
+    throw InputError(entry.where + ": '" + key +
+                     "' needs a list of values, or { from, to, count }; one value goes to [set]");
+  }
+  if (values.empty()) throw InputError(entry.where + ": '" + key + "' has no values");
+  return values;
+}
+
+std::vector<Assignment> fixed_in(const KeyTable& block) {
+  std::vector<Assignment> fixed;
+  if (block.has("case")) fixed.push_back({"case", block.text("case")});
+  if (const auto set = block.table("set"))
+    for (const auto& [key, value] : set->entries) {
+      static_cast<void>(set->has(key));
+      set->leave(key);
+      fixed.push_back({key, text_of(value)});
+    }
+  return fixed;
+}
+
+CampaignAxis zipped(const KeyTable& table) {
+  CampaignAxis axis;
+  for (const auto& [key, value] : table.entries) {
+    static_cast<void>(table.has(key));
+    const std::vector<std::string> values = values_of(table, key);
+    if (axis.keys.empty()) axis.rows.resize(values.size());
+    if (values.size() != axis.rows.size())
+      throw InputError(fmt::format(
+          "{}: '{}' has {} values, and '{}' has {}; lists of a [[zip]] need as many as each other",
+          value.where, key, values.size(), axis.keys[0], axis.rows.size()));
+    for (size_t r = 0; r < values.size(); ++r) axis.rows[r].push_back(values[r]);
+    axis.keys.push_back(key);
+  }
+  if (axis.keys.empty()) throw InputError(table.where() + ": [[zip]] has no parameter");
+  return axis;
+}
+
+CampaignBlock read_block(const KeyTable& keys) {
+  CampaignBlock block;
+  block.fixed = fixed_in(keys);
+  if (const auto grid = keys.table("grid"))
+    for (const auto& [key, value] : grid->entries) {
+      static_cast<void>(grid->has(key));
+      CampaignAxis axis{{key}, {}};
+      for (const std::string& text : values_of(*grid, key)) axis.rows.push_back({text});
+      block.axes.push_back(axis);
+    }
+  for (const auto& table : keys.tables("zip")) block.axes.push_back(zipped(*table));
+  if (const auto table = keys.table("sample")) block.axes.push_back(latin_hypercube(*table));
+  for (const auto& part : keys.tables("part")) block.parts.push_back(read_block(*part));
+  double jobs = 0;
+  for (const CampaignBlock& part : block.parts) jobs += double(part.jobs);
+  if (block.parts.empty()) jobs = 1;
+  for (const CampaignAxis& axis : block.axes) jobs *= double(axis.rows.size());
+  if (jobs > double(most_jobs))
+    throw InputError(
+        fmt::format("{}: {:.3g} jobs; a campaign has at most 10000000", keys.where(), jobs));
+  block.jobs = size_t(jobs);
+  return block;
+}
+
+JobLimits read_limits(const KeyTable& keys) {
+  JobLimits limits;
+  const auto table = keys.table("limits");
+  if (!table) return limits;
+  limits.seconds = table->number_or("seconds", limits.seconds);
+  limits.memory = 1e6 * table->number_or("megabytes", limits.memory / 1e6);
+  if (!(limits.seconds > 0)) throw InputError(table->where("seconds") + ": 'seconds' must be > 0");
+  if (!(limits.memory >= 1e8))
+    throw InputError(table->where("megabytes") + ": 'megabytes' must be at least 100");
+  return limits;
+}
+
+std::vector<CampaignExpectation> read_expectations(const KeyTable& keys) {
+  std::vector<CampaignExpectation> all;
+  const auto table = keys.table("expect");
+  if (!table) return all;
+  for (const auto& [name, value] : table->entries) {
+    const auto entry = table->table(name);
+    CampaignExpectation one;
+    one.quantity = name;
+    one.is_at_most = entry->has("at_most");
+    if (one.is_at_most == entry->has("at_least"))
+      throw InputError(value.where + ": give at_most or at_least");
+    one.bound = entry->number(one.is_at_most ? "at_most" : "at_least");
+    one.share = entry->number_or("share", 1);
+    if (!(one.share > 0 && one.share <= 1))
+      throw InputError(entry->where("share") + ": 'share' must be above 0 and at most 1");
+    one.why = entry->text("why");
+    all.push_back(one);
+  }
+  return all;
+}
+
+std::vector<CampaignFigure> read_figures(const KeyTable& keys) {
+  std::vector<CampaignFigure> all;
+  for (const auto& table : keys.tables("figure")) {
+    CampaignFigure figure{table->text("quantity"), table->text_or("title", ""),
+                          table->texts("over"), table->flag_or("logarithmic", false)};
+    if (figure.over.empty() || figure.over.size() > 3)
+      throw InputError(table->where("over") + ": 'over' names one, two or three parameters");
+    all.push_back(figure);
+  }
+  return all;
+}
+
+std::string quantities_of(const KeyTable& keys) {
+  if (!keys.has("quantity")) return "";
+  keys.leave("quantity");
+  return "quantity = " + toml_of(keys.entries.at("quantity"));
+}
+
+void add_assignments(const CampaignBlock& block, size_t i, std::map<std::string, std::string>& to) {
+  for (const Assignment& a : block.fixed) to[a.key] = a.value;
+  for (const CampaignAxis& axis : block.axes) {
+    const auto& row = axis.rows[i % axis.rows.size()];
+    for (size_t k = 0; k < row.size(); ++k) to[axis.keys[k]] = row[k];
+    i /= axis.rows.size();
+  }
+  for (const CampaignBlock& part : block.parts) {
+    if (i < part.jobs) return add_assignments(part, i, to);
+    i -= part.jobs;
+  }
+}
+
+void add_parameters(const CampaignBlock& block, bool is_one_of_several,
+                    std::set<std::string>& names) {
+  if (is_one_of_several)
+    for (const Assignment& a : block.fixed) names.insert(a.key);
+  for (const CampaignAxis& axis : block.axes) names.insert(axis.keys.begin(), axis.keys.end());
+  for (const CampaignBlock& part : block.parts)
+    add_parameters(part, is_one_of_several || block.parts.size() > 1, names);
+}
+
+std::string campaign_name(const std::string& path) {
+  std::string name = std::filesystem::path(path).filename().string();
+  for (const std::string& end : {std::string(".toml"), std::string(".campaign")})
+    if (name.ends_with(end)) name.resize(name.size() - end.size());
+  return name;
+}
+
+}  // namespace
+
+std::string text_of(const KeyValue& value) {
+  if (const auto* flag = std::get_if<bool>(&value.data)) return *flag ? "true" : "false";
+  if (const auto* whole = std::get_if<long>(&value.data)) return fmt::format("{}", *whole);
+  if (const auto* number = std::get_if<double>(&value.data)) return fmt::format("{}", *number);
+  if (const auto* text = std::get_if<std::string>(&value.data))
+    return needs_quotes(*text) ? in_quotes(*text) : *text;
+  return toml_of(value);
+}
+
+Keep keep_named(const std::string& name) {
+  for (const Keep keep : {Keep::none, Keep::failures, Keep::all})
+    if (name == name_of(keep)) return keep;
+  throw InputError("'" + name + "': keep none, failures or all");
+}
+
+std::string name_of(Keep keep) {
+  return keep == Keep::none ? "none" : keep == Keep::failures ? "failures" : "all";
+}
+
+Campaign read_campaign_text(const std::string& text, const std::string& path) {
+  const auto keys = parse_keys(text, path);
+  Campaign campaign;
+  campaign.file = path;
+  campaign.name = campaign_name(path);
+  campaign.title = keys->text_or("title", campaign.name);
+  campaign.about = keys->text_or("about", "");
+  campaign.run = keys->text_or("run", "simulate");
+  try {
+    campaign.keep = keep_named(keys->text_or("keep", "none"));
+  } catch (const InputError& error) {
+    throw InputError(keys->where("keep") + ": " + error.what());
+  }
+  campaign.root = read_block(*keys);
+  campaign.limits = read_limits(*keys);
+  campaign.expectations = read_expectations(*keys);
+  campaign.figures = read_figures(*keys);
+  campaign.quantities = quantities_of(*keys);
+  keys->reject_unused();
+  return campaign;
+}
+
+Campaign read_campaign(const std::string& path) {
+  return read_campaign_text(read_text(path), path);
+}
+
+std::vector<Assignment> job_assignments(const Campaign& campaign, size_t i) {
+  std::map<std::string, std::string> values;
+  add_assignments(campaign.root, i, values);
+  std::vector<Assignment> sorted;
+  for (const auto& [key, value] : values) sorted.push_back({key, value});
+  return sorted;
+}
+
+std::vector<std::string> varied_parameters(const Campaign& campaign) {
+  std::set<std::string> names;
+  add_parameters(campaign.root, false, names);
+  return {names.begin(), names.end()};
+}
+
+}  // namespace foldproof

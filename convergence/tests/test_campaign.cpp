@@ -1,0 +1,157 @@
+// Campaign files: every combination once, keys that change with what a result depends on.
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <set>
+
+#include "convergence/campaigns/job_keys.h"
+#include "convergence/campaigns/sample.h"
+#include "verification/specimens/scratch_folder.h"
+
+namespace foldproof {
+
+using Catch::Matchers::Contains;
+
+namespace {
+
+Campaign campaign_of(const std::string& text) {
+  return read_campaign_text(text, "a/name.campaign.toml");
+}
+
+std::vector<std::string> jobs_of(const Campaign& campaign) {
+  std::vector<std::string> jobs;
+  for (size_t i = 0; i < campaign.root.jobs; ++i) {
+    std::string job;
+    for (const Assignment& a : job_assignments(campaign, i)) job += a.key + "=" + a.value + ";";
+    jobs.push_back(job);
+  }
+  return jobs;
+}
+
+void write(const std::string& path, const std::string& text) { std::ofstream(path) << text; }
+
+std::string key_of(const std::string& text, const std::string& program,
+                   const std::string& case_path) {
+  const Campaign campaign = campaign_of(text);
+  JobKeys keys(campaign, program, [&](const std::string&) { return case_path; });
+  return keys.key_of(job_assignments(campaign, 0));
+}
+
+}  // namespace
+
+TEST_CASE("campaign: a grid has every combination once, with what is set") {
+  const Campaign campaign = campaign_of(
+      "case = \"x\"\nset = { z = 7 }\n[grid]\na = [1, 2.5]\n\"b.c\" = [\"p\", \"q\", \"3\"]\n");
+  CHECK(campaign.name == "name");
+  const std::vector<std::string> jobs = jobs_of(campaign);
+  CHECK(std::set<std::string>(jobs.begin(), jobs.end()).size() == 6);
+  CHECK(jobs.front() == "a=1;b.c=p;case=x;z=7;");
+  CHECK(jobs.back() == "a=2.5;b.c=\"3\";case=x;z=7;");
+  CHECK(varied_parameters(campaign) == std::vector<std::string>{"a", "b.c"});
+}
+
+TEST_CASE("campaign: zipped lists go together, and need as many values") {
+  const std::vector<std::string> jobs =
+      jobs_of(campaign_of("[grid]\ng = [0, 1]\n[[zip]]\na = [1, 2, 3]\nb = [4, 5, 6]\n"));
+  CHECK(jobs.size() == 6);
+  CHECK(jobs[5] == "a=3;b=6;g=1;");
+  CHECK(jobs[0] == "a=1;b=4;g=0;");
+  CHECK_THROWS_WITH(campaign_of("[[zip]]\na = [1, 2]\nb = [1]\n"),
+                    Contains("name.campaign.toml:3: 'b' has 1 values, and 'a' has 2"));
+}
+
+TEST_CASE("campaign: parts are added, each with its own parameters; the innermost value counts") {
+  const std::vector<std::string> jobs = jobs_of(campaign_of(
+      "[set]\nm = 0\n[grid]\ng = [1, 2]\n[[part]]\nset = { m = 1 }\n[part.grid]\nk = [7, 8]\n"
+      "[[part]]\nset = { m = 2 }\n"));
+  CHECK(jobs == std::vector<std::string>{"g=1;k=7;m=1;", "g=2;k=7;m=1;", "g=1;k=8;m=1;",
+                                         "g=2;k=8;m=1;", "g=1;m=2;", "g=2;m=2;"});
+}
+
+TEST_CASE("campaign: ranges are spread evenly, or by factors, up to their very end") {
+  const auto values = [](const std::string& range) {
+    std::vector<double> all;
+    const Campaign campaign = campaign_of("[grid]\na = " + range + "\n");
+    for (const auto& row : campaign.root.axes[0].rows) all.push_back(std::stod(row[0]));
+    return all;
+  };
+  CHECK(values("{ from = 1, to = 4, count = 4 }") == std::vector<double>{1, 2, 3, 4});
+  const auto factors = values("{ from = 0.1, to = 1000, count = 5, spacing = \"log\" }");
+  CHECK(factors[0] == 0.1);
+  CHECK(factors[2] == Approx(10).epsilon(1e-14));
+  CHECK(factors[4] == 1000);
+  CHECK_THROWS_WITH(values("{ from = -1, to = 4, count = 4, spacing = \"log\" }"),
+                    Contains("a logarithmic range needs"));
+  CHECK_THROWS_WITH(values("{ from = 0, to = 4, count = 1 }"), Contains("'count' must be 2"));
+}
+
+TEST_CASE("campaign: a Latin hypercube has one sample in each stratum of every parameter") {
+  const Campaign campaign = campaign_of(
+      "[sample]\ncount = 40\nseed = 3\na = { from = 10, to = 20 }\n"
+      "b = { mean = 5, deviation = 2 }\n");
+  REQUIRE(campaign.root.jobs == 40);
+  std::set<int> strata_of_a, strata_of_b;
+  for (const auto& row : campaign.root.axes[0].rows) {
+    strata_of_a.insert(int((std::stod(row[0]) - 10) * 4));
+    strata_of_b.insert(int(40 * std::erfc(-(std::stod(row[1]) - 5) / 2 / std::sqrt(2.0)) / 2));
+  }
+  CHECK(strata_of_a.size() == 40);
+  CHECK(strata_of_b.size() == 40);
+  CHECK(normal_quantile(0.975) == Approx(1.959963984540054).epsilon(1e-13));
+  CHECK(normal_quantile(1e-9) == Approx(-5.997807015007687).epsilon(1e-12));
+  CHECK(normal_quantile(0.5) == 0);
+}
+
+TEST_CASE("campaign: what makes no sense is refused with its place") {
+  CHECK_THROWS_WITH(campaign_of("caze = \"x\"\n"), Contains("toml:1: unknown key 'caze'"));
+  CHECK_THROWS_WITH(campaign_of("[grid]\na = []\n"), Contains("toml:2: 'a' has no values"));
+  CHECK_THROWS_WITH(campaign_of("[grid]\na = 3\n"), Contains("needs a list of values"));
+  CHECK_THROWS_WITH(campaign_of("keep = \"some\"\n"), Contains("toml:1: 'some': keep none"));
+  CHECK_THROWS_WITH(campaign_of("[grid]\na = { from = 0, to = 1, count = 10000 }\n"
+                                "b = { from = 0, to = 1, count = 10000 }\n"),
+                    Contains("1e+08 jobs"));
+  CHECK_THROWS_WITH(campaign_of("[expect.h]\nat_most = 1\nat_least = 0\nwhy = \"x\"\n"),
+                    Contains("give at_most or at_least"));
+  CHECK_THROWS_WITH(campaign_of("[expect.h]\nat_most = 1\nshare = 1.5\nwhy = \"x\"\n"),
+                    Contains("'share' must be above 0"));
+}
+
+TEST_CASE("campaign: a key changes with everything that a result depends on, and nothing else") {
+  const ScratchFolder scratch;
+  const std::string one = scratch.file("one.toml"), copy = scratch.file("copy.toml"),
+                    mesh = scratch.file("m.obj");
+  write(mesh, "v 0 0 0\n");
+  for (const std::string& path : {one, copy}) write(path, "[cloth]\nmesh = \"m.obj\"\n");
+  const std::string text = "case = \"x\"\n[set]\n\"a.b\" = 1\n";
+  const std::string key = key_of(text, "p", one);
+  CHECK(key.size() == 32);
+  CHECK(key_of(text, "p", copy) == key);
+  CHECK(key_of("title = \"t\"\nkeep = \"all\"\n" + text + "[limits]\nseconds = 5\n", "p", one) ==
+        key);
+  CHECK(key_of(text, "q", one) != key);
+  CHECK(key_of("case = \"x\"\n[set]\n\"a.b\" = 2\n", "p", one) != key);
+  CHECK(key_of("case = \"x\"\n[set]\n\"a.c\" = 1\n", "p", one) != key);
+  CHECK(key_of("run = \"check\"\n" + text, "p", one) != key);
+  CHECK(key_of(text + "[[quantity]]\nwhat = \"height\"\n", "p", one) != key);
+  write(mesh, "v 0 0 1\n");
+  CHECK(key_of(text, "p", one) != key);
+  const std::string with_new_mesh = key_of(text, "p", one);
+  write(one, "[cloth]\nmesh = \"m.obj\"\n\n");
+  CHECK(key_of(text, "p", one) != with_new_mesh);
+  const std::string by_override = "case = \"x\"\n[set]\n\"cloth.mesh\" = \"" + mesh + "\"\n";
+  const std::string before = key_of(by_override, "p", copy);
+  write(mesh, "v 0 0 2\n");
+  CHECK(key_of(by_override, "p", copy) != before);
+}
+
+TEST_CASE("wide key: the published values of FNV-1a, 128 bits") {
+  // of the empty text the offset basis; lengths are hashed, too, so other texts have
+  // no published one
+  CHECK(WideKey().text() == "6c62272e07bb014262b821756295c58d");
+  WideKey ab_c, a_bc;
+  for (const char* part : {"ab", "c"}) ab_c.add(part);
+  for (const char* part : {"a", "bc"}) a_bc.add(part);
+  CHECK(ab_c.text() != a_bc.text());
+}
+
+}  // namespace foldproof

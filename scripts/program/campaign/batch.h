@@ -1,0 +1,82 @@
+// A batch: jobs that an engine was given together, as a folder of the store.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "convergence/campaigns/campaign.h"
+
+namespace foldproof {
+
+/// A job that an engine is to run.
+struct BatchJob {
+  std::string key, label;
+  std::vector<Assignment> set;
+  int starts = 0;  // without an end, before this batch
+};
+
+/// What all jobs of a batch share.
+struct BatchTerms {
+  std::string store;     // its folder, absolute
+  std::string campaign;  // its name
+  std::string run, quantities;
+  Keep keep = Keep::none;
+  JobLimits limits;
+  std::string program;  // digest; another program refuses the batch
+};
+
+/// STORE/batches/NAME:
+///   batch.json           the terms, the engine and its handle
+///   slices/000000.jsonl  a job a line
+///   shards/*.jsonl       results (verification/files/job_store.h)
+///   alive                touched by who runs it here, every few seconds
+///   ended                it has come to its end, or was given up
+struct Batch {
+  std::string folder, name;
+  BatchTerms terms;
+  std::string engine, handle;  // handle: what the engine calls it
+  size_t jobs = 0, slices = 0;
+};
+
+/// Writes a new batch of slices of at most `jobs_a_slice` jobs. Throws std::runtime_error naming a
+/// file that cannot be written.
+Batch write_batch(const BatchTerms& terms, const std::string& engine,
+                  const std::vector<BatchJob>& jobs, size_t jobs_a_slice);
+
+/// Writes what has become known of it: its handle.
+void write_terms(const Batch& batch);
+
+/// Throws InputError for a folder that is no batch.
+Batch read_batch(const std::string& folder);
+
+std::vector<BatchJob> read_slice(const Batch& batch, size_t slice);
+
+/// The shard files that a slice has so far.
+std::vector<std::string> shards_of_slice(const Batch& batch, size_t slice);
+
+/// A new one.
+std::string new_shard_of_slice(const Batch& batch, size_t slice);
+
+void mark_alive(const Batch& batch);
+void mark_ended(const Batch& batch);
+
+/// Whether its runner touched it in the last minute.
+bool is_marked_alive(const Batch& batch);
+
+/// Batches that are not marked as ended.
+std::vector<Batch> open_batches(const std::string& store);
+
+/// One program at a time plans on a store; others wait. Lives as long as the lock.
+class StoreLock {
+ public:
+  explicit StoreLock(const std::string& store);
+  ~StoreLock();
+  StoreLock(const StoreLock&) = delete;
+  StoreLock& operator=(const StoreLock&) = delete;
+
+ private:
+  int file_;
+};
+
+}  // namespace foldproof

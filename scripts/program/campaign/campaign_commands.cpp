@@ -1,0 +1,169 @@
+#include "scripts/program/campaign/campaign_commands.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <thread>
+
+#include "scripts/program/campaign/campaign_table.h"
+#include "scripts/program/campaign/engine.h"
+#include "scripts/program/campaign/run_job.h"
+#include "scripts/program/campaign/standing.h"
+#include "scripts/program/campaign/standing_text.h"
+#include "scripts/program/interruption.h"
+#include "scripts/program/progress.h"
+#include "scripts/program/report_commands.h"
+#include "scripts/program/run_all.h"
+#include "scripts/program/run_case.h"
+#include "verification/files/atomic_file.h"
+
+namespace foldproof {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Forecast {
+  double seconds = 0, bytes = 0;  // a job
+  std::string sampled;            // what was run, for the reader
+};
+
+/// Runs the first, middle and last job here and now, without keeping anything.
+Forecast sample_three(OpenCampaign& of) {
+  const Campaign& c = of.campaign;
+  const BatchTerms terms{of.store, c.name, c.run, c.quantities, Keep::none, c.limits, of.program};
+  const LevelSetProvider level_sets = memoizing_provider(computing_provider());
+  Forecast forecast;
+  const std::set<size_t> chosen = {0, c.root.jobs / 2, c.root.jobs - 1};
+  for (const size_t i : chosen) {
+    const BatchJob job = batch_job(of, i);
+    const JobResult result = run_job(terms, job, level_sets, [](double) {}).result;
+    forecast.seconds += result.seconds / double(chosen.size());
+    forecast.bytes += double(JobShard::line_of(job.key, result).size()) / double(chosen.size());
+    forecast.sampled +=
+        fmt::format("  {}: {}, {:.3g} s\n", job.label, name_of(result.end), result.seconds);
+  }
+  return forecast;
+}
+
+std::string forecast_text(const Forecast& forecast, size_t jobs) {
+  const double hours = forecast.seconds * double(jobs) / 3600;
+  const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
+  return fmt::format(
+      "sample:\n{}forecast: {:.3g} core hours, {:.3g} h on the {} cores here, {:.3g} h on 100 "
+      "nodes of 32; {:.3g} MB of results, without files that are kept\n",
+      forecast.sampled, hours, hours / cores, cores, hours / 3200,
+      forecast.bytes * double(jobs) / 1e6);
+}
+
+void write_tables(const OpenCampaign& of, const CampaignTable& table,
+                  const std::vector<Record>& verdicts) {
+  fs::create_directories(of.folder);
+  write_text(of.folder + "/table.csv", csv_of(table));
+  write_hdf5_table(of.folder + "/table.h5", table);
+  write_text(of.folder + "/campaign.json", json_of_table(of.campaign, table, verdicts));
+}
+
+int exit_code_of(const std::vector<Record>& verdicts) {
+  for (const Record& record : verdicts)
+    if (record.outcome != Outcome::holds) return some_fail;
+  return all_hold;
+}
+
+/// Seconds of the clock that the rest takes, at the rate since the first look; NaN: not known.
+double time_left(size_t done_before, size_t done_now, size_t left, double seconds) {
+  return done_now > done_before ? double(left) * seconds / double(done_now - done_before) : nan;
+}
+
+std::string watch_page(const std::string& text) {
+  return "<!doctype html><meta charset=utf-8><meta http-equiv=refresh content=5><title>foldproof "
+         "campaign</title><pre>" +
+         text + "</pre>\n";
+}
+
+}  // namespace
+
+int plan_campaign(const Options& options) {
+  OpenCampaign of = open_campaign(options.file, options.out);
+  const Standing standing = stand(of, nullptr);
+  fmt::print("{}", standing_text(of, standing));
+  if (standing.missing == 0) return all_hold;
+  fmt::print("{}", forecast_text(sample_three(of), standing.missing));
+  return all_hold;
+}
+
+int show_campaign_table(const Options& options) {
+  OpenCampaign of = open_campaign(options.file, options.out);
+  const CampaignTable table = campaign_table(of);
+  const std::vector<Record> verdicts = judge_campaign(of.campaign, table);
+  write_tables(of, table, verdicts);
+  RunRecord judged;
+  judged.records = verdicts;
+  if (options.json)
+    fmt::print("{}\n", json_of_table(of.campaign, table, verdicts));
+  else
+    fmt::print("{}{}/table.csv: {} rows, also table.h5\n", listing(judged), of.folder,
+               table.keys.size());
+  return exit_code_of(verdicts);
+}
+
+int report_campaign(const Options& options) {
+  OpenCampaign of = open_campaign(options.file, options.out);
+  const CampaignTable table = campaign_table(of);
+  write_tables(of, table, judge_campaign(of.campaign, table));
+  return run_report_script("report", "make_campaign.py", {of.folder});
+}
+
+int show_campaign_status(const Options& options) {
+  OpenCampaign of = open_campaign(options.file, options.out);
+  const Standing standing = stand(of, nullptr);
+  fmt::print("{}", options.json ? standing_json(of, standing) : standing_text(of, standing));
+  if (standing.missing + standing.elsewhere > 0) return some_fail;
+  return all_hold;
+}
+
+int watch_campaign(const Options& options) {
+  OpenCampaign of = open_campaign(options.file, options.out);
+  const InterruptionWatch interruption;
+  const auto start = std::chrono::steady_clock::now();
+  fs::create_directories(of.folder);
+  Standing standing = stand(of, nullptr);
+  const size_t first = standing.done();
+  try {
+    while (standing.elsewhere > 0) {
+      const double seconds =
+          std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      const double left = time_left(first, standing.done(), standing.elsewhere, seconds);
+      const std::string text = standing_text(of, standing) +
+                               (std::isnan(left) ? "" : fmt::format("{:.0f} s left\n", left));
+      log_line(text.substr(0, text.size() - 1));
+      write_text(of.folder + "/watch.html", watch_page(text));
+      for (int k = 0; k < 20; ++k, interruption.check())
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+      standing = stand(of, nullptr);
+    }
+  } catch (const Interrupted& interrupted) {
+    end_by(interrupted);
+  }
+  write_text(of.folder + "/watch.html", watch_page(standing_text(of, standing)));
+  fmt::print("{}", standing_text(of, standing));
+  return standing.missing > 0 ? some_fail : all_hold;
+}
+
+int cancel_campaign(const Options& options) {
+  const OpenCampaign of = open_campaign(options.file, options.out);
+  size_t cancelled = 0;
+  for (const Batch& batch : live_batches(of.store)) {
+    if (batch.terms.campaign != of.campaign.name) continue;
+    engine_named(batch.engine).cancel(batch);
+    ++cancelled;
+  }
+  fmt::print("{}: {} batches cancelled; `campaign run` goes on with what is missing\n",
+             of.campaign.name, cancelled);
+  return all_hold;
+}
+
+}  // namespace foldproof

@@ -1,0 +1,188 @@
+#include "scripts/program/campaign/campaign_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "scripts/program/campaign/work.h"
+#include "scripts/program/json_text.h"
+#include "verification/files/hdf5_file.h"
+
+namespace foldproof {
+
+namespace {
+
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
+  return quoted + "\"";
+}
+
+std::string csv_number(double value) {
+  return std::isnan(value) ? "" : fmt::format("{:.17g}", value);
+}
+
+std::string setting(const std::vector<Assignment>& set, const std::string& key) {
+  const auto found = std::ranges::find(set, key, &Assignment::key);
+  return found == set.end() ? "" : found->value;
+}
+
+/// The value that the wanted share of jobs keeps to: the smallest bound that they would meet.
+double quantile_of(std::vector<double> values, double share, bool is_at_most) {
+  std::ranges::sort(values);
+  if (!is_at_most) std::ranges::reverse(values);
+  const size_t needed = size_t(std::ceil(share * double(values.size()) * (1 - 1e-12)));
+  return values[std::max(size_t(1), needed) - 1];
+}
+
+template <class T>
+std::vector<T> column_of(const std::vector<std::vector<T>>& rows, size_t k) {
+  std::vector<T> column;
+  for (const auto& row : rows) column.push_back(row[k]);
+  return column;
+}
+
+}  // namespace
+
+CampaignTable campaign_table(OpenCampaign& of) {
+  CampaignTable table;
+  table.parameters = of.varied;
+  table.units = of.index.units();
+  const std::map<std::string, int> starts = of.index.open_starts();
+  std::vector<std::optional<JobResult>> results;
+  std::set<std::string> names;
+  for (size_t i = 0; i < of.campaign.root.jobs; ++i) {
+    const std::vector<Assignment> set = assignments_of(of, i);
+    const std::string key = of.keys.key_of(set);
+    results.push_back(of.index.find(key));
+    table.keys.push_back(key);
+    std::vector<std::string> row;
+    for (const std::string& parameter : table.parameters) row.push_back(setting(set, parameter));
+    table.settings.push_back(row);
+    const auto started = starts.find(key);
+    const bool has_crashed = started != starts.end() && started->second >= most_starts;
+    const auto& result = results.back();
+    table.ends.push_back(result ? name_of(result->end) : has_crashed ? "crashed" : "missing");
+    table.reasons.push_back(result ? result->reason : "");
+    table.seconds.push_back(result ? result->seconds : nan);
+    if (result)
+      for (const auto& [name, value] : result->values) names.insert(name);
+  }
+  table.quantities.assign(names.begin(), names.end());
+  for (const auto& result : results) {
+    std::vector<double> row;
+    for (const std::string& name : table.quantities) {
+      const bool has = result && result->values.contains(name);
+      row.push_back(has ? result->values.at(name) : nan);
+    }
+    table.values.push_back(row);
+  }
+  return table;
+}
+
+std::string csv_of(const CampaignTable& table) {
+  std::string text = "key,outcome,reason";
+  for (const std::string& name : table.parameters) text += "," + csv_field(name);
+  for (const std::string& name : table.quantities) {
+    const auto unit = table.units.find(name);
+    text += "," + csv_field(unit == table.units.end() ? name : name + " [" + unit->second + "]");
+  }
+  text += "\n";
+  for (size_t i = 0; i < table.keys.size(); ++i) {
+    text += table.keys[i] + "," + table.ends[i] + "," + csv_field(table.reasons[i]);
+    for (const std::string& value : table.settings[i]) text += "," + csv_field(value);
+    for (const double value : table.values[i]) text += "," + csv_number(value);
+    text += "\n";
+  }
+  return text;
+}
+
+void write_hdf5_table(const std::string& path, const CampaignTable& table) {
+  write_hdf5(path, [&](const Hdf5& file) {
+    file.attribute("parameters", table.parameters);
+    file.attribute("quantities", table.quantities);
+    file.dataset("outcome", table.ends);
+    file.dataset("reason", table.reasons);
+    file.dataset("key", table.keys);
+    file.dataset("seconds", table.seconds);
+    const Hdf5 parameters = file.group("parameter"), quantities = file.group("quantity");
+    for (size_t k = 0; k < table.parameters.size(); ++k)
+      parameters.dataset(table.parameters[k], column_of(table.settings, k));
+    for (size_t k = 0; k < table.quantities.size(); ++k)
+      quantities.dataset(table.quantities[k], column_of(table.values, k));
+  });
+}
+
+std::vector<Record> judge_campaign(const Campaign& campaign, const CampaignTable& table) {
+  std::vector<Record> records;
+  for (const CampaignExpectation& e : campaign.expectations) {
+    const auto column = std::ranges::find(table.quantities, e.quantity);
+    const double worst = (e.is_at_most ? 1 : -1) * std::numeric_limits<double>::infinity();
+    std::vector<double> values;
+    size_t waiting = 0, kept = 0;
+    for (size_t i = 0; i < table.keys.size(); ++i) {
+      waiting += table.ends[i] == "missing";
+      const double value = column == table.quantities.end()
+                               ? nan
+                               : table.values[i][size_t(column - table.quantities.begin())];
+      values.push_back(std::isnan(value) ? worst : value);
+      kept += e.is_at_most ? values.back() <= e.bound : values.back() >= e.bound;
+    }
+    const double needed = e.share * double(values.size()) * (1 - 1e-12);
+    Record record;
+    record.name = "campaign." + campaign.name + "." + e.quantity;
+    record.kind = "case";
+    record.claim = fmt::format("{:g} % of the runs have a {} of at {} {:g}.", 100 * e.share,
+                               e.quantity, e.is_at_most ? "most" : "least", e.bound);
+    const auto unit = table.units.find(e.quantity);
+    record.finding = {{quantile_of(values, e.share, e.is_at_most), e.bound, 0,
+                       unit == table.units.end() ? "1" : unit->second, e.why},
+                      {},
+                      fmt::format("{} of {} runs keep it, {} wait", kept, values.size(), waiting)};
+    record.outcome = double(kept) >= needed             ? Outcome::holds
+                     : double(kept + waiting) >= needed ? Outcome::inconclusive
+                                                        : Outcome::fails;
+    records.push_back(record);
+  }
+  return records;
+}
+
+std::string json_of_table(const Campaign& campaign, const CampaignTable& table,
+                          const std::vector<Record>& verdicts) {
+  using nlohmann::json;
+  json figures = json::array(), findings = json::array();
+  for (const CampaignFigure& f : campaign.figures)
+    figures.push_back({{"quantity", f.quantity},
+                       {"title", f.title},
+                       {"over", f.over},
+                       {"logarithmic", f.is_logarithmic}});
+  for (const Record& record : verdicts)
+    findings.push_back({{"name", record.name},
+                        {"claim", record.claim},
+                        {"outcome", outcome_text(record)},
+                        {"measured", record.finding.verdict.measured},
+                        {"bound", record.finding.verdict.bound},
+                        {"unit", record.finding.verdict.unit},
+                        {"why", record.finding.verdict.why_bound},
+                        {"note", record.finding.note}});
+  return json_text({{"name", campaign.name},
+                    {"title", campaign.title},
+                    {"about", campaign.about},
+                    {"run", campaign.run},
+                    {"figures", figures},
+                    {"findings", findings},
+                    {"parameters", table.parameters},
+                    {"quantities", table.quantities},
+                    {"units", table.units},
+                    {"outcomes", table.ends},
+                    {"reasons", table.reasons},
+                    {"settings", table.settings},
+                    {"values", table.values},
+                    {"seconds", table.seconds}});
+}
+
+}  // namespace foldproof

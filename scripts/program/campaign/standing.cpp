@@ -1,0 +1,158 @@
+#include "scripts/program/campaign/standing.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "scripts/program/campaign/engine.h"
+#include "scripts/program/campaign/scripted.h"
+#include "scripts/program/command_line/input_files.h"
+#include "scripts/program/data_folder.h"
+#include "scripts/program/provenance.h"
+
+namespace foldproof {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string campaign_file(const std::string& typed) {
+  if (fs::is_regular_file(typed)) return typed;
+  const std::string shipped = data_folder() + "/cases/campaigns/" + typed + ".campaign.toml";
+  if (fs::is_regular_file(shipped)) return shipped;
+  throw InputError(typed +
+                   ": there is no such campaign file; name a FILE.campaign.toml, or one of " +
+                   data_folder() + "/cases/campaigns");
+}
+
+/// A case beside the campaign file, else one in the working folder, else a shipped one.
+std::string case_of_campaign(const std::string& folder, const std::string& name) {
+  for (const std::string& file : {folder + "/" + name, folder + "/" + name + ".toml"})
+    if (fs::is_regular_file(file)) return fs::absolute(file).string();
+  return fs::absolute(case_file(name)).string();
+}
+
+bool is_known_command(const std::string& run) {
+  return std::ranges::count(campaign_commands(), run) > 0;
+}
+
+/// A first job that cannot be read would be refused a thousand times.
+void reject_unreadable_case(OpenCampaign& of) {
+  const std::vector<Assignment> first = assignments_of(of, 0);
+  if (of.campaign.run == "simulate" && of.keys.case_file_of(first).empty())
+    throw InputError(of.campaign.file + ": needs the key 'case', a case file or a shipped case");
+  static_cast<void>(of.keys.key_of(first));
+}
+
+std::set<std::string> keys_in(const std::vector<Batch>& batches) {
+  std::set<std::string> keys;
+  for (const Batch& batch : batches)
+    for (size_t slice = 0; slice < batch.slices; ++slice)
+      for (const BatchJob& job : read_slice(batch, slice)) keys.insert(job.key);
+  return keys;
+}
+
+}  // namespace
+
+OpenCampaign open_campaign(const std::string& file, const std::string& out) {
+  const std::string path = campaign_file(file);
+  Campaign campaign = read_campaign(path);
+  if (!is_known_command(campaign.run))
+    throw InputError(fmt::format("{}: run = \"{}\" is no command of a campaign; known: {}", path,
+                                 campaign.run, fmt::join(campaign_commands(), ", ")));
+  const std::string beside = fs::absolute(path).parent_path().string();
+  const std::string program = program_digest();
+  const std::string store = fs::absolute(out + "/store").string();
+  JobKeys keys(campaign, program,
+               [beside](const std::string& name) { return case_of_campaign(beside, name); });
+  const std::string folder = out + "/campaigns/" + campaign.name;
+  const std::vector<std::string> varied = varied_parameters(campaign);
+  OpenCampaign of{std::move(campaign), folder,          store, program,
+                  std::move(keys),     JobIndex(store), varied};
+  reject_unreadable_case(of);
+  of.index.merge();
+  return of;
+}
+
+std::vector<Assignment> assignments_of(OpenCampaign& of, size_t i) {
+  return job_assignments(of.campaign, i);
+}
+
+std::string label_of(const OpenCampaign& of, const std::vector<Assignment>& set) {
+  std::string label;
+  for (const Assignment& a : set)
+    if (std::ranges::binary_search(of.varied, a.key))
+      label += (label.empty() ? "" : " ") + a.key + "=" + a.value;
+  return label.empty() ? of.campaign.name : label;
+}
+
+BatchJob batch_job(OpenCampaign& of, size_t i) {
+  BatchJob job;
+  job.set = assignments_of(of, i);
+  job.key = of.keys.key_of(job.set);
+  job.label = label_of(of, job.set);
+  const std::string file = of.keys.case_file_of(job.set);
+  for (Assignment& a : job.set)
+    if (a.key == "case") a.value = file;
+  return job;
+}
+
+size_t Standing::done() const {
+  size_t all = 0;
+  for (const auto& [end, count] : ended) all += count;
+  return all;
+}
+
+bool answers(const OpenCampaign& of, const JobResult& result) {
+  if (of.campaign.run != "simulate" || !result.kept.empty()) return true;
+  return of.campaign.keep == Keep::none ||
+         (of.campaign.keep == Keep::failures && result.end == JobEnd::holds);
+}
+
+std::vector<Batch> live_batches(const std::string& store) {
+  std::vector<Batch> live;
+  for (const Batch& batch : open_batches(store)) {
+    // one without a handle is being submitted right now
+    const BatchState state =
+        batch.handle.empty() ? (is_marked_alive(batch) ? BatchState::runs : BatchState::has_ended)
+                             : engine_named(batch.engine).ask(batch);
+    if (state == BatchState::has_ended)
+      mark_ended(batch);
+    else
+      live.push_back(batch);
+  }
+  return live;
+}
+
+Standing stand(OpenCampaign& of, std::vector<BatchJob>* missing, size_t most) {
+  Standing standing;
+  const std::set<std::string> elsewhere = keys_in(live_batches(of.store));
+  of.index.merge();  // after batches were asked: what ended since then is in their shards
+  const std::map<std::string, int> starts = of.index.open_starts();
+  std::set<std::string> asked;  // a job may be stated twice
+  for (size_t i = 0; i < of.campaign.root.jobs; ++i) {
+    const std::string key = of.keys.key_of(assignments_of(of, i));
+    const std::optional<JobResult> result = of.index.find(key);
+    if (result && answers(of, *result)) {
+      ++standing.ended[result->end];
+      standing.seconds += result->seconds;
+      continue;
+    }
+    const auto started = starts.find(key);
+    const int count = started == starts.end() ? 0 : started->second;
+    if (elsewhere.contains(key)) {
+      ++standing.elsewhere;
+    } else if (count >= most_starts) {
+      ++standing.crashed;
+    } else {
+      ++standing.missing;
+      if (!missing || missing->size() >= most || !asked.insert(key).second) continue;
+      missing->push_back(batch_job(of, i));
+      missing->back().starts = count;
+    }
+  }
+  return standing;
+}
+
+}  // namespace foldproof
