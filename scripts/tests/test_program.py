@@ -713,7 +713,7 @@ step = 0.001
         commands = [[name] for name in commands_in(run("--help").stdout)]
         commands += [["evaluate", name] for name in commands_in(run("evaluate", "--help").stdout)]
         commands += [["campaign", name] for name in commands_in(run("campaign", "--help").stdout)]
-        self.assertEqual(len(commands), 34)
+        self.assertEqual(len(commands), 35)
         for command in commands:
             text = run(*command, "--help").stdout
             self.assertNotRegex(text, r"\b(TEXT|U?INT|FLOAT|REQUIRED)\b|\(\dx\)", command)
