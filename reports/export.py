@@ -1,10 +1,13 @@
 #!/usr/bin/python3
-"""Writes a simulation for other programs: a file for each frame (OBJ, PLY), or one XDMF for all, with its HDF5.
+"""Writes a simulation for other programs: a file for each frame (OBJ, PLY), or
+one XDMF for all, with its HDF5.
 
-    reports/export.py results/grab.h5 --format ply --out grab_ply     -> grab.0000.ply, ..., grab-object-0.0000.ply, ...
+    reports/export.py results/grab.h5 --format ply --out grab_ply     -> grab.0000.ply, ...,
+                                                                 and grab-object-0.0000.ply, ...
 
-Cloth and objects are written in world coordinates [m], each object to files of its own. PLY and XDMF hold, for each particle,
-the velocity [m/s] and the fields that the report can colour the cloth by: speed [m/s], strain [1], angle [rad], phi [m].
+Cloth and objects are written in world coordinates [m], each object to files of its own. PLY and
+XDMF hold, for each particle, the velocity [m/s] and the fields that the report can colour the cloth
+by: speed [m/s], strain [1], angle [rad], phi [m].
 """
 from __future__ import annotations
 
@@ -43,7 +46,10 @@ def main() -> int:
     parser = OneLineParser(description="Write a simulation for other programs.")
     parser.add_argument("case", metavar="CASE.h5", type=Path, help="the file of a simulation")
     parser.add_argument("--format", choices=WRITERS, required=True)
-    parser.add_argument("--out", metavar="DIR", type=Path, required=True, help="folder for the files; made if it is not there")
+    parser.add_argument(
+        "--out", metavar="DIR", type=Path, required=True,
+        help="folder for the files; made if it is not there"
+    )
     options = parser.parse_args()
     try:
         options.out.mkdir(parents=True, exist_ok=True)
@@ -71,8 +77,13 @@ def bodies_of(case: Case) -> list[Body]:
     if velocities is not None:
         values = {"velocity": velocities} | values
     cloth = Body(name, case.triangles, case.every_frame("positions"), values)
-    return [cloth] + [Body(f"{name}-object-{k}", part.triangles, np.stack([part.positions(frame) for frame in frames]), {})
-                      for k, part in enumerate(case.objects)]
+    return [cloth] + [
+        Body(
+            f"{name}-object-{k}", part.triangles,
+            np.stack([part.positions(frame) for frame in frames]), {}
+        )
+        for k, part in enumerate(case.objects)
+    ]
 
 
 def write_obj(_: Case, bodies: list[Body], folder: Path) -> list[Path]:
@@ -81,8 +92,14 @@ def write_obj(_: Case, bodies: list[Body], folder: Path) -> list[Path]:
         yield f"o {body.name}"
         yield from (f"v {x:.17g} {y:.17g} {z:.17g}" for x, y, z in body.x[frame].tolist())
         yield from (f"f {a} {b} {c}" for a, b, c in (body.triangles + 1).tolist())
-    return [_write(folder / f"{body.name}.{frame:04d}.obj", ("\n".join(lines(body, frame)) + "\n").encode("utf-8"))
-            for body in bodies for frame in range(len(body.x))]
+    return [
+        _write(
+            folder / f"{body.name}.{frame:04d}.obj",
+            ("\n".join(lines(body, frame)) + "\n").encode("utf-8"),
+        )
+        for body in bodies
+        for frame in range(len(body.x))
+    ]
 
 
 def write_ply(case: Case, bodies: list[Body], folder: Path) -> list[Path]:
@@ -94,21 +111,36 @@ def write_ply(case: Case, bodies: list[Body], folder: Path) -> list[Path]:
         for frame, time in enumerate(case.frame_times):
             columns = {"x": body.x[frame, :, 0], "y": body.x[frame, :, 1], "z": body.x[frame, :, 2]}
             for name, values in body.values.items():
-                columns |= {name: values[frame]} if values.ndim == 2 else dict(zip(("vx", "vy", "vz"), values[frame].T))
+                columns |= (
+                    {name: values[frame]}
+                    if values.ndim == 2
+                    else dict(zip(("vx", "vy", "vz"), values[frame].T))
+                )
             points = np.zeros(body.x.shape[1], dtype=[(name, "<f8") for name in columns])
             for name, column in columns.items():
                 points[name] = column
-            head = ["ply", "format binary_little_endian 1.0", f"comment time {time:.17g} s", f"element vertex {len(points)}",
-                    *(f"property double {name}" for name in columns), f"element face {len(faces)}",
-                    "property list uchar int vertex_indices", "end_header\n"]
-            files.append(_write(folder / f"{body.name}.{frame:04d}.ply",
-                                  "\n".join(head).encode("ascii") + points.tobytes() + faces.tobytes()))
+            head = [
+                "ply", "format binary_little_endian 1.0", f"comment time {time:.17g} s",
+                f"element vertex {len(points)}", *(f"property double {name}" for name in columns),
+                f"element face {len(faces)}", "property list uchar int vertex_indices",
+                "end_header\n"
+            ]
+            files.append(
+                _write(
+                    folder / f"{body.name}.{frame:04d}.ply",
+                    "\n".join(head).encode("ascii") + points.tobytes() + faces.tobytes(),
+                )
+            )
     return files
 
 
 def write_xdmf(case: Case, bodies: list[Body], folder: Path) -> list[Path]:
-    """An XDMF for the cloth and for each object, a collection in time, and the one HDF5 that they name."""
-    data, partial = folder / f"{case.path.stem}.data.h5", folder / f"{case.path.stem}.data.h5.partial"
+    """An XDMF for the cloth and for each object, a collection in time,
+    and the one HDF5 that they name."""
+    data, partial = (
+        folder / f"{case.path.stem}.data.h5",
+        folder / f"{case.path.stem}.data.h5.partial",
+    )
     with h5py.File(partial, "w", track_order=True) as file:
         for body in bodies:
             file[f"{body.name}/triangles"] = body.triangles.astype("<i4")
@@ -116,26 +148,50 @@ def write_xdmf(case: Case, bodies: list[Body], folder: Path) -> list[Path]:
                 for name, values in {"x": body.x, **body.values}.items():
                     file[f"{body.name}/{frame}/{name}"] = values[frame]
     partial.replace(data)
-    return [data] + [_write(folder / f"{body.name}.xdmf", _xdmf(body, data.name, case.frame_times).encode("utf-8"))
-                     for body in bodies]
+    return [data] + [
+        _write(
+            folder / f"{body.name}.xdmf", _xdmf(body, data.name, case.frame_times).encode("utf-8")
+        )
+        for body in bodies
+    ]
 
 
 def _xdmf(body: Body, file: str, times: np.ndarray) -> str:
-    grids = "\n".join(_xdmf_grid(body, escape(f"{file}:/{body.name}"), frame, time) for frame, time in enumerate(times))
-    return (f'<?xml version="1.0"?>\n<Xdmf Version="3.0">\n<Domain>\n<Grid Name={quoteattr(body.name)} GridType="Collection" '
-            f'CollectionType="Temporal">\n{grids}\n</Grid>\n</Domain>\n</Xdmf>\n')
+    grids = "\n".join(
+        _xdmf_grid(body, escape(f"{file}:/{body.name}"), frame, time)
+        for frame, time in enumerate(times)
+    )
+    return (
+        '<?xml version="1.0"?>\n<Xdmf Version="3.0">\n<Domain>\n<Grid'
+        f' Name={quoteattr(body.name)} GridType="Collection"'
+        f' CollectionType="Temporal">\n{grids}\n</Grid>\n</Domain>\n</Xdmf>\n'
+    )
 
 
 def _xdmf_grid(body: Body, place: str, frame: int, time: float) -> str:
-    def item(name: str, shape: tuple[int, ...], kind: str = 'NumberType="Float" Precision="8"') -> str:
-        return f'<DataItem Dimensions="{" ".join(map(str, shape))}" {kind} Format="HDF">{place}/{name}</DataItem>'
+    def item(
+        name: str, shape: tuple[int, ...], kind: str = 'NumberType="Float" Precision="8"'
+    ) -> str:
+        return (
+            f'<DataItem Dimensions="{" ".join(map(str, shape))}"'
+            f' {kind} Format="HDF">{place}/{name}</DataItem>'
+        )
     triangles = body.triangles.shape
-    attributes = [f'<Attribute Name="{name}" AttributeType="{"Vector" if values.ndim == 3 else "Scalar"}" Center="Node">'
-                  f'{item(f"{frame}/{name}", values.shape[1:])}</Attribute>\n' for name, values in body.values.items()]
-    return (f'<Grid Name="frame {frame}" GridType="Uniform"><Time Value="{time:.17g}"/>\n'
-            f'<Topology TopologyType="Triangle" NumberOfElements="{triangles[0]}">'
-            + item("triangles", triangles, 'NumberType="Int" Precision="4"') + '</Topology>\n<Geometry GeometryType="XYZ">'
-            + item(f"{frame}/x", body.x.shape[1:]) + "</Geometry>\n" + "".join(attributes) + "</Grid>")
+    attributes = [
+        f'<Attribute Name="{name}" AttributeType="{"Vector" if values.ndim == 3 else "Scalar"}"'
+        f' Center="Node">{item(f"{frame}/{name}", values.shape[1:])}</Attribute>\n'
+        for name, values in body.values.items()
+    ]
+    return (
+        f'<Grid Name="frame {frame}" GridType="Uniform"><Time Value="{time:.17g}"/>\n'
+        f'<Topology TopologyType="Triangle" NumberOfElements="{triangles[0]}">'
+        + item("triangles", triangles, 'NumberType="Int" Precision="4"')
+        + '</Topology>\n<Geometry GeometryType="XYZ">'
+        + item(f"{frame}/x", body.x.shape[1:])
+        + "</Geometry>\n"
+        + "".join(attributes)
+        + "</Grid>"
+    )
 
 
 def _write(path: Path, content: bytes) -> Path:

@@ -1,10 +1,11 @@
 #!/usr/bin/python3
 """Makes films of one simulation: MP4 (H.264) for talks, GIF for pages. Needs ffmpeg.
 
-    reports/make_film.py results/grab.h5                               -> results/grab.mp4, results/grab.gif
+    reports/make_film.py results/grab.h5                 -> results/grab.mp4, results/grab.gif
     reports/make_film.py results/grab.h5 --field strain --out strain.mp4
 
-A picture holds the simulation's time, how fast it is shown, a scale bar, and the colour bar of a field.
+A picture holds the simulation's time, how fast it is shown, a scale bar,
+and the colour bar of a field.
 """
 from __future__ import annotations
 
@@ -54,7 +55,11 @@ def main() -> int:
     options = arguments()
     require_program("make_film", "ffmpeg")
     try:
-        outs = [options.out] if options.out else [options.run.with_suffix(".mp4"), options.run.with_suffix(".gif")]
+        outs = (
+            [options.out]
+            if options.out
+            else [options.run.with_suffix(".mp4"), options.run.with_suffix(".gif")]
+        )
         film = film_of(load_case(options.run), options)
         for out in outs:
             write_film(film, out)
@@ -76,10 +81,21 @@ def arguments() -> argparse.Namespace:
     """The command line."""
     parser = OneLineParser(description="Make films of one simulation, MP4 and GIF.")
     parser.add_argument("run", metavar="RUN.h5", type=Path, help="the file of a simulation")
-    parser.add_argument("--out", metavar="FILE", type=Path, help="FILE.mp4 or FILE.gif (default: both, beside RUN.h5)")
-    parser.add_argument("--field", choices=FIELDS, help="colour the cloth by a field (default: by its two sides)")
-    parser.add_argument("--size", metavar="WxH", type=size_of, default=(1280, 720), help="pixels (default: 1280x720)")
-    parser.add_argument("--fps", metavar="N", type=int, default=30, choices=range(1, 121), help="pictures a second (default: 30)")
+    parser.add_argument(
+        "--out", metavar="FILE", type=Path,
+        help="FILE.mp4 or FILE.gif (default: both, beside RUN.h5)"
+    )
+    parser.add_argument(
+        "--field", choices=FIELDS, help="colour the cloth by a field (default: by its two sides)"
+    )
+    parser.add_argument(
+        "--size", metavar="WxH", type=size_of, default=(1280, 720),
+        help="pixels (default: 1280x720)"
+    )
+    parser.add_argument(
+        "--fps", metavar="N", type=int, default=30, choices=range(1, 121),
+        help="pictures a second (default: 30)"
+    )
     options = parser.parse_args()
     if options.out and options.out.suffix not in (".mp4", ".gif"):
         parser.error(f"--out {options.out}: the name of a film ends in .mp4 or .gif")
@@ -108,7 +124,9 @@ def film_of(case: Case, options: argparse.Namespace) -> Film:
     _, scene = select_frames(case)
     fields = {field.name: field for field in fields_of(case, frames)} if options.field else {}
     if options.field and options.field not in fields:
-        raise FilmError(f"{case.path}: it has no field '{options.field}'; it has: {', '.join(fields) or 'none'}")
+        raise FilmError(
+            f"{case.path}: it has no field '{options.field}'; it has: {', '.join(fields) or 'none'}"
+        )
     return Film(scene, frames, fields.get(options.field), options.size, options.fps)
 
 
@@ -116,7 +134,10 @@ def write_film(film: Film, out: Path) -> None:
     """Draws every frame once and hands the pictures to ffmpeg; the file is renamed when whole."""
     partial = out.with_name(out.stem + ".partial" + out.suffix)
     width, height = film.size
-    raw = ["-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{width}x{height}", "-r", str(film.fps), "-i", "-"]
+    raw = [
+        "-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{width}x{height}", "-r", str(film.fps), "-i",
+        "-"
+    ]
     command = ["ffmpeg", "-v", "error", "-y", *raw, *encoding(film, out.suffix), str(partial)]
     run = subprocess.Popen(command, stdin=subprocess.PIPE, stderr=subprocess.PIPE)
     assert run.stdin is not None and run.stderr is not None
@@ -139,11 +160,17 @@ def write_film(film: Film, out: Path) -> None:
 def encoding(film: Film, kind: str) -> list[str]:
     """ffmpeg options for a file of this kind; the same input gives the same bytes."""
     if kind == ".mp4":
-        return ["-c:v", "libx264", "-pix_fmt", "yuv420p", "-crf", "18", "-threads", "1", "-movflags", "+faststart",
-                "-fflags", "+bitexact", "-flags:v", "+bitexact", "-map_metadata", "-1"]
+        return [
+            "-c:v", "libx264", "-pix_fmt", "yuv420p", "-crf", "18", "-threads", "1", "-movflags",
+            "+faststart", "-fflags", "+bitexact", "-flags:v", "+bitexact", "-map_metadata", "-1"
+        ]
     smaller = f"fps={min(GIF_FPS, film.fps)},scale={min(GIF_WIDTH, film.size[0])}:-2:flags=lanczos"
-    return ["-vf", f"{smaller},split[a][b];[a]palettegen=stats_mode=diff[p];[b][p]paletteuse=dither=bayer:bayer_scale=4",
-            "-loop", "0"]
+    return [
+        "-vf",
+        f"{smaller},split[a][b];[a]palettegen=stats_mode=diff[p];"
+        "[b][p]paletteuse=dither=bayer:bayer_scale=4",
+        "-loop", "0"
+    ]
 
 
 def rows_of(film: Film) -> list[int]:
@@ -160,9 +187,13 @@ def picture_bytes(film: Film, row: int) -> bytes:
     width, height = film.size
     frame, scene = film.frames[row], film.scene
     camera = scene.camera.scaled_to(width, round(0.84 * height))
-    drawn = Image.fromarray(picture_of(scene.cloth(frame, film.field, row), camera, scene.scenery(frame)))
+    drawn = Image.fromarray(
+        picture_of(scene.cloth(frame, film.field, row), camera, scene.scenery(frame))
+    )
     canvas = Image.new("RGB", film.size, (255, 255, 255))
-    canvas.paste(drawn, ((width - drawn.width) // 2, max(0, round(0.84 * height) - drawn.height) // 2), drawn)
+    canvas.paste(
+        drawn, ((width - drawn.width) // 2, max(0, round(0.84 * height) - drawn.height) // 2), drawn
+    )
     write_words(canvas, film, float(scene.case.frame_times[frame]), camera.pixels_per_metre)
     return canvas.tobytes()
 
@@ -174,29 +205,46 @@ def write_words(canvas: Image.Image, film: Film, time: float, pixels_per_metre: 
     font, pen = ImageFont.truetype(font_path(), size), ImageDraw.Draw(canvas)
     top, margin = round(0.88 * height), round(0.03 * width)
     length = nice_length(0.2 * width / pixels_per_metre)
-    pen.rectangle((margin, top, margin + length * pixels_per_metre, top + max(1, size // 8)), fill=INK)
+    pen.rectangle(
+        (margin, top, margin + length * pixels_per_metre, top + max(1, size // 8)), fill=INK
+    )
     pen.text((margin, top + 0.5 * size), length_text(length), font=font, fill=INK)
     times = film.scene.case.frame_times[film.frames]
     slower = slowdown(float(times[-1] - times[0]))
     pace = "real time" if slower == 1 else f"slowed {number_text(slower)} times"
     places = max(0, 2 - int(np.floor(np.log10(times[-1])))) if times[-1] > 0 else 0
-    pen.text((0.5 * width, top - 0.2 * size), f"{time:.{places}f} s", font=font, fill=INK, anchor="ma")
+    pen.text(
+        (0.5 * width, top - 0.2 * size), f"{time:.{places}f} s", font=font, fill=INK, anchor="ma"
+    )
     pen.text((0.5 * width, top + 1.2 * size), pace, font=font, fill=SOFT, anchor="ma")
     if film.field is not None:
-        write_bar(pen, film.field, (round(0.7 * width), top, width - margin, top + round(0.6 * size)), font)
+        write_bar(
+            pen, film.field, (round(0.7 * width), top, width - margin, top + round(0.6 * size)),
+            font
+        )
 
 
-def write_bar(pen: ImageDraw.ImageDraw, field: Field, box: tuple[int, int, int, int], font: ImageFont.FreeTypeFont) -> None:
+def write_bar(
+    pen: ImageDraw.ImageDraw, field: Field, box: tuple[int, int, int, int],
+    font: ImageFont.FreeTypeFont
+) -> None:
     """A colour bar with its ends, its middle, and what it shows."""
     left, top, right, bottom = box
     places = np.linspace(0.0, 1.0, len(colour_stops(field.colours)))
     across = np.linspace(0.0, 1.0, right - left)
-    colours = np.stack([np.interp(across, places, channel) for channel in colour_stops(field.colours).T], axis=1)
+    colours = np.stack(
+        [np.interp(across, places, channel) for channel in colour_stops(field.colours).T], axis=1
+    )
     for x, colour in enumerate(np.round(colours).astype(int).tolist(), start=left):
         pen.line((x, top, x, bottom), fill=tuple(colour))
-    for x, anchor, text in zip((left, 0.5 * (left + right), right), ("la", "ma", "ra"), field_ticks(field)):
+    for x, anchor, text in zip(
+        (left, 0.5 * (left + right), right), ("la", "ma", "ra"), field_ticks(field)
+    ):
         pen.text((x, bottom + 2), text, font=font, fill=INK, anchor=anchor)
-    pen.text((left, top - 0.3 * font.size), with_unit(field.label.split(",")[0], field.unit), font=font, fill=SOFT, anchor="ls")
+    pen.text(
+        (left, top - 0.3 * font.size), with_unit(field.label.split(",")[0], field.unit), font=font,
+        fill=SOFT, anchor="ls"
+    )
 
 
 if __name__ == "__main__":

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """Shows what changed over runs of the verification: verdicts, rulings, margins, costs.
 
-    reports/make_history.py results-monday results             -> a table, and the first run of each change
-    reports/make_history.py results --log history.jsonl        -> appends the run to the log, shows all that it has
+    reports/make_history.py results-monday results             -> a table; where changes began
+    reports/make_history.py results --log history.jsonl        -> adds to the log, shows it
     reports/make_history.py --log history.jsonl --out FILE     -> a page
 """
 from __future__ import annotations
@@ -41,9 +41,13 @@ def main() -> int:
 def arguments() -> argparse.Namespace:
     """Command line options."""
     parser = OneLineParser(description="What changed over runs, and in which run first.")
-    parser.add_argument("runs", metavar="DIR", type=Path, nargs="*", help="folder of a run, or a verdicts.json")
-    parser.add_argument("--log", metavar="FILE", type=Path,
-                        help="JSON lines, one a run: the runs given are appended, and all that it has are shown")
+    parser.add_argument(
+        "runs", metavar="DIR", type=Path, nargs="*", help="folder of a run, or a verdicts.json"
+    )
+    parser.add_argument(
+        "--log", metavar="FILE", type=Path,
+        help="JSON lines, one a run: the runs given are appended, and all that it has are shown"
+    )
     parser.add_argument("--out", metavar="FILE", type=Path, help="write a page, too")
     parser.add_argument("--json", action="store_true", help="print the changes as JSON")
     return parser.parse_args()

@@ -1,7 +1,8 @@
-# Writes build_facts.h: which sources, compiler and flags made the program. Run by every build; the file changes only when a fact does.
-#   cmake -D FOLDER=... -D OUT=... -D VERSION=... -D COMPILER=... -D FLAGS=... -D BUILD_TYPE=... -P build_facts.cmake
-execute_process(COMMAND git -C ${FOLDER} rev-parse HEAD OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET
-                RESULT_VARIABLE no_git)
+# Writes build_facts.h: which sources, compiler and flags made the program. Run by every build; the
+# file changes only when a fact does. cmake -D FOLDER=... -D OUT=... -D VERSION=... -D COMPILER=...
+# -D FLAGS=... -D BUILD_TYPE=... -P build_facts.cmake
+execute_process(COMMAND git -C ${FOLDER} rev-parse HEAD OUTPUT_VARIABLE commit
+  OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE no_git)
 execute_process(COMMAND git -C ${FOLDER} status --porcelain OUTPUT_VARIABLE changes ERROR_QUIET)
 set(tree clean)
 if(no_git)

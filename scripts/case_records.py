@@ -1,4 +1,5 @@
-"""Records of the shipped cases, one line a case: which program was asked, and of which form of the case."""
+"""Records of the shipped cases, one line a case: which program was asked,
+and of which form of the case."""
 
 import json
 import subprocess
@@ -28,7 +29,10 @@ def recorded_rows(record: Path) -> dict[str, dict[str, Any]]:
 
 def latest(rows: list[dict[str, Any]]) -> dict[str, dict[str, Any]]:
     """Of each case the row that was found last."""
-    return {row["case"]: row for row in sorted(rows, key=lambda row: datetime.fromisoformat(row["program"]["date"]))}
+    return {
+        row["case"]: row
+        for row in sorted(rows, key=lambda row: datetime.fromisoformat(row["program"]["date"]))
+    }
 
 
 def write_rows(record: Path, rows: dict[str, dict[str, Any]]) -> None:
@@ -38,8 +42,9 @@ def write_rows(record: Path, rows: dict[str, dict[str, Any]]) -> None:
 
 
 def origin(file: Path, case: str, program: dict[str, Any]) -> dict[str, Any]:
-    """What a row says of its origin: the program, and the digest of the case as it was at the program's commit.
-    Throws Rejected for a program with uncommitted changes, and for a case that is not shipped."""
+    """What a row says of its origin: the program, and the digest of the case as it was at the
+    program's commit. Throws Rejected for a program with uncommitted changes, and
+    for a case that is not shipped."""
     if program["tree"] != "clean":
         raise Rejected(f"{file}: found by a program with changes that were not committed")
     kept = {key: program[key] for key in ("version", "commit", "date", "cpu")}
@@ -56,14 +61,17 @@ def digest_at(commit: str, case: str) -> str:
 
 def file_at(commit: str, name: str) -> bytes:
     """A file of the folder cases/ as it was at the commit."""
-    shown = subprocess.run(["git", "-C", str(ROOT), "show", f"{commit}:cases/{name}"], capture_output=True, check=False)
+    shown = subprocess.run(
+        ["git", "-C", str(ROOT), "show", f"{commit}:cases/{name}"], capture_output=True, check=False
+    )
     if shown.returncode:
         raise Rejected(f"commit {commit[:10]} has no cases/{name}")
     return shown.stdout
 
 
 def command(name: str, usage: str, record: Path, rows_after: Any) -> int:
-    """The command line of a script that records: rows_after(files) gives all rows, old and new, by case."""
+    """The command line of a script that records: rows_after(files) gives
+    all rows, old and new, by case."""
     if len(sys.argv) < 2 or sys.argv[1] in ("-h", "--help"):
         print(usage.strip())
         return 0 if len(sys.argv) > 1 else 2

@@ -1,8 +1,9 @@
-"""Small edits of a C++ file, one slip each: an operator, a number, a name taken for its neighbour, a statement left out.
+"""Small edits of a C++ file, one slip each: an operator, a number, a name taken for its neighbour,
+a statement left out.
 
-Edits are made of the tokens of the code, never in comments, texts, preprocessor lines or template arguments. What
-tells an operator from a type's `*`, `&` and `<` is the layout that .clang-format asks for: operators of two operands have spaces
-on both sides.
+Edits are made of the tokens of the code, never in comments, texts, preprocessor lines or template
+arguments. What tells an operator from a type's `*`, `&` and `<` is the layout that .clang-format
+asks for: operators of two operands have spaces on both sides.
 """
 
 import random
@@ -30,7 +31,9 @@ def outside_templates(text: str, tokens: list[Piece]) -> Iterator[Piece]:
     """Leaves out `<...>` where no space stands before the `<`, or the word template does."""
     depth = 0
     for before, token in zip([None, *tokens], tokens):
-        opens = token.text == "<" and (not text[token.at - 1].isspace() or (before and before.text == "template"))
+        opens = token.text == "<" and (
+            not text[token.at - 1].isspace() or (before and before.text == "template")
+        )
         if opens or (depth and token.text == "<"):
             depth += 1
         elif not depth:
@@ -39,22 +42,32 @@ def outside_templates(text: str, tokens: list[Piece]) -> Iterator[Piece]:
             depth -= {">": 1, ">>": 2}.get(token.text, 0)
 
 
-# ---- what can slip ---------------------------------------------------------------------------------------
+# ---- what can slip -------------------------------------------------------------------------------
 
-OPERATORS = {"+": ["-"], "-": ["+"], "*": ["/"], "/": ["*"], "%": ["*"], "<": ["<=", ">"], "<=": ["<", ">="],
-             ">": [">=", "<"], ">=": [">", "<="], "==": ["!="], "!=": ["=="], "&&": ["||"], "||": ["&&"],
-             "+=": ["-=", "="], "-=": ["+=", "="], "*=": ["/="], "/=": ["*="]}
-NAMES = [("min", "max"), ("sin", "cos"), ("asin", "acos"), ("true", "false"), ("front", "back"), ("first", "last"),
-         ("begin", "rbegin"), ("lower", "upper"), ("lower_", "upper_"), ("lower_squared_", "upper_squared_"), ("x", "v"),
-         ("a", "b"), ("A", "B"), ("X", "V"), ("wa", "wb"), ("here", "there"), ("now", "next"), ("before", "after"), ("mass", "inverse_mass"),
-         ("velocity", "acceleration"), ("start", "end"), ("from", "until"), ("near", "far"), ("p", "q"), ("l", "r"),
-         ("cwiseMin", "cwiseMax"), ("minCoeff", "maxCoeff"), ("left", "right"), ("w", "v"), ("floor", "ceil"),
-         ("row", "col"), ("size", "count"), ("theta", "rest_angle"), ("E", "N"), ("normal", "velocity"),
-         ("exact", "semidefinite"), ("rest", "current"), ("break", "continue"), ("extension", "compression")]
+OPERATORS = {
+    "+": ["-"], "-": ["+"], "*": ["/"], "/": ["*"], "%": ["*"], "<": ["<=", ">"], "<=": ["<", ">="],
+    ">": [">=", "<"], ">=": [">", "<="], "==": ["!="], "!=": ["=="], "&&": ["||"], "||": ["&&"],
+    "+=": ["-=", "="], "-=": ["+=", "="], "*=": ["/="], "/=": ["*="]
+}
+NAMES = [
+    ("min", "max"), ("sin", "cos"), ("asin", "acos"), ("true", "false"), ("front", "back"),
+    ("first", "last"), ("begin", "rbegin"), ("lower", "upper"), ("lower_", "upper_"),
+    ("lower_squared_", "upper_squared_"), ("x", "v"), ("a", "b"), ("A", "B"), ("X", "V"),
+    ("wa", "wb"), ("here", "there"), ("now", "next"), ("before", "after"), ("mass", "inverse_mass"),
+    ("velocity", "acceleration"), ("start", "end"), ("from", "until"), ("near", "far"), ("p", "q"),
+    ("l", "r"), ("cwiseMin", "cwiseMax"), ("minCoeff", "maxCoeff"), ("left", "right"), ("w", "v"),
+    ("floor", "ceil"), ("row", "col"), ("size", "count"), ("theta", "rest_angle"), ("E", "N"),
+    ("normal", "velocity"), ("exact", "semidefinite"), ("rest", "current"), ("break", "continue"),
+    ("extension", "compression")
+]
 NEIGHBOURS = {name: other for pair in NAMES for name, other in (pair, pair[::-1])}
 VALUES = {"0": ["1"], "0.0": ["1.0"], "1": ["2", "0"], "2": ["1", "3"], "0.5": ["0.6"]}
-LANGUAGE = {"min", "max", "sin", "cos", "asin", "acos", "true", "false", "break", "continue"}  # there without being named
-UNARY_AFTER = {"(", ",", "=", "return", "[", "{", "?", ":", "&&", "||", "+", "*", "/", "<", ">", "<=", ">=", "+=", "-="}
+# there without being named
+LANGUAGE = {"min", "max", "sin", "cos", "asin", "acos", "true", "false", "break", "continue"}
+UNARY_AFTER = {
+    "(", ",", "=", "return", "[", "{", "?", ":", "&&", "||", "+", "*", "/", "<", ">", "<=", ">=",
+    "+=", "-="
+}
 
 
 def changes_of(text: str) -> list[Change]:
@@ -62,7 +75,10 @@ def changes_of(text: str) -> list[Change]:
     tokens = tokens_of(text)
     found: set[Change] = set()
     for k in range(len(tokens)):
-        found.update(of_operator(text, tokens, k), of_unary(text, tokens, k), of_number(tokens, k), of_name(text, tokens, k))
+        found.update(
+            of_operator(text, tokens, k), of_unary(text, tokens, k), of_number(tokens, k),
+            of_name(text, tokens, k)
+        )
     found.update(of_bounds(tokens))
     found.update(removals(text, tokens))
     return sorted(change for change in found if not is_in_reserve(text, change))
@@ -81,7 +97,12 @@ def is_spaced(text: str, token: Piece) -> bool:
 
 def of_operator(text: str, tokens: list[Piece], k: int) -> Iterator[Change]:
     token = tokens[k]
-    if token.kind == "sign" and k > 0 and tokens[k - 1].text != "operator" and is_spaced(text, token):
+    if (
+        token.kind == "sign"
+        and k > 0
+        and tokens[k - 1].text != "operator"
+        and is_spaced(text, token)
+    ):
         for after in OPERATORS.get(token.text, []):
             yield Change(token.at, token.text, after, "operator")
 
@@ -91,7 +112,9 @@ def of_unary(text: str, tokens: list[Piece], k: int) -> Iterator[Change]:
     token, before = tokens[k], tokens[k - 1].text if k > 0 else ""
     if token.text in ("++", "--"):
         yield Change(token.at, token.text, "--" if token.text == "++" else "++", "sign")
-    elif token.text == "!" or (token.text == "-" and before in UNARY_AFTER and not is_spaced(text, token)):
+    elif token.text == "!" or (
+        token.text == "-" and before in UNARY_AFTER and not is_spaced(text, token)
+    ):
         yield Change(token.at, token.text, "", "sign")
 
 
@@ -104,7 +127,8 @@ def of_number(tokens: list[Piece], k: int) -> Iterator[Change]:
 
 
 def other_number(text: str) -> str:
-    """The next whole number; of others a fifth more, or a thousand times as much where they are very small."""
+    """The next whole number; of others a fifth more, or a thousand times as
+    much where they are very small."""
     if re.fullmatch(r"\d+", text):
         return str(int(text) + 1)
     try:
@@ -115,13 +139,22 @@ def other_number(text: str) -> str:
 
 
 def of_name(text: str, tokens: list[Piece], k: int) -> Iterator[Change]:
-    """A name taken for its neighbour: min for max, x1 for x2 where there is an x2. Not where it is declared."""
+    """A name taken for its neighbour: min for max, x1 for x2 where there is
+    an x2. Not where it is declared."""
     token = tokens[k]
     before = tokens[k - 1] if k > 0 else token
     follows = tokens[k + 1].text if k + 1 < len(tokens) else ""
     is_second = before.text == "," and follows == "="  # of several that one type declares
-    declares = (before.kind == "word" and before.text not in ("return", "throw")) or is_second or is_bound(tokens, k)
-    if token.kind != "word" or declares or (before.text in ("&", "&&", "*") and not is_spaced(text, before)):
+    declares = (
+        (before.kind == "word" and before.text not in ("return", "throw"))
+        or is_second
+        or is_bound(tokens, k)
+    )
+    if (
+        token.kind != "word"
+        or declares
+        or (before.text in ("&", "&&", "*") and not is_spaced(text, before))
+    ):
         return
     known = {other.text for other in tokens}
     numbered = re.fullmatch(r"([A-Za-z_]*[A-Za-z_])([1-9])", token.text)
@@ -148,25 +181,40 @@ def of_bounds(tokens: list[Piece]) -> Iterator[Change]:
         if token.text != "for":
             continue
         ends = [i for i in range(k, min(k + 60, len(tokens))) if tokens[i].text == ";"][:2]
-        if len(ends) == 2 and tokens[ends[1] - 1].kind == "word" and tokens[ends[1] - 2].text in ("<", "<="):
+        if (
+            len(ends) == 2
+            and tokens[ends[1] - 1].kind == "word"
+            and tokens[ends[1] - 2].text in ("<", "<=")
+        ):
             bound = tokens[ends[1] - 1]
             yield Change(bound.at, bound.text, f"{bound.text} - 1", "bound")
 
 
 DEPTHS = {"(": 1, ")": -1, "[": 1, "]": -1, "{": 1, "}": -1}
-KEPT = {"return", "using", "for", "while", "do", "else", "case", "default", "template", "struct", "class", "namespace",
-        "const", "constexpr", "static", "auto", "switch", "try", "catch", "public", "private", "enum"}
+KEPT = {
+    "return", "using", "for", "while", "do", "else", "case", "default", "template", "struct",
+    "class", "namespace", "const", "constexpr", "static", "auto", "switch", "try", "catch",
+    "public", "private", "enum"
+}
 
 
 def removals(text: str, tokens: list[Piece]) -> Iterator[Change]:
-    """Statements that can be left out: calls, assignments, and an `if` with what hangs on it, on one statement."""
+    """Statements that can be left out: calls, assignments, and an `if` with what
+    hangs on it, on one statement."""
     inside = inner_brackets(tokens)
     for k in range(1, len(tokens)):
         begins = tokens[k - 1].text in (";", "{", "}") or closes_condition(tokens, k - 1)
-        if inside[k] == "(" or not begins or tokens[k].text in KEPT or (tokens[k].kind != "word" and tokens[k].text not in ("++", "--")):
+        if (
+            inside[k] == "("
+            or not begins
+            or tokens[k].text in KEPT
+            or (tokens[k].kind != "word" and tokens[k].text not in ("++", "--"))
+        ):
             continue
         end = statement_end(tokens, k)
-        if end and (tokens[k].text in ("if", "throw", "continue", "break") or is_action(tokens[k:end])):
+        if end and (
+            tokens[k].text in ("if", "throw", "continue", "break") or is_action(tokens[k:end])
+        ):
             at, stop = tokens[k].at, tokens[end].at
             yield Change(at, text[at:stop + 1], ";", "removal")
 
@@ -212,13 +260,18 @@ def statement_end(tokens: list[Piece], k: int) -> int | None:
 
 
 def is_action(statement: list[Piece]) -> bool:
-    """Does it do something, rather than declare? A declaration begins with two words, or with a word and & or *."""
+    """Does it do something, rather than declare? A declaration begins with two
+    words, or with a word and & or *."""
     if statement[0].text in ("++", "--"):
         return True
     depth = 0
     for before, token in zip(statement, statement[1:]):
         depth += DEPTHS.get(before.text, 0)
-        if depth == 0 and token.kind == "word" and (before.kind == "word" or before.text in ("&", "*", ">")):
+        if (
+            depth == 0
+            and token.kind == "word"
+            and (before.kind == "word" or before.text in ("&", "*", ">"))
+        ):
             return False  # `double x`, `Vector3& x`
         if depth == 0 and token.text in ("=", "+=", "-=", "*=", "/=", "<<"):
             return True

@@ -1,7 +1,8 @@
 """Mutants: the program with one file edited. Shared by scripts/faults and scripts/mutate.
 
-An edited copy lies in a folder of its own, which comes first on the include path; what is made of the file is
-compiled anew and linked before the unedited libraries. The source tree is never touched.
+An edited copy lies in a folder of its own, which comes first on the include path; what is made of
+the file is compiled anew and linked before the unedited libraries.
+The source tree is never touched.
 """
 
 import collections
@@ -20,7 +21,8 @@ ROOT = Path(__file__).resolve().parent.parent
 BUILD = ROOT / "build"
 PROGRAM = BUILD / "foldproof"
 TESTS = BUILD / "tests"
-PYTHON_TESTS = {"ProgramTest": ROOT / "scripts/tests/test_program.py",  # test class: its file; each takes --program FILE
+# test class: its file; each takes --program FILE
+PYTHON_TESTS = {"ProgramTest": ROOT / "scripts/tests/test_program.py",
                 "IndependentTest": ROOT / "verification/independent/test_independent.py"}
 APART_FOLDER = BUILD / "faults" / "apart"
 CLOCK = 240  # s: how long a mutant may run
@@ -56,11 +58,12 @@ def run(command: list, folder: Path, clock: float | None = None) -> subprocess.C
     return subprocess.run(command, cwd=folder, stdin=subprocess.DEVNULL, timeout=clock, **text)
 
 
-# ---- how the unedited program is made --------------------------------------------------------------------
+# ---- how the unedited program is made ------------------------------------------------------------
 
 
 def read_plan(programs: list[str]) -> Plan:
-    """Brings the unedited programs up to date; returns their compilations and links, as ninja tells them."""
+    """Brings the unedited programs up to date; returns their compilations
+    and links, as ninja tells them."""
     if not (BUILD / "build.ninja").is_file():
         raise Unusable("there is no build; run scripts/setup first")
     built = run(["ninja", *programs], BUILD)
@@ -70,7 +73,8 @@ def read_plan(programs: list[str]) -> Plan:
     units, links = {}, {}
     for program in programs:
         lines = run(["ninja", "-t", "commands", program], BUILD).stdout.splitlines()
-        links[program] = shlex.split(lines[-1].removeprefix(": && ").split(" && ")[0])  # `: && c++ ... && :`
+        # `: && c++ ... && :`
+        links[program] = shlex.split(lines[-1].removeprefix(": && ").split(" && ")[0])
         for words in map(shlex.split, lines):
             if "-c" in words and "-o" in words and words[-1].endswith((".cpp", ".cxx")):
                 name = words[words.index("-o") + 1]
@@ -79,7 +83,8 @@ def read_plan(programs: list[str]) -> Plan:
 
 
 def files_by_object() -> dict[str, set[Path]]:
-    """The files that each object was made from: ninja prints `object: #deps ...`, then indented paths."""
+    """The files that each object was made from: ninja prints `object:
+    #deps ...`, then indented paths."""
     resolve = functools.cache(lambda path: (BUILD / path).resolve())
     found: dict[str, set[Path]] = {}
     for line in run(["ninja", "-t", "deps"], BUILD).stdout.splitlines():
@@ -91,7 +96,8 @@ def files_by_object() -> dict[str, set[Path]]:
 
 
 def sources_of(unit: Unit) -> list[Path]:
-    """The unit's source; or the sources that CMake has compiled as one, which it lists in a file of its own."""
+    """The unit's source; or the sources that CMake has compiled as one, which
+    it lists in a file of its own."""
     source = Path(unit.command[-1])
     if source.suffix != ".cxx":
         return [source.resolve()]
@@ -106,23 +112,30 @@ def files_of_independent() -> list[Path]:
 
 
 def key_of(plan: Plan) -> str:
-    """Changes with whatever can change an answer of the unedited programs, or of a test of them: their code, but not
-    the commit's name in it, the cases, the claims, and the scripts that test the program."""
-    objects = [BUILD / unit.object for unit in plan.units if not any(path.name == "build_facts.h" for path in unit.made_from)]
+    """Changes with whatever can change an answer of the unedited programs, or of a test of them:
+    their code, but not the commit's name in it, the cases, the claims, and the
+    scripts that test the program."""
+    objects = [
+        BUILD / unit.object
+        for unit in plan.units
+        if not any(path.name == "build_facts.h" for path in unit.made_from)
+    ]
     key = hashlib.sha256()
-    read = sorted((ROOT / "cases").rglob("*.*")) + sorted((ROOT / "verification/claims").glob("*.toml"))
+    read = sorted((ROOT / "cases").rglob("*.*")) + sorted(
+        (ROOT / "verification/claims").glob("*.toml")
+    )
     read += [PYTHON_TESTS["ProgramTest"]] + files_of_independent()
     for path in objects + read:
         key.update(path.read_bytes())
     return key.hexdigest()
 
 
-# ---- making a mutant -------------------------------------------------------------------------------------
+# ---- making a mutant -----------------------------------------------------------------------------
 
 
 def compile_mutant(plan: Plan, edit: Edit, overlay: Path) -> dict[str, list[Path]]:
-    """Compiles what is made of the edited file, into the empty folder `overlay`; the objects that take the place of
-    each of the program's own. Throws DoesNotCompile."""
+    """Compiles what is made of the edited file, into the empty folder `overlay`; the objects that
+    take the place of each of the program's own. Throws DoesNotCompile."""
     original = (ROOT / edit.file).resolve()
     copy = overlay / edit.file
     copy.parent.mkdir(parents=True)
@@ -137,7 +150,9 @@ def compile_mutant(plan: Plan, edit: Edit, overlay: Path) -> dict[str, list[Path
         source = copy if original in together else Path(unit.command[-1])
         compile_unit(plan, unit, source, objects[unit.object][0], overlay)
         if original in together:  # the others that are compiled as one with it, as they are
-            objects[unit.object] += [compile_apart(plan, unit, other) for other in together if other != original]
+            objects[unit.object] += [
+                compile_apart(plan, unit, other) for other in together if other != original
+            ]
     return objects
 
 
@@ -145,7 +160,8 @@ APART = collections.defaultdict(threading.Lock)
 
 
 def compile_apart(plan: Plan, unit: Unit, source: Path) -> Path:
-    """The object of an unedited source by itself, made once after each change of what it is compiled with."""
+    """The object of an unedited source by itself, made once after each
+    change of what it is compiled with."""
     target = APART_FOLDER / source.relative_to(ROOT).with_suffix(".o")
     with APART[target]:
         if not target.exists() or target.stat().st_mtime < (BUILD / unit.object).stat().st_mtime:
@@ -156,23 +172,33 @@ def compile_apart(plan: Plan, unit: Unit, source: Path) -> Path:
 
 
 def compile_unit(plan: Plan, unit: Unit, source: Path, target: Path, overlay: Path) -> None:
-    """Compiles as the program's own build does, but with the overlay first on the include path, and the method for
-    a short compilation where the build has it for speed: the bits are the same."""
+    """Compiles as the program's own build does, but with the overlay first on the include path, and
+    the method for a short compilation where the build has it for speed: the bits are the same."""
     words = quick_compile_command(plan, unit.command)
-    words[words.index("-MF") + 1] = f"{target}.d"  # ninja's own record of what was read stays as it is
+    # ninja's own record of what was read stays as it is
+    words[words.index("-MF") + 1] = f"{target}.d"
     words[words.index("-o") + 1] = str(target)
     words[-1] = str(source)
     first_option = next(place for place, word in enumerate(words) if word.startswith("-"))
-    words[first_option:first_option] = ["-I", str(overlay), "-w"]  # an edit may leave a variable unused
+    # an edit may leave a variable unused
+    words[first_option:first_option] = ["-I", str(overlay), "-w"]
     make(words, "does not compile", DoesNotCompile)
 
 
 def quick_compile_command(plan: Plan, command: list[str]) -> list[str]:
-    """The command with -O1 in place of -O3, and with the precompiled header that was made with -O1."""
+    """The command with -O1 in place of -O3, and with the precompiled
+    header that was made with -O1."""
     words = list(command)
     if "-O3" not in words or "-O1" in words:
         return words
-    header = next((unit.command for unit in plan.units if "-O1" in unit.command and "-include" in unit.command), None)
+    header = next(
+        (
+            unit.command
+            for unit in plan.units
+            if "-O1" in unit.command and "-include" in unit.command
+        ),
+        None,
+    )
     if header and "-include" in words:
         words[words.index("-include") + 1] = header[header.index("-include") + 1]
     words.insert(words.index("-c"), "-O1")  # the last one counts
@@ -180,15 +206,21 @@ def quick_compile_command(plan: Plan, command: list[str]) -> list[str]:
 
 
 def link_mutant(plan: Plan, objects: dict[str, list[Path]], program: str, overlay: Path) -> Path:
-    """Puts the mutant's objects in place of the program's own, or before the libraries with the originals.
+    """Puts the mutant's objects in place of the program's own, or before
+    the libraries with the originals.
 
-    The linker takes a member of a library only for a symbol still undefined, so the original stays out; if it
-    came in all the same, its symbols would be defined twice, which is a link error.
+    The linker takes a member of a library only for a symbol still undefined, so the original stays
+    out; if it came in all the same, its symbols would be defined twice, which is a link error.
     """
     link = plan.links[program]
     words = [str(path) for word in link for path in objects.get(word, [word])]
     libraries = next((place for place, word in enumerate(words) if word.endswith(".a")), len(words))
-    in_library = [str(path) for name, paths in objects.items() if name not in link and is_of(link, name) for path in paths]
+    in_library = [
+        str(path)
+        for name, paths in objects.items()
+        if name not in link and is_of(link, name)
+        for path in paths
+    ]
     words[libraries:libraries] = in_library
     words[words.index("-o") + 1] = str(overlay / program)
     make([*words[:1], *LINKER, *words[1:]], "does not link", Unusable)
@@ -199,8 +231,8 @@ LINKER = ["-fuse-ld=gold"]
 
 
 def is_of(link: list[str], name: str) -> bool:
-    """Whether an object belongs to one of the libraries of a link, as CMake names them: `verification/
-    CMakeFiles/oracles.dir/...` is of `verification/liboracles.a`."""
+    """Whether an object belongs to one of the libraries of a link, as CMake names them:
+    `verification/ CMakeFiles/oracles.dir/...` is of `verification/liboracles.a`."""
     folder, _, rest = name.partition("/CMakeFiles/")
     return f"{folder}/lib{rest.partition('.dir/')[0]}.a" in link
 
@@ -213,12 +245,12 @@ def make(words: list[str], failure: str, error: type[Unusable]) -> None:
         raise error(f"{failure}: {next(telling, lines[-1])}")
 
 
-# ---- asking a mutant -------------------------------------------------------------------------------------
+# ---- asking a mutant -----------------------------------------------------------------------------
 
 
 def ask(program: Path, arguments: list[str], key: str, clock: float | None = None) -> list[dict]:
-    """One list of the program's JSON answer; raises TimeoutExpired when the clock runs out, ChildProcessError when
-    it died of a signal."""
+    """One list of the program's JSON answer; raises TimeoutExpired when the clock runs out,
+    ChildProcessError when it died of a signal."""
     ran = run([program, *arguments, "--json"], ROOT, clock)
     if ran.returncode < 0:
         raise ChildProcessError(f"died of signal {-ran.returncode}")
@@ -226,13 +258,17 @@ def ask(program: Path, arguments: list[str], key: str, clock: float | None = Non
         return json.loads(ran.stdout)[key]
     except (ValueError, KeyError, TypeError) as error:
         said = (ran.stderr or ran.stdout).strip()[-400:]
-        raise Unusable(f"`foldproof {arguments[0]}`: exit code {ran.returncode}, no {key}: {said}") from error
+        raise Unusable(
+            f"`foldproof {arguments[0]}`: exit code {ran.returncode}, no {key}: {said}"
+        ) from error
 
 
 def findings(program: Path, names: list[str], clock: float | None = None) -> list[dict]:
-    """Findings of the checks, studies and cases with these names (all checks, if there are none): rows
-    with name, outcome, measured, bound, margin, seconds."""
-    rows = [row for row in ask(program, ["check", *names], "findings", clock) if row["kind"] != "claim"]
+    """Findings of the checks, studies and cases with these names (all checks, if there are none):
+    rows with name, outcome, measured, bound, margin, seconds."""
+    rows = [
+        row for row in ask(program, ["check", *names], "findings", clock) if row["kind"] != "claim"
+    ]
     keys = ("name", "outcome", "measured", "bound", "seconds")
     return [{key: row[key] for key in keys} | {"margin": margin_of(row)} for row in rows]
 

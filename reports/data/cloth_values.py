@@ -1,5 +1,5 @@
-"""Speed, strain, bending angle and distance to the objects, one number for each particle, from a case file.
-Also the edges, hinges and normals of a cloth."""
+"""Speed, strain, bending angle and distance to the objects, one number for each particle, from a
+case file. Also the edges, hinges and normals of a cloth."""
 from __future__ import annotations
 
 import numpy as np
@@ -8,10 +8,12 @@ from data.results import Case
 
 
 def all_values(case: Case) -> dict[str, np.ndarray]:
-    """Every field that the file allows by its name, T x N in all frames: speed [m/s]; strain [1], the largest
-    |length / rest length - 1| of a particle's edges; angle [rad], the largest of its hinges, 0 where flat; phi [m], the
-    distance to the objects, negative inside."""
-    x, velocities, distances = (case.every_frame(name) for name in ("positions", "velocities", "object_distance"))
+    """Every field that the file allows by its name, T x N in all frames: speed [m/s]; strain [1],
+    the largest abs(length / rest length - 1) of a particle's edges; angle [rad], the largest of its
+    hinges, 0 where flat; phi [m], the distance to the objects, negative inside."""
+    x, velocities, distances = (
+        case.every_frame(name) for name in ("positions", "velocities", "object_distance")
+    )
     rest, hinges = case.rest_positions(), hinges_of(case.triangles)
     values = {}
     if velocities is not None:
@@ -32,7 +34,7 @@ def edges_of(triangles: np.ndarray) -> np.ndarray:
 
 
 #        a
-#      /   \      the triangle (p, q, a) turns about its edge p -> q as it is listed, (q, p, b) about q -> p;
+#      /   \      the triangle (p, q, a) turns about p -> q as listed, (q, p, b) about q -> p;
 #     p --- q     the angle between their normals is that of the hinge, 0 when flat
 #      \   /
 #        b
@@ -73,7 +75,8 @@ def _angles(x: np.ndarray, hinges: np.ndarray, triangles: np.ndarray) -> np.ndar
 
 
 def _largest_at_ends(values: np.ndarray, ends: np.ndarray, particles: int) -> np.ndarray:
-    """T x N: of the values (T x E) of all edges at a particle the largest; 0 for a particle without any."""
+    """T x N: of the values (T x E) of all edges at a particle the
+    largest; 0 for a particle without any."""
     largest = np.zeros((len(values), particles))
     for row, of_edges in zip(largest, values):
         for side in range(2):

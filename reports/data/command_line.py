@@ -1,4 +1,5 @@
-"""Command line of the scripts in this folder: required packages, and errors in one line with exit code 2."""
+"""Command line of the scripts in this folder: required packages, and
+errors in one line with exit code 2."""
 from __future__ import annotations
 
 import argparse
@@ -8,8 +9,10 @@ import sys
 from typing import NoReturn
 
 # Debian's package of each module that is imported, and of each program that is started.
-MODULES = {"h5py": "python3-h5py", "numpy": "python3-numpy", "matplotlib": "python3-matplotlib", "jinja2": "python3-jinja2",
-           "PIL": "python3-pil"}
+MODULES = {
+    "h5py": "python3-h5py", "numpy": "python3-numpy", "matplotlib": "python3-matplotlib",
+    "jinja2": "python3-jinja2", "PIL": "python3-pil"
+}
 
 
 class OneLineParser(argparse.ArgumentParser):
@@ -29,10 +32,14 @@ def require_modules(script: str, *modules: str) -> None:
     """Ends the program if one of the modules is not installed, and names the packages."""
     missing = [MODULES[module] for module in modules if importlib.util.find_spec(module) is None]
     if missing:
-        refuse(script, f"Python packages are missing; install them with: apt install {' '.join(missing)}")
+        refuse(
+            script,
+            f"Python packages are missing; install them with: apt install {' '.join(missing)}",
+        )
 
 
 def require_program(script: str, program: str) -> None:
-    """Ends the program if `program`, which a Debian package of the same name holds, is not installed."""
+    """Ends the program if `program`, which a Debian package of the
+    same name holds, is not installed."""
     if shutil.which(program) is None:
         refuse(script, f"{program} is missing; install it with: apt install {program}")

@@ -1,4 +1,5 @@
-"""Damaged HDF5 files: the library may crash or run without end on them, so they are tried in a process of their own."""
+"""Damaged HDF5 files: the library may crash or run without end on them, so they are tried in a
+process of their own."""
 from __future__ import annotations
 
 import os
@@ -13,7 +14,8 @@ MEMORY = 1 << 30                             # bytes beyond what is in use and t
 
 
 def why_unreadable(path: Path) -> str:
-    """"" if all of the file can be read, else why not, in words. Throws OSError for a file that is not there."""
+    """"" if all of the file can be read, else why not, in words. Throws
+    OSError for a file that is not there."""
     size = path.stat().st_size
     if not path.is_file():
         return "it is no regular file"
@@ -29,11 +31,18 @@ def why_unreadable(path: Path) -> str:
 def _read_and_leave(path: Path, size: int) -> None:
     code = 1
     try:
-        used = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[0]) * resource.getpagesize()
-        for what, most in ((resource.RLIMIT_CORE, 0), (resource.RLIMIT_CPU, SECONDS + size // BYTES_PER_SECOND),
-                           (resource.RLIMIT_AS, used + MEMORY + 2 * size)):
+        used = (
+            int(Path("/proc/self/statm").read_text(encoding="ascii").split()[0])
+            * resource.getpagesize()
+        )
+        for what, most in (
+            (resource.RLIMIT_CORE, 0), (resource.RLIMIT_CPU, SECONDS + size // BYTES_PER_SECOND),
+            (resource.RLIMIT_AS, used + MEMORY + 2 * size)
+        ):
             hard = resource.getrlimit(what)[1]
-            resource.setrlimit(what, (most if hard == resource.RLIM_INFINITY else min(most, hard), hard))
+            resource.setrlimit(
+                what, (most if hard == resource.RLIM_INFINITY else min(most, hard), hard)
+            )
         with h5py.File(path, "r") as file:
             file.visititems(_read)
             list(file.attrs.items())

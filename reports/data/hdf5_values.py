@@ -1,5 +1,5 @@
-"""Attributes, columns and ordered groups of an HDF5 file as plain Python values. An absent attribute becomes
-"" or NaN, an absent group an empty list."""
+"""Attributes, columns and ordered groups of an HDF5 file as plain Python values. An absent
+attribute becomes "" or NaN, an absent group an empty list."""
 from __future__ import annotations
 
 import re
@@ -24,7 +24,10 @@ def columns_of(group: h5py.Group | None) -> list[Column]:
         return []
     sets = [(key, item) for key, item in group.items() if isinstance(item, h5py.Dataset)]
     sets.sort(key=_place)
-    return [Column(plain(key), text_of(attributes_of(item), "unit"), _values(item)) for key, item in sets]
+    return [
+        Column(plain(key), text_of(attributes_of(item), "unit"), _values(item))
+        for key, item in sets
+    ]
 
 
 def _values(data: h5py.Dataset) -> np.ndarray:
@@ -36,7 +39,9 @@ def _values(data: h5py.Dataset) -> np.ndarray:
 
 def in_order(group: h5py.Group, key: str) -> list[tuple[str, h5py.Group]]:
     """Names and groups inside group/key, in the order that they give."""
-    inner = [(name, item) for name, item in group.get(key, {}).items() if isinstance(item, h5py.Group)]
+    inner = [
+        (name, item) for name, item in group.get(key, {}).items() if isinstance(item, h5py.Group)
+    ]
     return [(plain(name), item) for name, item in sorted(inner, key=_place)]
 
 
@@ -50,8 +55,8 @@ def attributes_of(item: h5py.Group | h5py.Dataset) -> dict[str, Any]:
     return {plain(key): _decode(value) for key, value in item.attrs.items()}
 
 
-# Characters that XML, and so SVG and the page, does not allow: control characters, halves of surrogate pairs (which is how bytes
-# that are no UTF-8 come), and two that are no characters.
+# Characters that XML, and so SVG and the page, does not allow: control characters, halves of
+# surrogate pairs (which is how bytes that are no UTF-8 come), and two that are no characters.
 _NO_TEXT = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\ud800-\udfff\ufffe\uffff]")
 
 

@@ -1,11 +1,12 @@
-"""Runs over time: the verdicts of each, and the first run in which something changed. Subtracts, divides and
-sorts; outcomes are the words that the runs stored.
+"""Runs over time: the verdicts of each, and the first run in which something changed. Subtracts,
+divides and sorts; outcomes are the words that the runs stored.
 
 A log is a file of JSON lines, a row for each run:
 
-    {"date": ..., "commit": ..., "version": ..., "tier": ..., "subject": ..., "cpu": ..., "command": ...,
+    {"date": ..., "commit": ..., "version": ..., "tier": ..., "subject": ..., "cpu": ...,
+     "command": ...,
      "counts": {"holds": 1008, ...}, "rulings": {"T1": "confirmed", ...},
-     "costs": {"the whole run": 52.1, "study time-order.hinge": 1.2, "case grab": 0.8, ...},  # seconds
+     "costs": {"the whole run": 52.1, "study time-order.hinge": 1.2, "case grab": 0.8, ...},  # s
      "findings": {NAME: [outcome, measured, bound, seconds], ...}}
 """
 from __future__ import annotations
@@ -48,7 +49,8 @@ class RunRow:
     about: dict[str, str]              # the keys ABOUT
     counts: dict[str, int]             # findings of each outcome
     rulings: dict[str, str]            # by claim
-    costs: dict[str, float]            # of the run, its studies and its cases [s]; empty without run.h5
+    # of the run, its studies and its cases [s]; empty without run.h5
+    costs: dict[str, float]
     findings: dict[str, Judged]
 
     @property
@@ -73,7 +75,10 @@ class Change:
     @property
     def is_regression(self) -> bool:
         """It held, or was ruled as before, and does no longer. A finding that is gone is one."""
-        return self.before in ("holds", "confirmed", "confirmed under a condition") and self.after != self.before
+        return (
+            self.before in ("holds", "confirmed", "confirmed under a condition")
+            and self.after != self.before
+        )
 
 
 @dataclass(frozen=True)
@@ -86,19 +91,26 @@ class MarginChange:
 
 
 def row_of(path: Path) -> RunRow:
-    """The row of a folder's verdicts.json, or of the file itself; findings under today's names. Throws
-    Unreadable naming the file if it holds no finished run."""
+    """The row of a folder's verdicts.json, or of the file itself; findings under today's names.
+    Throws Unreadable naming the file if it holds no finished run."""
     file = path / "verdicts.json" if path.is_dir() else path
     try:
         written = json.loads(file.read_text(encoding="utf-8"))
         about = {name: str(written["program"].get(name, "")) for name in ABOUT}
         now = current_names(about["version"])
         rows = [row for row in written["findings"] if row["kind"] != RULED]
-        findings = {now.get(row["name"], row["name"]): Judged(
-            row["outcome"] or "did not run", *(_number(row[key]) for key in ("measured", "bound", "seconds"))) for row in rows}
+        findings = {
+            now.get(row["name"], row["name"]): Judged(
+                row["outcome"] or "did not run",
+                *(_number(row[key]) for key in ("measured", "bound", "seconds")),
+            )
+            for row in rows
+        }
         rulings = {row["id"]: row["ruling"] for row in written["findings"] if row["kind"] == RULED}
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
-        raise Unreadable(f"{file}: no verdicts of foldproof: {type(error).__name__}: {error}") from error
+        raise Unreadable(
+            f"{file}: no verdicts of foldproof: {type(error).__name__}: {error}"
+        ) from error
     if not findings:
         raise Unreadable(f"{file}: no findings in it; the run was cut off before the first")
     return RunRow(about, dict(Counter(judged.outcome for judged in findings.values())), rulings,
@@ -106,7 +118,8 @@ def row_of(path: Path) -> RunRow:
 
 
 def _costs(file: Path, about: dict[str, str]) -> dict[str, float]:
-    """Seconds that the run beside verdicts.json took; none if it is not there, or is another run's."""
+    """Seconds that the run beside verdicts.json took; none if it is
+    not there, or is another run's."""
     if not file.is_file():
         return {}
     run = with_current_names(load_run(file))
@@ -123,8 +136,8 @@ def _number(value: Any) -> float:
 
 
 def read_log(path: Path) -> list[RunRow]:
-    """The rows of a log, in its order; none if there is no such file. A last line that was cut off is left
-    out. Throws Unreadable naming file and line for any other line that is no row."""
+    """The rows of a log, in its order; none if there is no such file. A last line that was cut off
+    is left out. Throws Unreadable naming file and line for any other line that is no row."""
     if not path.exists():
         return []
     try:
@@ -148,11 +161,15 @@ def _row_of_line(line: str) -> RunRow:
     said = json.loads(line)
     findings = {name: Judged(str(outcome), *(_number(value) for value in numbers))
                 for name, (outcome, *numbers) in said["findings"].items()}
-    return RunRow({name: str(said[name]) for name in ABOUT}, said["counts"], said["rulings"], said["costs"], findings)
+    return RunRow(
+        {name: str(said[name]) for name in ABOUT}, said["counts"], said["rulings"], said["costs"],
+        findings
+    )
 
 
 def append_to_log(path: Path, rows: list[RunRow]) -> int:
-    """Appends those rows that the log does not have, and says how many. Each row is written whole, by one call."""
+    """Appends those rows that the log does not have, and says how many. Each row
+    is written whole, by one call."""
     known = {row.key for row in read_log(path)}
     new = {row.key: row for row in rows if row.key not in known}
     if not new:
@@ -176,9 +193,16 @@ def _repair_end(path: Path) -> None:
 
 
 def _line_of(row: RunRow) -> str:
-    findings = {name: [_written(value) for value in asdict(judged).values()] for name, judged in row.findings.items()}
-    return json.dumps(row.about | {"counts": row.counts, "rulings": row.rulings, "costs": row.costs, "findings": findings},
-                      ensure_ascii=False, separators=(",", ":"))
+    findings = {
+        name: [_written(value) for value in asdict(judged).values()]
+        for name, judged in row.findings.items()
+    }
+    return json.dumps(
+        row.about
+        | {"counts": row.counts, "rulings": row.rulings, "costs": row.costs, "findings": findings},
+        ensure_ascii=False,
+        separators=(",", ":"),
+    )
 
 
 def _written(value: Any) -> Any:
@@ -193,17 +217,24 @@ def in_order(rows: list[RunRow]) -> list[RunRow]:
 
 
 def changes(rows: list[RunRow]) -> list[Change]:
-    """All changes of outcomes and rulings, by run, those for the worse first. A run is compared with
-    the last one before it of the same tier and subject; a run that did not ask everything (`check`,
-    `study`) only in what it asked."""
+    """All changes of outcomes and rulings, by run, those for the worse first. A run is compared
+    with the last one before it of the same tier and subject; a run that did not ask everything
+    (`check`, `study`) only in what it asked."""
     found: list[Change] = []
     for before, run in _neighbours(rows):
         asked_all = is_whole(run) and is_whole(before)
         of_run: list[Change] = []
         for old, new in ((_outcomes(before), _outcomes(run)), (before.rulings, run.rulings)):
-            names = list(old.keys() | new.keys()) if asked_all else [name for name in new if name in old]
-            of_run += [Change(run, name, old.get(name, ""), new.get(name, "")) for name in sorted(names)
-                       if old.get(name, "") != new.get(name, "")]
+            names = (
+                list(old.keys() | new.keys())
+                if asked_all
+                else [name for name in new if name in old]
+            )
+            of_run += [
+                Change(run, name, old.get(name, ""), new.get(name, ""))
+                for name in sorted(names)
+                if old.get(name, "") != new.get(name, "")
+            ]
         found += sorted(of_run, key=lambda change: not change.is_regression)
     return found
 
@@ -215,10 +246,18 @@ def is_whole(row: RunRow) -> bool:
 
 def margin_changes(rows: list[RunRow]) -> list[MarginChange]:
     """Findings that came closer to their bound by CLOSER or more, the largest factor first."""
-    found = [MarginChange(run, name, before.findings[name].margin, judged.margin)
-             for before, run in _neighbours(rows) for name, judged in run.findings.items() if name in before.findings]
-    found = [change for change in found if change.after >= CLOSER * change.before and change.after > 0.01]
-    return sorted(found, key=lambda change: -(change.after / change.before if change.before > 0 else inf))
+    found = [
+        MarginChange(run, name, before.findings[name].margin, judged.margin)
+        for before, run in _neighbours(rows)
+        for name, judged in run.findings.items()
+        if name in before.findings
+    ]
+    found = [
+        change for change in found if change.after >= CLOSER * change.before and change.after > 0.01
+    ]
+    return sorted(
+        found, key=lambda change: -(change.after / change.before if change.before > 0 else inf)
+    )
 
 
 def _outcomes(row: RunRow) -> dict[str, str]:

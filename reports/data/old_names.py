@@ -1,4 +1,5 @@
-"""Names that findings and studies had in version 0.1.0, and those that they have now (scripts/renames.toml)."""
+"""Names that findings and studies had in version 0.1.0, and those that they have now
+(scripts/renames.toml)."""
 from __future__ import annotations
 
 import tomllib
@@ -19,11 +20,20 @@ def current_names(version: str) -> dict[str, str]:
 
 
 def with_current_names(run: Run) -> Run:
-    """The run with its findings and studies called as they are today; itself if it was written after the renames."""
+    """The run with its findings and studies called as they are today; itself if it
+    was written after the renames."""
     now = current_names(str(run.provenance.get("version")))
     if not now:
         return run
-    return replace(run,
-                   findings=[replace(one, name=now.get(one.name, one.name), study=now.get(one.study, one.study)) for one in run.findings],
-                   studies=[replace(one, name=now.get(one.name, one.name)) for one in run.studies],
-                   claims=[replace(one, decided_by=[(now.get(name, name), role) for name, role in one.decided_by]) for one in run.claims])
+    return replace(
+        run,
+        findings=[
+            replace(one, name=now.get(one.name, one.name), study=now.get(one.study, one.study))
+            for one in run.findings
+        ],
+        studies=[replace(one, name=now.get(one.name, one.name)) for one in run.studies],
+        claims=[
+            replace(one, decided_by=[(now.get(name, name), role) for name, role in one.decided_by])
+            for one in run.claims
+        ],
+    )

@@ -1,5 +1,5 @@
-"""How numbers and units are written: three significant digits, a proper minus, powers of ten, and always the
-unit."""
+"""How numbers and units are written: three significant digits, a proper minus,
+powers of ten, and always the unit."""
 from __future__ import annotations
 
 import math
@@ -21,8 +21,8 @@ def superscript(text: str) -> str:
 def split_number(value: float, digits: int = 3) -> tuple[str, int | None]:
     """(mantissa, exponent of ten); the exponent is None where plain decimals read better.
 
-    Whole numbers below 1e7 are written in full. A number that fewer digits write exactly gets no more than it
-    needs: 0.1, not 0.100.
+    Whole numbers below 1e7 are written in full. A number that fewer digits write exactly gets no
+    more than it needs: 0.1, not 0.100.
     """
     if is_count(value):
         return (MINUS if value < 0 else "") + _group_digits(str(abs(int(value)))), None
@@ -36,7 +36,8 @@ def is_count(value: float) -> bool:
 
 
 def round_number(value: float, digits: int = 3) -> tuple[str, int | None]:
-    """As split_number, but a whole number is rounded like any other. NaN and infinities are named."""
+    """As split_number, but a whole number is rounded like any
+    other. NaN and infinities are named."""
     if math.isnan(value):
         return "NaN", None
     if math.isinf(value):
@@ -81,7 +82,9 @@ def _mark_up(value: float, mantissa: str, exponent: int | None) -> Markup:
     power = "" if exponent is None else Markup("{}×{}10<sup>{}</sup>").format(
         "\u200a", "\u200a", str(exponent).replace("-", MINUS))
     if math.isfinite(value) and not is_count(value) and float(f"{value:.2e}") != value:
-        return Markup('<span class="n" title="{}">{}{}</span>').format(f"{value:.17g}", mantissa, power)
+        return Markup('<span class="n" title="{}">{}{}</span>').format(
+            f"{value:.17g}", mantissa, power
+        )
     return Markup('<span class="n">{}{}</span>').format(mantissa, power)
 
 
@@ -106,14 +109,18 @@ def quantity_html(value: float, unit: str) -> Markup:
 
 
 def cells_html(values: Iterable[object]) -> list[Markup]:
-    """The cells of one column: texts, or numbers written in one manner (all whole, or all rounded)."""
+    """The cells of one column: texts, or numbers written in one
+    manner (all whole, or all rounded)."""
     values = list(values)
     if any(isinstance(value, str) for value in values):
         return [escape(value) for value in values]
     numbers = [float(value) for value in values]  # type: ignore[arg-type]
     if all(is_count(value) or not math.isfinite(value) for value in numbers):
         return [known_html(value) for value in numbers]
-    return [known_html(value) if math.isnan(value) else _mark_up(value, *round_number(value)) for value in numbers]
+    return [
+        known_html(value) if math.isnan(value) else _mark_up(value, *round_number(value))
+        for value in numbers
+    ]
 
 
 def seconds_html(value: float) -> Markup:

@@ -3,8 +3,8 @@
     run = load_run("results/run.h5")
     case = load_case("results/hanging_sheet.h5"); x = case.positions(-1)     # N x 3 [m]
 
-Reading never decides anything: outcomes are the strings that the program wrote. An absent attribute becomes
-"" or NaN, an absent group an empty list. Nothing large is read before it is asked for.
+Reading never decides anything: outcomes are the strings that the program wrote. An absent attribute
+becomes "" or NaN, an absent group an empty list. Nothing large is read before it is asked for.
 """
 from __future__ import annotations
 
@@ -19,14 +19,16 @@ import h5py
 import numpy as np
 
 from data.damage import why_unreadable
-from data.hdf5_values import Column, attributes_of, columns_of, in_order, number_of, text_of, texts_of
+from data.hdf5_values import (
+    Column, attributes_of, columns_of, in_order, number_of, text_of, texts_of
+)
 from data.unreadable import Unreadable, reading
 
 
 @dataclass
 class Finding:
-    """One answered question. It held iff measured + uncertainty <= bound; `outcome` says so, as written by
-    the program."""
+    """One answered question. It held iff measured + uncertainty <= bound; `outcome` says so, as
+    written by the program."""
     name: str
     kind: str          # "check" | "study" | "validation" | "bench"
     study: str
@@ -43,16 +45,18 @@ class Finding:
     better: str        # "higher" | "lower" for "bench", else ""
     faults: list[str]
     evidence: list[Column]
-    basis: str = ""      # of the bound: "reasoned" | "empirical"; "" in files that do not hold it, as the next two
+    # of the bound: "reasoned" | "empirical"; "" in files that do not hold it, as the next two
+    basis: str = ""
     scope: str = ""      # "specific" | "generic" | "structural"
-    certainty: str = ""  # "estimated" | "counted" | "within bound" | "computed" | "timed once" | "structural"
+    # "estimated" | "counted" | "within bound" | "computed" | "timed once" | "structural"
+    certainty: str = ""
 
 
 @dataclass
 class Curve:
-    """y against x; points below `floor` mean nothing (NaN: no floor). pair_orders has one entry less than x,
-    or is None. `slope` is the one expected in log-log axes (NaN: none). marks has one entry for each point,
-    or is None."""
+    """y against x; points below `floor` mean nothing (NaN: no floor). pair_orders has one entry
+    less than x, or is None. `slope` is the one expected in log-log axes (NaN: none). marks has one
+    entry for each point, or is None."""
     label: str
     x: np.ndarray
     y: np.ndarray
@@ -155,7 +159,8 @@ class Fault:
     caught_by: list[str]
     outcome: str       # "caught" | "SURVIVED" | "not run"
     caught_by_tests: list[str] = field(default_factory=list)   # names of test cases
-    checks: list[FaultCheck] = field(default_factory=list)     # of those that are named; empty if it was not run
+    # of those that are named; empty if it was not run
+    checks: list[FaultCheck] = field(default_factory=list)
 
 
 @dataclass
@@ -181,7 +186,8 @@ class CaseObject:
     shape: str = ""                        # of the case file: "half_space", "sphere", "mesh", ...
 
     def positions(self, frame: int) -> np.ndarray:
-        """Its vertices in one frame, V x 3 [m]: v + 2 w (q x v) + 2 q x (q x v), then moved; or as stored."""
+        """Its vertices in one frame, V x 3 [m]: v + 2 w (q x v) + 2 q x (q
+        x v), then moved; or as stored."""
         if self.deformed is not None:
             return self.deformed[frame]
         w, q = self.rotation[frame, 0], self.rotation[frame, 1:]
@@ -209,14 +215,15 @@ class Case:
             return np.asarray(data[frame % data.shape[0]], dtype=float)
 
     def every_frame(self, quantity: str) -> np.ndarray | None:
-        """The "positions" [m] or "velocities" [m/s] of all particles in all frames, T x N x 3, or their
-        "object_distance" [m], T x N; None if the file has none."""
+        """The "positions" [m] or "velocities" [m/s] of all particles in all frames, T x N x 3, or
+        their "object_distance" [m], T x N; None if the file has none."""
         with h5py.File(self.path, "r") as file:
             data = file.get(f"frames/{quantity}")
             return None if data is None else np.asarray(data, dtype=float)
 
     def stuck(self, frame: int) -> np.ndarray | None:
-        """N, true for particles that stick to something in one frame; None if nothing in the case is sticky."""
+        """N, true for particles that stick to something in one frame; None if
+        nothing in the case is sticky."""
         with h5py.File(self.path, "r") as file:
             if "sticky/bond_counts" not in file:
                 return None
@@ -230,7 +237,11 @@ class Case:
     def rest_positions(self) -> np.ndarray | None:
         """Rest positions of all particles, N x 3 [m]; None if the file has none."""
         with h5py.File(self.path, "r") as file:
-            return np.asarray(file["mesh/rest_positions"], dtype=float) if "mesh/rest_positions" in file else None
+            return (
+                np.asarray(file["mesh/rest_positions"], dtype=float)
+                if "mesh/rest_positions" in file
+                else None
+            )
 
 
 @dataclass
@@ -255,19 +266,26 @@ def reading_hdf5(path: Path) -> Iterator[None]:
 
 
 def load_run(path: str | Path) -> Run:
-    """Reads run.h5 or bench.h5. Throws Unreadable naming the file if it cannot be opened, or is damaged."""
+    """Reads run.h5 or bench.h5. Throws Unreadable naming the file if it
+    cannot be opened, or is damaged."""
     path = Path(path)
     with reading_hdf5(path), h5py.File(path, "r") as file:
-        return Run(path=path, provenance=attributes_of(file),
-                   findings=[_finding(name, group) for name, group in in_order(file, "findings")],
-                   studies=[_study(name, group) for name, group in in_order(file, "studies")],
-                   cases=[_case_entry(name, group, path.parent) for name, group in in_order(file, "cases")],
-                   faults=_with_outcomes(_faults(file), path.parent / "faults.json"),
-                   claims=[_claim(name, group) for name, group in in_order(file, "claims")])
+        return Run(
+            path=path,
+            provenance=attributes_of(file),
+            findings=[_finding(name, group) for name, group in in_order(file, "findings")],
+            studies=[_study(name, group) for name, group in in_order(file, "studies")],
+            cases=[
+                _case_entry(name, group, path.parent) for name, group in in_order(file, "cases")
+            ],
+            faults=_with_outcomes(_faults(file), path.parent / "faults.json"),
+            claims=[_claim(name, group) for name, group in in_order(file, "claims")],
+        )
 
 
 def load_case(path: str | Path) -> Case:
-    """Reads one simulation but its frames. Throws Unreadable naming the file if it is not one, or is damaged."""
+    """Reads one simulation but its frames. Throws Unreadable naming the file
+    if it is not one, or is damaged."""
     path = Path(path)
     with reading_hdf5(path), h5py.File(path, "r") as file:
         for needed in ("mesh/triangles", "frames/time", "frames/positions"):
@@ -275,12 +293,15 @@ def load_case(path: str | Path) -> Case:
                 raise Unreadable(f"{path}: no simulation of foldproof: it has no /{needed}")
         nobody = np.zeros(file["frames/positions"].shape[1], bool)
         held = np.asarray(file["mesh/held"], dtype=bool) if "mesh/held" in file else nobody
-        return Case(path=path, about_run=attributes_of(file), held=held,
-                    triangles=np.asarray(file["mesh/triangles"], dtype=np.int64).reshape(-1, 3),
-                    frame_times=np.asarray(file["frames/time"], dtype=float), objects=[_object(group) for group in file.get("objects", {}).values()],
-                    findings=[_finding(name, group) for name, group in file.get("findings", {}).items()],
-                    diagnostics={column.name: column for column in columns_of(file.get("diagnostics"))},
-                    gravity=_gravity(file))
+        return Case(
+            path=path, about_run=attributes_of(file), held=held,
+            triangles=np.asarray(file["mesh/triangles"], dtype=np.int64).reshape(-1, 3),
+            frame_times=np.asarray(file["frames/time"], dtype=float),
+            objects=[_object(group) for group in file.get("objects", {}).values()],
+            findings=[_finding(name, group) for name, group in file.get("findings", {}).items()],
+            diagnostics={column.name: column for column in columns_of(file.get("diagnostics"))},
+            gravity=_gravity(file)
+        )
 
 
 def _gravity(file: h5py.File) -> np.ndarray | None:
@@ -288,11 +309,18 @@ def _gravity(file: h5py.File) -> np.ndarray | None:
 
 
 def _object(group: h5py.Group) -> CaseObject:
-    names = {"vertices": "vertices", "rotation": "rotation", "translation": "translation", "positions": "deformed"}
-    arrays = {field: np.asarray(group[key], dtype=float) for key, field in names.items() if key in group}
+    names = {
+        "vertices": "vertices", "rotation": "rotation", "translation": "translation",
+        "positions": "deformed"
+    }
+    arrays = {
+        field: np.asarray(group[key], dtype=float) for key, field in names.items() if key in group
+    }
     attributes = attributes_of(group)
-    return CaseObject(name=text_of(attributes, "name"), shape=text_of(attributes, "shape"), **arrays,
-                      triangles=np.asarray(group["triangles"], dtype=np.int64).reshape(-1, 3))
+    return CaseObject(
+        name=text_of(attributes, "name"), shape=text_of(attributes, "shape"), **arrays,
+        triangles=np.asarray(group["triangles"], dtype=np.int64).reshape(-1, 3)
+    )
 
 
 def case_entry_of_file(path: Path) -> CaseEntry | None:
@@ -304,47 +332,69 @@ def case_entry_of_file(path: Path) -> CaseEntry | None:
             attributes = attributes_of(file)
     except Unreadable:
         return None
-    return CaseEntry(name=text_of(attributes, "case_name") or path.stem, title=text_of(attributes, "title") or path.stem,
-                     about=text_of(attributes, "about"), seconds=number_of(attributes, "seconds"),
-                     stopped=text_of(attributes, "stopped"),
-                     path=path)
+    return CaseEntry(
+        name=text_of(attributes, "case_name") or path.stem,
+        title=text_of(attributes, "title") or path.stem, about=text_of(attributes, "about"),
+        seconds=number_of(attributes, "seconds"), stopped=text_of(attributes, "stopped"), path=path
+    )
 
 
 def _finding(name: str, group: h5py.Group) -> Finding:
     attributes = attributes_of(group)
-    texts = {key: text_of(attributes, key) for key in
-             ("kind", "study", "claim", "source", "unit", "why_bound", "outcome", "note", "better", "basis", "scope", "certainty")}
-    numbers = {key: number_of(attributes, key) for key in ("measured", "bound", "uncertainty", "seconds")}
+    texts = {
+        key: text_of(attributes, key)
+        for key in (
+            "kind", "study", "claim", "source", "unit", "why_bound", "outcome", "note", "better",
+            "basis", "scope", "certainty"
+        )
+    }
+    numbers = {
+        key: number_of(attributes, key) for key in ("measured", "bound", "uncertainty", "seconds")
+    }
     return Finding(name=name, **texts, **numbers, faults=texts_of(attributes, "faults"),
                    evidence=columns_of(group.get("evidence")))
 
 
 def _study(name: str, group: h5py.Group) -> Study:
     attributes = attributes_of(group)
-    return Study(name=name, claim=text_of(attributes, "claim"), source=text_of(attributes, "source"),
-                 about=text_of(attributes, "about"),
-                 seconds=number_of(attributes, "seconds"),
-                 figures=[_figure(key, figure) for key, figure in in_order(group, "figures")],
-                 maps=[_map(key, group) for key, group in in_order(group, "maps")],
-                 tables=[Table(text_of(attributes_of(table), "title") or key, columns_of(table))
-                         for key, table in in_order(group, "tables")])
+    return Study(
+        name=name,
+        claim=text_of(attributes, "claim"),
+        source=text_of(attributes, "source"),
+        about=text_of(attributes, "about"),
+        seconds=number_of(attributes, "seconds"),
+        figures=[_figure(key, figure) for key, figure in in_order(group, "figures")],
+        maps=[_map(key, group) for key, group in in_order(group, "maps")],
+        tables=[
+            Table(text_of(attributes_of(table), "title") or key, columns_of(table))
+            for key, table in in_order(group, "tables")
+        ],
+    )
 
 
 def _figure(name: str, group: h5py.Group) -> StudyFigure:
     attributes = attributes_of(group)
-    return StudyFigure(name=name, **_axes(attributes), slope=number_of(attributes, "slope"), curves=_curves(group))
+    return StudyFigure(
+        name=name, **_axes(attributes), slope=number_of(attributes, "slope"), curves=_curves(group)
+    )
 
 
 def _map(name: str, group: h5py.Group) -> StudyMap:
     attributes = attributes_of(group)
     x, y = (np.asarray(group[key], dtype=float) for key in "xy")
-    return StudyMap(name=name, **_axes(attributes), quantity=text_of(attributes, "quantity"), unit=text_of(attributes, "unit"),
-                    scale=text_of(attributes, "scale") or "linear", x=x, y=y, curves=_curves(group),
-                    values=np.asarray(group["values"], dtype=float).reshape(len(y), len(x)))
+    return StudyMap(
+        name=name, **_axes(attributes), quantity=text_of(attributes, "quantity"),
+        unit=text_of(attributes, "unit"), scale=text_of(attributes, "scale") or "linear", x=x, y=y,
+        curves=_curves(group),
+        values=np.asarray(group["values"], dtype=float).reshape(len(y), len(x))
+    )
 
 
 def _axes(attributes: dict[str, Any]) -> dict[str, str]:
-    texts = {key: text_of(attributes, key) for key in ("title", "caption", "x_label", "x_unit", "y_label", "y_unit")}
+    texts = {
+        key: text_of(attributes, key)
+        for key in ("title", "caption", "x_label", "x_unit", "y_label", "y_unit")
+    }
     return texts | {key: text_of(attributes, key) or "linear" for key in ("x_scale", "y_scale")}
 
 
@@ -357,15 +407,21 @@ def _curve(name: str, group: h5py.Group) -> Curve:
     orders = np.asarray(group["pair_orders"], dtype=float) if "pair_orders" in group else None
     x, y = (np.asarray(group[key], dtype=float) for key in "xy")
     marks = group["marks"].asstr()[:] if "marks" in group else None
-    return Curve(label=text_of(attributes, "label") or name, floor=number_of(attributes, "floor"), pair_orders=orders,
-                 slope=number_of(attributes, "slope"), x=x, y=y, marks=marks)
+    return Curve(
+        label=text_of(attributes, "label") or name, floor=number_of(attributes, "floor"),
+        pair_orders=orders, slope=number_of(attributes, "slope"), x=x, y=y, marks=marks
+    )
 
 
 def _claim(name: str, group: h5py.Group) -> Claim:
     attributes = attributes_of(group)
-    texts = {key: text_of(attributes, key)
-             for key in ("section", "statement", "ruling", "recorded", "condition", "why", "begins", "printed", "restored",
-                         "paper", "paper_title", "missing")}
+    texts = {
+        key: text_of(attributes, key)
+        for key in (
+            "section", "statement", "ruling", "recorded", "condition", "why", "begins", "printed",
+            "restored", "paper", "paper_title", "missing"
+        )
+    }
     names, roles = texts_of(attributes, "decided_by"), texts_of(attributes, "roles")
     paragraph = number_of(attributes, "paragraph")
     return Claim(name=name, **texts, decided_by=list(zip(names, roles + [""] * len(names))),
@@ -374,9 +430,11 @@ def _claim(name: str, group: h5py.Group) -> Claim:
 
 def _case_entry(name: str, group: h5py.Group, folder: Path) -> CaseEntry:
     attributes = attributes_of(group)
-    return CaseEntry(name=name, title=text_of(attributes, "title") or name, about=text_of(attributes, "about"),
-                     seconds=number_of(attributes, "seconds"), stopped=text_of(attributes, "stopped"),
-                     path=folder / Path(text_of(attributes, "file") or f"{name}.h5").name)
+    return CaseEntry(
+        name=name, title=text_of(attributes, "title") or name, about=text_of(attributes, "about"),
+        seconds=number_of(attributes, "seconds"), stopped=text_of(attributes, "stopped"),
+        path=folder / Path(text_of(attributes, "file") or f"{name}.h5").name
+    )
 
 
 def _with_outcomes(faults: list[Fault], file: Path) -> list[Fault]:
@@ -385,14 +443,22 @@ def _with_outcomes(faults: list[Fault], file: Path) -> list[Fault]:
         return faults
     with reading(file):
         rows = {row["name"]: row for row in json.loads(file.read_text(encoding="utf-8"))["faults"]}
-        return [_with_outcome(fault, rows[fault.name]) if fault.name in rows else fault for fault in faults]
+        return [
+            _with_outcome(fault, rows[fault.name]) if fault.name in rows else fault
+            for fault in faults
+        ]
 
 
 def _with_outcome(fault: Fault, row: dict[str, Any]) -> Fault:
     def number(value: float | None) -> float:
         return float("nan") if value is None else value
-    checks = [FaultCheck(attributes["name"], attributes["outcome"], *(number(attributes[key]) for key in ("measured", "bound", "margin")))
-              for attributes in row.get("checks", [])]
+    checks = [
+        FaultCheck(
+            attributes["name"], attributes["outcome"],
+            *(number(attributes[key]) for key in ("measured", "bound", "margin"))
+        )
+        for attributes in row.get("checks", [])
+    ]
     return replace(fault, outcome=row["outcome"], checks=checks)
 
 
@@ -401,6 +467,11 @@ def _faults(file: h5py.File) -> list[Fault]:
                for column in columns_of(file.get("faults"))}
     keys = ("name", "file", "find", "replace", "law", "caught_by", "outcome", "caught_by_tests")
     rows = zip(*(columns.get(key, [""] * len(columns.get("name", []))) for key in keys))
-    return [Fault(name, where, find, replace, law,
-                  [part.strip() for part in caught.split(",") if part.strip()], outcome, [test for test in tests.split("\n") if test])
-            for name, where, find, replace, law, caught, outcome, tests in rows]
+    return [
+        Fault(
+            name, where, find, replace, law,
+            [part.strip() for part in caught.split(",") if part.strip()], outcome,
+            [test for test in tests.split("\n") if test]
+        )
+        for name, where, find, replace, law, caught, outcome, tests in rows
+    ]

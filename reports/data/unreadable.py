@@ -17,7 +17,8 @@ def one_line(error: BaseException) -> str:
 
 @contextmanager
 def reading(path: Path) -> Iterator[None]:
-    """Whatever goes wrong inside is told as that the file cannot be read: a damaged one may hold anything."""
+    """Whatever goes wrong inside is told as that the file cannot be read: a
+    damaged one may hold anything."""
     try:
         yield
     except Unreadable:

@@ -6,8 +6,8 @@ from pathlib import Path
 
 
 def write_whole(path: Path, content: bytes) -> None:
-    """Writes the file under the name PATH.partial, has it on the disk, and renames it. Throws OSError; what was at the
-    path is then still there, and no partial file is left."""
+    """Writes the file under the name PATH.partial, has it on the disk, and renames it. Throws
+    OSError; what was at the path is then still there, and no partial file is left."""
     partial = path.with_name(path.name + ".partial")
     try:
         with open(partial, "wb") as file:
@@ -22,7 +22,8 @@ def write_whole(path: Path, content: bytes) -> None:
 
 
 def _sync_folder(folder: Path) -> None:
-    """The new name is on the disk when its folder is; where folders cannot be synced, the system's word has to do."""
+    """The new name is on the disk when its folder is; where folders cannot be
+    synced, the system's word has to do."""
     try:
         descriptor = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
     except PermissionError:

@@ -1,5 +1,5 @@
-"""The answer to which integrator is cheapest, from the tables of a study. Arranges what the program wrote; decides
-nothing."""
+"""The answer to which integrator is cheapest, from the tables of a study. Arranges what the program
+wrote; decides nothing."""
 from __future__ import annotations
 
 from collections.abc import Iterable
@@ -10,16 +10,22 @@ from data.results import Column, Study, Table
 
 NEEDED = ("scene", "error wanted", "by", "cheapest method")
 # Columns that name a method, or None for scheme C, and the column of the factor that it costs more.
-OTHERS = (("next best", "it costs this many times as much"), (None, "C costs this many times as much"))
+OTHERS = (
+    ("next best", "it costs this many times as much"),
+    (None, "C costs this many times as much"),
+)
 
 
 @dataclass
 class Choice:
-    """The cheapest method for one motion and one error, and others with the factor that they cost more."""
+    """The cheapest method for one motion and one error, and others with
+    the factor that they cost more."""
     method: str
     others: list[tuple[str, float]]             # NaN: does not reach that error
-    alike: list[str] = field(default_factory=list)   # methods that the tried steps do not tell from it
-    disagrees: str = ""                         # "B by seconds", where another measure has another winner beyond its ties
+    # methods that the tried steps do not tell from it
+    alike: list[str] = field(default_factory=list)
+    # "B by seconds", where another measure has another winner beyond its ties
+    disagrees: str = ""
 
 
 @dataclass
@@ -32,19 +38,24 @@ class Cheapest:
 
 
 def cheapest_of(studies: Iterable[Study]) -> Cheapest | None:
-    """From the first table that has the columns NEEDED; by the measure that it names first. None if there is none."""
+    """From the first table that has the columns NEEDED; by the measure that it
+    names first. None if there is none."""
     for study in studies:
         for table in study.tables:
             rows = _rows(table)
             if rows and all(key in rows[0] for key in NEEDED):
-                unit = next(column.unit for column in table.columns if _name(column) == "error wanted")
+                unit = next(
+                    column.unit for column in table.columns if _name(column) == "error wanted"
+                )
                 return _arrange(rows, unit)
     return None
 
 
 def _rows(table: Table) -> list[dict[str, object]]:
     names = [_name(column) for column in table.columns]
-    return [dict(zip(names, values)) for values in zip(*(column.values for column in table.columns))]
+    return [
+        dict(zip(names, values)) for values in zip(*(column.values for column in table.columns))
+    ]
 
 
 def _name(column: Column) -> str:
@@ -59,7 +70,10 @@ def _arrange(rows: list[dict[str, object]], unit: str) -> Cheapest:
     for row in rows:
         if (choice := found.get(_place(row))) and row["by"] != by:
             _compare(choice, row)
-    return Cheapest(by, errors, unit, [(scene, [found.get((scene, error)) for error in errors]) for scene in scenes])
+    return Cheapest(
+        by, errors, unit,
+        [(scene, [found.get((scene, error)) for error in errors]) for scene in scenes]
+    )
 
 
 def _place(row: dict[str, object]) -> tuple[str, float]:
@@ -82,6 +96,8 @@ def _choice(row: dict[str, object]) -> Choice:
     for named, factor in OTHERS:
         other = str(row.get(named, "C")) if named else "C"
         costs = float(row.get(factor, float("nan")))
-        if other not in (method, *alike, *(name for name, _ in others)) and not (named and isnan(costs)):
+        if other not in (method, *alike, *(name for name, _ in others)) and not (
+            named and isnan(costs)
+        ):
             others.append((other, costs))
     return Choice(method, others, alike)

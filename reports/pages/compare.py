@@ -1,5 +1,5 @@
-"""Two runs side by side: what differs in provenance, verdicts, rulings, margins and costs. Subtracts, divides and sorts;
-verdicts and rulings are the words that the two runs stored."""
+"""Two runs side by side: what differs in provenance, verdicts, rulings, margins and costs.
+Subtracts, divides and sorts; verdicts and rulings are the words that the two runs stored."""
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
@@ -13,11 +13,14 @@ from data.quantities import ratio_of
 from data.results import CaseEntry, Claim, Finding, Run, Study, load_case, load_run
 from data.unreadable import Unreadable
 
-COUNTED = ("operator applications", "evaluations", "elastic evaluations")   # columns of studies that count work
-PROVENANCE = (("subject", "subject"), ("subject version", "subject_version"), ("program", "program"), ("version", "version"),
-              ("commit", "commit"), ("tree", "tree"), ("compiler", "compiler"), ("flags", "flags"), ("build", "build_type"),
-              ("processor", "cpu"), ("cores", "cores"), ("date", "date"), ("tier", "tier"), ("seed", "seed"),
-              ("command", "command"))
+# columns of studies that count work
+COUNTED = ("operator applications", "evaluations", "elastic evaluations")
+PROVENANCE = (
+    ("subject", "subject"), ("subject version", "subject_version"), ("program", "program"),
+    ("version", "version"), ("commit", "commit"), ("tree", "tree"), ("compiler", "compiler"),
+    ("flags", "flags"), ("build", "build_type"), ("processor", "cpu"), ("cores", "cores"),
+    ("date", "date"), ("tier", "tier"), ("seed", "seed"), ("command", "command")
+)
 
 
 @dataclass
@@ -34,13 +37,19 @@ class Side:
 
     def rates(self) -> list[Finding]:
         """Rates of work, of bench.h5 and of the run itself."""
-        return [finding for part in (self.run, self.bench) if part for finding in part.findings if finding.kind == "bench"]
+        return [
+            finding
+            for part in (self.run, self.bench)
+            if part
+            for finding in part.findings
+            if finding.kind == "bench"
+        ]
 
 
 @dataclass
 class Change:
-    """A finding of both runs, and how many times as large its measured/bound is in B; inf where A's is zero, NaN where
-    one of the two says nothing."""
+    """A finding of both runs, and how many times as large its measured/bound is in B; inf where A's
+    is zero, NaN where one of the two says nothing."""
     a: Finding
     b: Finding
     factor: float
@@ -67,7 +76,8 @@ class Comparison:
     margins: list[Change]                   # whose measured/bound differs, the largest factor first
     unscaled: list[Change]                  # measured otherwise, where a ratio says nothing
     bounds: list[Change]                    # whose bound differs
-    unchanged: int                          # findings of both runs that measured the same against the same bound
+    # findings of both runs that measured the same against the same bound
+    unchanged: int
     seconds: list[Cost]
     work: list[Cost]
     rates: list[Cost]
@@ -84,34 +94,66 @@ def compare(a: Side, b: Side) -> Comparison:
     rates, _, _ = _match(a.rates(), b.rates())
     claims, _, _ = _match(a.run.claims, b.run.claims)
     return Comparison(
-        a, b, provenance=[(label, a.run.provenance.get(key, ""), b.run.provenance.get(key, "")) for label, key in PROVENANCE
-                          if key in a.run.provenance or key in b.run.provenance],
+        a,
+        b,
+        provenance=[
+            (label, a.run.provenance.get(key, ""), b.run.provenance.get(key, ""))
+            for label, key in PROVENANCE
+            if key in a.run.provenance or key in b.run.provenance
+        ],
         rulings=[(one, other) for one, other in claims if one.ruling != other.ruling],
         verdicts=[change for change in changes if change.a.outcome != change.b.outcome],
-        margins=sorted((change for change in measured if change.factor == change.factor and change.factor != 1.0),
-                       key=lambda change: -_size(change.factor)),
-        unscaled=[change for change in measured if change.factor != change.factor
-                  and not _same(change.a.measured, change.b.measured)],
-        bounds=[change for change in measured if not _same(change.a.bound, change.b.bound) or change.a.unit != change.b.unit],
+        margins=sorted(
+            (
+                change
+                for change in measured
+                if change.factor == change.factor and change.factor != 1.0
+            ),
+            key=lambda change: -_size(change.factor),
+        ),
+        unscaled=[
+            change
+            for change in measured
+            if change.factor != change.factor and not _same(change.a.measured, change.b.measured)
+        ],
+        bounds=[
+            change
+            for change in measured
+            if not _same(change.a.bound, change.b.bound) or change.a.unit != change.b.unit
+        ],
         unchanged=len(changes) - len(measured),
-        seconds=_by_factor(_seconds(a, b)), work=_by_factor(_work(a, b)),
-        rates=_by_factor(Cost(one.claim, one.unit, one.measured, other.measured, ratio_of(other.measured, one.measured))
-                         for one, other in rates if one.unit == other.unit),
-        only_a=only_a, only_b=only_b)
+        seconds=_by_factor(_seconds(a, b)),
+        work=_by_factor(_work(a, b)),
+        rates=_by_factor(
+            Cost(
+                one.claim, one.unit, one.measured, other.measured,
+                ratio_of(other.measured, one.measured)
+            )
+            for one, other in rates
+            if one.unit == other.unit
+        ),
+        only_a=only_a,
+        only_b=only_b,
+    )
 
 
 def read_side(letter: str, given: Path) -> Side:
-    """A run from its folder or its file, its findings under today's names. Throws Unreadable if it is none."""
+    """A run from its folder or its file, its findings under today's names.
+    Throws Unreadable if it is none."""
     file = given / "run.h5" if given.is_dir() else given
     bench = file.parent / "bench.h5"
     run = load_run(file)
     if not (run.findings or run.studies or run.claims):
-        raise Unreadable(f"{file}: no run of foldproof: it holds no findings, no studies and no claims")
+        raise Unreadable(
+            f"{file}: no run of foldproof: it holds no findings, no studies and no claims"
+        )
     beside = with_current_names(load_run(bench)) if bench.is_file() and bench != file else None
     return Side(letter, str(given), with_current_names(run), beside)
 
 
-def _match(a: Iterable[Any], b: Iterable[Any]) -> tuple[list[tuple[Any, Any]], list[Any], list[Any]]:
+def _match(
+    a: Iterable[Any], b: Iterable[Any]
+) -> tuple[list[tuple[Any, Any]], list[Any], list[Any]]:
     """Items in both, by name, in B's order; items only in A; items only in B."""
     of_a, of_b = ({item.name: item for item in items} for items in (a, b))
     return ([(of_a[name], item) for name, item in of_b.items() if name in of_a],
@@ -149,7 +191,10 @@ def _seconds(a: Side, b: Side) -> Iterable[Cost]:
     """Time of the whole run, of each study, of each case."""
     whole = [float(side.run.provenance.get("seconds", nan)) for side in (a, b)]
     yield _pair("the whole run", "s", *whole)
-    for kind, items in (("study", lambda side: side.run.studies), ("case", lambda side: side.run.cases)):
+    for kind, items in (
+        ("study", lambda side: side.run.studies),
+        ("case", lambda side: side.run.cases),
+    ):
         for one, other in _match(items(a), items(b))[0]:
             if one.seconds == one.seconds and other.seconds == other.seconds:
                 yield _pair(f"{kind} {one.name}", "s", one.seconds, other.seconds)
@@ -163,7 +208,9 @@ def _work(a: Side, b: Side) -> Iterable[Cost]:
         yield from _pairs(f"case {one.name}", _work_of_case, one, other)
 
 
-def _pairs(name: str, count: Callable[[Any], dict[str, float]], one: Any, other: Any) -> Iterable[Cost]:
+def _pairs(
+    name: str, count: Callable[[Any], dict[str, float]], one: Any, other: Any
+) -> Iterable[Cost]:
     before, after = count(one), count(other)
     for what in before:
         if what in after:

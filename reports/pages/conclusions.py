@@ -1,5 +1,6 @@
-"""Five conclusions of a run in plain English. Each is a sentence whose numbers are looked up in the run; it is made
-only where the findings that it rests on are there, and says so where one of them does not hold."""
+"""Five conclusions of a run in plain English. Each is a sentence whose numbers are looked up in the
+run; it is made only where the findings that it rests on are there, and says so
+where one of them does not hold."""
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
@@ -16,8 +17,10 @@ MOST_REFUTED = 4           # claims that are quoted
 class Results:
     """What a run found, by name."""
 
-    def __init__(self, findings: Iterable[Finding], studies: Iterable[Study], claims: Iterable[ClaimView],
-                 anchor: Callable[[str], str]) -> None:
+    def __init__(
+        self, findings: Iterable[Finding], studies: Iterable[Study], claims: Iterable[ClaimView],
+        anchor: Callable[[str], str]
+    ) -> None:
         self.findings = {finding.name: finding for finding in findings}
         self.studies = {study.name: study for study in studies}
         self.claims = list(claims)
@@ -25,37 +28,54 @@ class Results:
 
     def named(self, start: str, end: str = "") -> list[Finding]:
         """Findings by the ends of their names; those that were not applicable left out."""
-        return [finding for name, finding in self.findings.items()
-                if name.startswith(start) and name.endswith(end) and finding.outcome != "not applicable"]
+        return [
+            finding
+            for name, finding in self.findings.items()
+            if name.startswith(start) and name.endswith(end) and finding.outcome != "not applicable"
+        ]
 
     def rows(self, study: str, *columns: str) -> list[dict[str, object]]:
         """Rows of the first table of a study that has these columns; none if there is none."""
         tables = self.studies[study].tables if study in self.studies else []
-        return next((rows for table in tables if (rows := rows_of(table)) and set(columns) <= set(rows[0])), [])
+        return next(
+            (rows for table in tables if (rows := rows_of(table)) and set(columns) <= set(rows[0])),
+            [],
+        )
 
     def guarded(self, pieces: list[Piece], rests_on: Iterable[Finding]) -> list[Piece]:
-        """The sentence; if a finding that it rests on does not hold, that instead. Nothing without any."""
+        """The sentence; if a finding that it rests on does not hold,
+        that instead. Nothing without any."""
         found = list(rests_on)
         broken = [finding for finding in found if finding.outcome != "holds"]
         if not found:
             return []
         if broken:
-            return ["Not shown by this run: ", self.quoted(broken[0]), f" {broken[0].outcome or 'has no outcome'}. "]
+            return [
+                "Not shown by this run: ", self.quoted(broken[0]),
+                f" {broken[0].outcome or 'has no outcome'}. "
+            ]
         return pieces
 
     def quoted(self, finding: Finding) -> Quoted:
-        return Quoted(finding.name, f"finding {finding.name}", self.anchor(finding.name), is_name=True)
+        return Quoted(
+            finding.name, f"finding {finding.name}", self.anchor(finding.name), is_name=True
+        )
 
 
 def rows_of(table: Table) -> list[dict[str, object]]:
     """A table as rows."""
     names = [column.name.replace("_", " ") for column in table.columns]
-    return [dict(zip(names, values)) for values in zip(*(column.values for column in table.columns))]
+    return [
+        dict(zip(names, values)) for values in zip(*(column.values for column in table.columns))
+    ]
 
 
 def conclusions_of(results: Results, is_brief: bool = False) -> list[Conclusion]:
     """The conclusions that the run allows. Brief ones name claims and do not tell them."""
-    made = (_paper(results, is_brief), *(make(results) for make in (_integrator, _steps, _mesh, _contact)))
+    made = (
+        _paper(results, is_brief),
+        *(make(results) for make in (_integrator, _steps, _mesh, _contact)),
+    )
     return [conclusion for conclusion in made if conclusion]
 
 
@@ -64,17 +84,37 @@ def _paper(results: Results, is_brief: bool) -> Conclusion | None:
     if not results.claims:
         return None
     counted = dict(count_rulings(view.claim for view in results.claims))
-    parts = [[Number(count, "1", f"claims that are {ruling}"), " is " if count == 1 else " are ", Quoted(ruling, "rulings")]
-             for ruling, count in counted.items()]
+    parts = [
+        [
+            Number(count, "1", f"claims that are {ruling}"), " is " if count == 1 else " are ",
+            Quoted(ruling, "rulings")
+        ]
+        for ruling, count in counted.items()
+    ]
     refuted = [view.claim for view in results.claims if view.claim.ruling == "refuted"]
-    told = [[Quoted(claim.name, f"claim {claim.name}", results.anchor(claim.name), is_name=True),
-             *([] if is_brief else [" ", Quoted(claim.statement, f"claim {claim.name}")])] for claim in refuted[:MOST_REFUTED]]
+    told = [
+        [
+            Quoted(claim.name, f"claim {claim.name}", results.anchor(claim.name), is_name=True),
+            *([] if is_brief else [" ", Quoted(claim.statement, f"claim {claim.name}")]),
+        ]
+        for claim in refuted[:MOST_REFUTED]
+    ]
     if len(refuted) > MOST_REFUTED:
         told.append([Number(len(refuted) - MOST_REFUTED, "1", "claims that are refuted"), " more."])
     end = ". " if is_brief else " "
-    rest = ["Refuted: ", *in_words(told, *((", ", " and ") if is_brief else (" ", " "))), end] if refuted else []
-    return Conclusion(["Of ", Number(len(results.claims), "1", "claims"), " claims " if len(results.claims) > 1 else " claim ", *in_words(parts), "."],
-                      rest, ["Read a claim's condition before relying on it."])
+    rest = (
+        ["Refuted: ", *in_words(told, *((", ", " and ") if is_brief else (" ", " "))), end]
+        if refuted
+        else []
+    )
+    return Conclusion(
+        [
+            "Of ", Number(len(results.claims), "1", "claims"),
+            " claims " if len(results.claims) > 1 else " claim ", *in_words(parts), "."
+        ],
+        rest,
+        ["Read a claim's condition before relying on it."],
+    )
 
 
 def _integrator(results: Results) -> Conclusion | None:
@@ -85,23 +125,46 @@ def _integrator(results: Results) -> Conclusion | None:
     source = "study work-precision"
     error = Number(cheapest.errors[0], cheapest.unit, source)
     rows = [(scene, choices[0]) for scene, choices in cheapest.rows if choices[0]]
-    factors = [1.0 if choice.method == "C" else dict(choice.others).get("C", float("nan")) for _, choice in rows]
+    factors = [
+        1.0 if choice.method == "C" else dict(choice.others).get("C", float("nan"))
+        for _, choice in rows
+    ]
     known = [factor for factor in factors if isfinite(factor)]
     if not known:
         return None
     methods = dict.fromkeys(choice.method for _, choice in rows)
-    picks = [[Quoted(method, source, is_name=True), " on ",
-              *in_words([[Quoted(scene, source)] for scene, choice in rows if choice.method == method])] for method in methods]
-    next_best = [choice.others[0][1] for _, choice in rows if choice.others and isfinite(choice.others[0][1])]
+    picks = [
+        [
+            Quoted(method, source, is_name=True),
+            " on ",
+            *in_words(
+                [[Quoted(scene, source)] for scene, choice in rows if choice.method == method]
+            ),
+        ]
+        for method in methods
+    ]
+    next_best = [
+        choice.others[0][1] for _, choice in rows if choice.others and isfinite(choice.others[0][1])
+    ]
     rest: list[Piece] = ["Cheapest: ", *in_words(picks, between="; ", last="; ")]
     if next_best:
         rest += ["; the next best costs ", *_range(next_best, source), " times as much"]
     missed = len(factors) - len(known)
-    more: list[Piece] = [", and misses it on ", Number(missed, "1", source), " of "] if missed else [" on "]
-    return Conclusion(["No integrator is cheapest everywhere: " if len(methods) > 1 else "",
-                       "scheme C costs ", *_range(known, source), " times the cheapest for ", error, " error", *more,
-                       Number(len(rows), "1", source), " motions."], [*rest, ". "],
-                      ["Price your own case with ", Quoted("foldproof precision CASE", "command", is_name=True), "."])
+    more: list[Piece] = (
+        [", and misses it on ", Number(missed, "1", source), " of "] if missed else [" on "]
+    )
+    return Conclusion(
+        [
+            "No integrator is cheapest everywhere: " if len(methods) > 1 else "", "scheme C costs ",
+            *_range(known, source), " times the cheapest for ", error, " error", *more,
+            Number(len(rows), "1", source), " motions."
+        ],
+        [*rest, ". "],
+        [
+            "Price your own case with ",
+            Quoted("foldproof precision CASE", "command", is_name=True), "."
+        ],
+    )
 
 
 def _range(values: list[float], source: str) -> list[Piece]:
@@ -116,17 +179,28 @@ def _steps(results: Results) -> Conclusion | None:
         return None
     finest = min(rows, key=lambda row: float(row["width of a cell"]))
     source = "study stability-sheet"
-    explicit = [float(value) for name, value in finest.items() if name not in ("width of a cell", "schemes A and B")]
+    explicit = [
+        float(value)
+        for name, value in finest.items()
+        if name not in ("width of a cell", "schemes A and B")
+    ]
     headline = results.guarded(["Damping does not shorten the step of schemes A and B."],
                                results.named("stability-sheet.limit-does-not-depend-on-damping."))
-    resonance = results.guarded(["Undamped, two stable steps in turn can resonate. "],
-                                results.named("variable-step-stability.alternating-steps-resonate."))
+    resonance = results.guarded(
+        ["Undamped, two stable steps in turn can resonate. "],
+        results.named("variable-step-stability.alternating-steps-resonate."),
+    )
     if not headline or not explicit:
         return None
-    return Conclusion(headline, [
-        "With cells of ", Number(float(finest["width of a cell"]), "1", source), " of a side, they take ",
-        Number(float(finest["schemes A and B"]), "1", source), " steps where explicit methods take ",
-        *_range(explicit, source), ". ", *resonance], ["Keep undamped steps equal."] if resonance else [])
+    return Conclusion(
+        headline,
+        [
+            "With cells of ", Number(float(finest["width of a cell"]), "1", source),
+            " of a side, they take ", Number(float(finest["schemes A and B"]), "1", source),
+            " steps where explicit methods take ", *_range(explicit, source), ". ", *resonance
+        ],
+        ["Keep undamped steps equal."] if resonance else [],
+    )
 
 
 def _mesh(results: Results) -> Conclusion | None:
@@ -139,16 +213,24 @@ def _mesh(results: Results) -> Conclusion | None:
         return None
     finest = max(rows, key=lambda row: float(row[cells]))
     source = "study mesh-error"
-    rest: list[Piece] = ["With ", Number(float(finest[cells]), "1", source), " cells a side it errs by ",
-                         Number(float(finest[mesh]), "%", source), ", the step by ",
-                         Number(float(finest[step]), "%", source), ". "]
+    rest: list[Piece] = [
+        "With ", Number(float(finest[cells]), "1", source), " cells a side it errs by ",
+        Number(float(finest[mesh]), "%", source), ", the step by ",
+        Number(float(finest[step]), "%", source), ". "
+    ]
     patterns = results.rows("bending-rigidity", "least", "greatest")
     if patterns:
         source = "study bending-rigidity"
-        low, high = min(float(row["least"]) for row in patterns), max(float(row["greatest"]) for row in patterns)
-        rest += results.guarded(["Bending stiffness depends on the triangles' pattern and direction, from ",
-                                 Number(low, "1", source), " to ", Number(high, "ke", source), ". "],
-                                results.named("bending-rigidity.depends-on-"))
+        low, high = min(float(row["least"]) for row in patterns), max(
+            float(row["greatest"]) for row in patterns
+        )
+        rest += results.guarded(
+            [
+                "Bending stiffness depends on the triangles' pattern and direction, from ",
+                Number(low, "1", source), " to ", Number(high, "ke", source), ". "
+            ],
+            results.named("bending-rigidity.depends-on-"),
+        )
     return Conclusion(headline, rest, ["Calibrate bending on the mesh that you use."])
 
 
@@ -159,18 +241,30 @@ def _contact(results: Results) -> Conclusion | None:
                                never + results.named("crossing-queries.no-meeting-is-missed."))
     if not never:
         return None
-    rest: list[Piece] = ["In ", Number(sum(one.outcome == "holds" for one in never), "1", "findings never-crosses-itself"),
-                         " of ", Number(len(never), "1", "findings never-crosses-itself"),
-                         " cases nothing crosses in any frame. "]
+    rest: list[Piece] = [
+        "In ",
+        Number(sum(one.outcome == "holds" for one in never), "1", "findings never-crosses-itself"),
+        " of ", Number(len(never), "1", "findings never-crosses-itself"),
+        " cases nothing crosses in any frame. "
+    ]
     asked = results.rows("crossing-queries", "asked", "missed")
     if asked:
-        total = {key: Number(sum(float(row[key]) for row in asked), "1", "study crossing-queries") for key in ("asked", "missed")}
+        total = {
+            key: Number(sum(float(row[key]) for row in asked), "1", "study crossing-queries")
+            for key in ("asked", "missed")
+        }
         rest += [total["missed"], " of ", total["asked"], " crossing tests missed one. "]
     outside = results.named("case.", ".stays-outside")
     if outside:
         deepest = max(outside, key=lambda one: one.measured)
-        rest += results.guarded(["No particle is deeper than ", Number(deepest.measured, deepest.unit, f"finding {deepest.name}"),
-                                 " inside an object. "], outside)
+        rest += results.guarded(
+            [
+                "No particle is deeper than ",
+                Number(deepest.measured, deepest.unit, f"finding {deepest.name}"),
+                " inside an object. "
+            ],
+            outside,
+        )
     rest += results.guarded(["A pin thinner than an edge comes through. "],
                             results.named("pointwise-contact.a-thin-pin-passes-through"))
     return Conclusion(headline, rest, ["Keep edges shorter than an object's details."])

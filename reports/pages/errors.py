@@ -1,5 +1,5 @@
-"""How large the errors of each shipped case are: what `foldproof converge` and `precision` found, as recorded with the
-cases. Reads; decides nothing."""
+"""How large the errors of each shipped case are: what `foldproof converge` and `precision` found,
+as recorded with the cases. Reads; decides nothing."""
 from __future__ import annotations
 
 import json
@@ -83,31 +83,54 @@ class Errors:
 
 
 def load_errors(cases: Path) -> Errors | None:
-    """The record errors.json in the folder `cases`; None if there is none. Throws Unreadable for other files."""
+    """The record errors.json in the folder `cases`; None if there is none.
+    Throws Unreadable for other files."""
     file = cases / "errors.json"
     if not file.is_file():
         return None
     with reading(file):
-        return Errors([_case(row, cases) for row in json.loads(file.read_text(encoding="utf-8"))["cases"]])
+        return Errors(
+            [_case(row, cases) for row in json.loads(file.read_text(encoding="utf-8"))["cases"]]
+        )
 
 
 def _case(row: dict[str, Any], cases: Path) -> CaseErrors:
     files = case_files(cases)
-    changed = row["case"] not in files or case_digest(files[row["case"]], lambda name: (cases / name).read_bytes()) != row["digest"]
+    changed = (
+        row["case"] not in files
+        or case_digest(files[row["case"]], lambda name: (cases / name).read_bytes())
+        != row["digest"]
+    )
     commit = row["program"]["commit"]
     if "not_asked_hours" in row:
-        return CaseErrors(row["case"], row["not_asked_hours"], "", 0, nan, "", nan, "", [], [], [], commit, changed)
-    part_of_time = f"first {row['asked_end']:g} of {row['end']:g} s" if row["asked_end"] != row["end"] else ""
+        return CaseErrors(
+            row["case"], row["not_asked_hours"], "", 0, nan, "", nan, "", [], [], [], commit,
+            changed
+        )
+    part_of_time = (
+        f"first {row['asked_end']:g} of {row['end']:g} s" if row["asked_end"] != row["end"] else ""
+    )
     stopped = [f"level {level} came to no end: {why}" for level, why in row["stopped"].items()]
-    cheapest = [Cheapest(found["error"], found["method"] or "", _number(found["step"]), _number(found["seconds"]), found["tied"])
-                for found in row.get("precision", {}).get("cheapest", [])]
-    return CaseErrors(row["case"], nan, row["method"], len(row["mean_step"]), row["mean_step"][0], part_of_time, _number(row["horizon"]),
-                      row["predictable"], stopped, [_quantity(found) for found in row["quantities"]], cheapest, commit, changed)
+    cheapest = [
+        Cheapest(
+            found["error"], found["method"] or "", _number(found["step"]),
+            _number(found["seconds"]), found["tied"]
+        )
+        for found in row.get("precision", {}).get("cheapest", [])
+    ]
+    return CaseErrors(
+        row["case"], nan, row["method"], len(row["mean_step"]), row["mean_step"][0], part_of_time,
+        _number(row["horizon"]), row["predictable"], stopped,
+        [_quantity(found) for found in row["quantities"]], cheapest, commit, changed
+    )
 
 
 def _quantity(row: dict[str, Any]) -> QuantityError:
-    return QuantityError(row["name"], row["unit"], _number(row["value"]), _number(row["finest"]), _number(row["error_bar"]),
-                         _number(row["error_as_it_is"]), _number(row["order"]), row["reading"], row["because"])
+    return QuantityError(
+        row["name"], row["unit"], _number(row["value"]), _number(row["finest"]),
+        _number(row["error_bar"]), _number(row["error_as_it_is"]), _number(row["order"]),
+        row["reading"], row["because"]
+    )
 
 
 def _number(value: float | None) -> float:

@@ -21,7 +21,8 @@ class OrderTable:
 
 
 def order_table(figure: StudyFigure) -> OrderTable | None:
-    """The observed order of every pair of points, as the program wrote them; None if it wrote none."""
+    """The observed order of every pair of points, as the program
+    wrote them; None if it wrote none."""
     with_orders = [curve for curve in figure.curves if curve.pair_orders is not None
                    and len(curve.pair_orders)]
     if not with_orders:
@@ -41,8 +42,12 @@ def order_table(figure: StudyFigure) -> OrderTable | None:
 
 def figure_keys(figure: StudyFigure) -> list[tuple[Markup, str]]:
     """Key and label of every curve, for screens too narrow for the plot's own labels."""
-    filled = is_marked(figure.curves)                   # as in the plot, where hollow says something
-    return [(key_svg(pen, filled), curve.label) for curve, pen in zip(figure.curves, choose_pens(figure.curves))]
+    # as in the plot, where hollow says something
+    filled = is_marked(figure.curves)
+    return [
+        (key_svg(pen, filled), curve.label)
+        for curve, pen in zip(figure.curves, choose_pens(figure.curves))
+    ]
 
 
 def figure_notes(figure: StudyFigure) -> list[str]:
@@ -51,10 +56,17 @@ def figure_notes(figure: StudyFigure) -> list[str]:
     left_out, floors = points_left_out(figure), floors_below(figure)
     if left_out:
         logarithmic = "log" in (figure.x_scale, figure.y_scale)
-        what = "NaN, infinite, or not positive on a logarithmic axis" if logarithmic else "NaN or infinite"
+        what = (
+            "NaN, infinite, or not positive on a logarithmic axis"
+            if logarithmic
+            else "NaN or infinite"
+        )
         notes.append(f"{left_out} point{'s' if left_out > 1 else ''} not drawn ({what}).")
     # of a ladder the caption says what hollow points are
-    if any(has_mark(curve, "unfinished").any() for curve in figure.curves) and "Hollow:" not in figure.caption:
+    if (
+        any(has_mark(curve, "unfinished").any() for curve in figure.curves)
+        and "Hollow:" not in figure.caption
+    ):
         notes.append("Hollow: a solve on the way of that run did not finish.")
     if floors:
         plural = "s" if len(floors) > 1 else ""

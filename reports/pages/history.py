@@ -34,7 +34,11 @@ class History:
     @property
     def newest_regressions(self) -> list[Change]:
         """Changes for the worse in the last run."""
-        return [change for change in self.changes if change.run is self.rows[-1] and change.is_regression]
+        return [
+            change
+            for change in self.changes
+            if change.run is self.rows[-1] and change.is_regression
+        ]
 
     def changes_of(self, row: RunRow) -> list[Change]:
         """Those that this run is the first to have."""
@@ -61,15 +65,39 @@ def _slower(rows: list[RunRow]) -> list[Slower]:
 def as_text(history: History) -> str:
     """A table of runs, then the changes, run by run."""
     heads = ["run", "version", "tier", *OUTCOMES, "claims", "changes"]
-    rows = [[row.label, row.about["version"], row.about["tier"], *(str(row.counts.get(name, 0)) for name in OUTCOMES),
-             str(len(row.rulings)), changes_text(history.changes_of(row))] for row in history.rows]
+    rows = [
+        [
+            row.label, row.about["version"], row.about["tier"],
+            *(str(row.counts.get(name, 0)) for name in OUTCOMES), str(len(row.rulings)),
+            changes_text(history.changes_of(row))
+        ]
+        for row in history.rows
+    ]
     parts = [_table(heads, rows)]
-    parts.append(_list("changed, by the first run that has it:", (_change_line(one) for one in history.changes),
-                       "No verdict and no ruling changed."))
-    parts.append(_list("closer to their bound (measured/bound):",
-                       (f"{one.run.label}  {one.name}: {one.before:.3g} -> {one.after:.3g}" for one in history.margins)))
-    parts.append(_list("slower than in the first run on this processor (the clock; repeat before you believe it):",
-                       (f"{one.what}: {one.first:.3g} s -> {one.last:.3g} s" for one in history.slower)))
+    parts.append(
+        _list(
+            "changed, by the first run that has it:",
+            (_change_line(one) for one in history.changes), "No verdict and no ruling changed."
+        )
+    )
+    parts.append(
+        _list(
+            "closer to their bound (measured/bound):",
+            (
+                f"{one.run.label}  {one.name}: {one.before:.3g} -> {one.after:.3g}"
+                for one in history.margins
+            ),
+        )
+    )
+    parts.append(
+        _list(
+            (
+                "slower than in the first run on this processor (the clock; repeat before you"
+                " believe it):"
+            ),
+            (f"{one.what}: {one.first:.3g} s -> {one.last:.3g} s" for one in history.slower),
+        )
+    )
     return "\n\n".join(part for part in parts if part)
 
 
@@ -83,12 +111,18 @@ def changes_text(found: list[Change]) -> str:
 
 def _change_line(change: Change) -> str:
     mark = "WORSE " if change.is_regression else "      "
-    return f"{mark}{change.run.label}  {change.name}: {change.before or 'not there'} -> {change.after or 'not there'}"
+    return (
+        f"{mark}{change.run.label}  {change.name}: {change.before or 'not there'} ->"
+        f" {change.after or 'not there'}"
+    )
 
 
 def _table(heads: list[str], rows: list[list[str]]) -> str:
     widths = [max(len(row[k]) for row in [heads, *rows]) for k in range(len(heads))]
-    return "\n".join("  ".join(cell.ljust(width) for cell, width in zip(row, widths)).rstrip() for row in [heads, *rows])
+    return "\n".join(
+        "  ".join(cell.ljust(width) for cell, width in zip(row, widths)).rstrip()
+        for row in [heads, *rows]
+    )
 
 
 def _list(head: str, lines: Iterable[str], nothing: str = "") -> str:
@@ -101,14 +135,30 @@ def _list(head: str, lines: Iterable[str], nothing: str = "") -> str:
 
 def as_json(history: History) -> str:
     """The same for programs."""
-    runs = [row.about | {"counts": row.counts, "rulings": dict(Counter(row.rulings.values())), "costs": row.costs}
-            for row in history.rows]
-    changed = [{"run": one.run.about["date"], "commit": one.run.about["commit"], "name": one.name, "before": one.before,
-                "after": one.after, "worse": one.is_regression} for one in history.changes]
-    margins = [{"run": one.run.about["date"], "commit": one.run.about["commit"], "name": one.name, "before": one.before,
-                "after": one.after} for one in history.margins if isfinite(one.after)]
+    runs = [
+        row.about
+        | {"counts": row.counts, "rulings": dict(Counter(row.rulings.values())), "costs": row.costs}
+        for row in history.rows
+    ]
+    changed = [
+        {
+            "run": one.run.about["date"], "commit": one.run.about["commit"], "name": one.name,
+            "before": one.before, "after": one.after, "worse": one.is_regression
+        }
+        for one in history.changes
+    ]
+    margins = [
+        {
+            "run": one.run.about["date"], "commit": one.run.about["commit"], "name": one.name,
+            "before": one.before, "after": one.after
+        }
+        for one in history.margins
+        if isfinite(one.after)
+    ]
     slower = [{"what": one.what, "first": one.first, "last": one.last} for one in history.slower]
-    return json.dumps({"runs": runs, "changes": changed, "margins": margins, "slower": slower}, indent=1)
+    return json.dumps(
+        {"runs": runs, "changes": changed, "margins": margins, "slower": slower}, indent=1
+    )
 
 
 def render_history(history: History) -> str:

@@ -1,4 +1,5 @@
-"""Which checks notice which faults: the rows that scripts/faults and scripts/mutate wrote, arranged for the page."""
+"""Which checks notice which faults: the rows that scripts/faults and
+scripts/mutate wrote, arranged for the page."""
 from __future__ import annotations
 
 import json
@@ -20,7 +21,8 @@ class Cell:
 
 @dataclass
 class KillRow:
-    """One fault: what each of the file's groups of checks says of it; None where it was not asked."""
+    """One fault: what each of the file's groups of checks says of
+    it; None where it was not asked."""
     fault: Fault
     cells: list[Cell | None]
 
@@ -34,7 +36,8 @@ class KillTable:
 
 
 def kill_tables(faults: list[Fault]) -> list[KillTable]:
-    """One table for each file, in the order of the faults; none where no outcomes with checks are known."""
+    """One table for each file, in the order of the faults; none where no
+    outcomes with checks are known."""
     by_file: dict[str, list[Fault]] = {}
     for fault in faults:
         if fault.checks:
@@ -44,20 +47,30 @@ def kill_tables(faults: list[Fault]) -> list[KillTable]:
 
 def _table(file: str, faults: list[Fault]) -> KillTable:
     groups = sorted({_group(check) for fault in faults for check in fault.checks})
-    return KillTable(file, groups, [KillRow(fault, [_cell(fault, group) for group in groups]) for fault in faults])
+    return KillTable(
+        file, groups,
+        [KillRow(fault, [_cell(fault, group) for group in groups]) for fault in faults]
+    )
 
 
 def _group(check: FaultCheck) -> str:
-    """The part of a check's name before the first dot; names of tests are sentences, or begin with test_."""
-    return "tests" if " " in check.name or check.name.startswith("test_") else check.name.split(".")[0]
+    """The part of a check's name before the first dot; names of tests are
+    sentences, or begin with test_."""
+    return (
+        "tests" if " " in check.name or check.name.startswith("test_") else check.name.split(".")[0]
+    )
 
 
 def _cell(fault: Fault, group: str) -> Cell | None:
     named = [check for check in fault.checks if _group(check) == group]
     if not named:
         return None
-    margins = [check.margin for check in named if check.outcome == "fails" and check.margin == check.margin]
-    return Cell(sum(check.outcome == "fails" for check in named), max(margins, default=float("nan")), named)
+    margins = [
+        check.margin for check in named if check.outcome == "fails" and check.margin == check.margin
+    ]
+    return Cell(
+        sum(check.outcome == "fails" for check in named), max(margins, default=float("nan")), named
+    )
 
 
 @dataclass
@@ -74,4 +87,7 @@ def load_mutation(path: Path) -> Mutation | None:
         return None
     with reading(path):
         said = json.loads(path.read_text(encoding="utf-8"))
-        return Mutation(said["seed"], said["files"], [row for row in said["mutants"] if row["outcome"] == "SURVIVED"])
+        return Mutation(
+            said["seed"], said["files"],
+            [row for row in said["mutants"] if row["outcome"] == "SURVIVED"]
+        )

@@ -52,7 +52,9 @@ def by_paper(views: Iterable[ClaimView]) -> list[tuple[str, list[ClaimView]]]:
     """Rows by paper, in the order of their first row, each under "BMF03: its title (2003)"."""
     grouped: dict[str, list[ClaimView]] = {}
     for view in views:
-        grouped.setdefault(": ".join(part for part in (view.claim.paper, view.claim.paper_title) if part), []).append(view)
+        grouped.setdefault(
+            ": ".join(part for part in (view.claim.paper, view.claim.paper_title) if part), []
+        ).append(view)
     return list(grouped.items())
 
 

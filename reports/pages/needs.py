@@ -1,4 +1,5 @@
-"""Which of its parts a scene needs: what `foldproof ablate` found. Reads and counts; decides nothing."""
+"""Which of its parts a scene needs: what `foldproof ablate` found.
+Reads and counts; decides nothing."""
 from __future__ import annotations
 
 import json
@@ -15,13 +16,34 @@ NO_EFFECT = "no effect if added"
 OLD_NEEDS = {"not missed here": NO_EFFECT}   # of version 0.1.0
 NEEDS = ("needed", "kept for a reason", "left out for a reason", "not needed here", "missing here",
          NO_EFFECT)
-REASONED = {"not needed here": "kept for a reason", "missing here": "left out for a reason"}   # if the case gives one
-MARKS = {"needed": "\u25cf", "kept for a reason": "\u25d0", "left out for a reason": "\u25cb", NO_EFFECT: "\u00b7"}
+# if the case gives one
+REASONED = {"not needed here": "kept for a reason", "missing here": "left out for a reason"}
+MARKS = {
+    "needed": "\u25cf", "kept for a reason": "\u25d0", "left out for a reason": "\u25cb",
+    NO_EFFECT: "\u00b7"
+}
 WRONG = "\u2715"                # not needed, or missing, without a reason; or a reason for nothing
-KINDS = ("gravity", "springs", "damping of springs", "bending", "damping of bending", "rest angles", "held particles", "objects", "friction of objects",
-         "points between particles", "sticky parts", "strain limits", "self-collision")   # of parts, in the order of the paper
-COUNTED = {"steps": "steps", "elastic_evaluations": "force evaluations", "cg_iterations": "CG iterations",
-           "object_queries": "object queries", "strain_sweeps": "strain sweeps", "crossing_queries": "crossing queries"}
+KINDS = (
+    "gravity",
+    "springs",
+    "damping of springs",
+    "bending",
+    "damping of bending",
+    "rest angles",
+    "held particles",
+    "objects",
+    "friction of objects",
+    # of parts, in the order of the paper
+    "points between particles",
+    "sticky parts",
+    "strain limits",
+    "self-collision",
+)
+COUNTED = {
+    "steps": "steps", "elastic_evaluations": "force evaluations", "cg_iterations": "CG iterations",
+    "object_queries": "object queries", "strain_sweeps": "strain sweeps",
+    "crossing_queries": "crossing queries"
+}
 
 
 @dataclass
@@ -32,13 +54,16 @@ class PartNeed:
     need: str                  # needed, not needed here, missing here or NO_EFFECT
     because: str
     declared: str              # why the case has it, or leaves it out, all the same; or ""
-    fits: bool                 # as the program says: needed, or of no effect if added, or a reason is given, and only then
+    # as the program says: needed, or of no effect if added, or a reason is given, and only then
+    fits: bool
     moved: float               # by how much positions differ [m]
     energy: float              # by how much the energy differs [J]
-    crossings: float           # pairs of an edge and a triangle that meet, most of a frame, in that run
+    # pairs of an edge and a triangle that meet, most of a frame, in that run
+    crossings: float
     deepest: float             # inside an object, in that run [m]
     seconds: float             # that run over the scene's own [1]
-    work: list[tuple[str, float]]  # counted work of that run over the scene's own, where that is not nothing [1]
+    # counted work of that run over the scene's own, where that is not nothing [1]
+    work: list[tuple[str, float]]
 
     @property
     def standing(self) -> str:
@@ -102,7 +127,9 @@ class Needs:
     def kinds(self) -> list[str]:
         """Of parts that any case has or lacks, those of KINDS first."""
         found = {part.kind: None for case in self.cases for part in case.parts}
-        return [kind for kind in KINDS if kind in found] + [kind for kind in found if kind not in KINDS]
+        return [kind for kind in KINDS if kind in found] + [
+            kind for kind in found if kind not in KINDS
+        ]
 
     def count(self, standing: str) -> int:
         """Parts of all cases that stand so, one of NEEDS."""
@@ -110,12 +137,20 @@ class Needs:
 
     def in_words(self) -> str:
         """How many parts stand how, one sentence for each kind that there is."""
-        said = {"needed": "needed", "kept for a reason": "not needed, and kept for a reason that the case gives",
-                "left out for a reason": "missing, and left out for a reason that the case gives",
-                "not needed here": "not needed, without a reason", "missing here": "missing, without a reason",
-                NO_EFFECT: "absent, and of no effect if added"}
+        said = {
+            "needed": "needed",
+            "kept for a reason": "not needed, and kept for a reason that the case gives",
+            "left out for a reason": "missing, and left out for a reason that the case gives",
+            "not needed here": "not needed, without a reason",
+            "missing here": "missing, without a reason",
+            NO_EFFECT: "absent, and of no effect if added"
+        }
         counts = {standing: self.count(standing) for standing in NEEDS}
-        return " ".join(f"{count} part{'s are' if count != 1 else ' is'} {said[standing]}." for standing, count in counts.items() if count)
+        return " ".join(
+            f"{count} part{'s are' if count != 1 else ' is'} {said[standing]}."
+            for standing, count in counts.items()
+            if count
+        )
 
     def of(self, name: str) -> CaseNeeds | None:
         """Result for the case of that name; None if it was not requested."""
@@ -123,43 +158,78 @@ class Needs:
 
 
 def load_needs(file: Path, cases: Path | None = None) -> Needs | None:
-    """The outcomes of `foldproof ablate --out DIR`, and of cases that it does not speak of those that are recorded in
-    the folder `cases`; None if there are none. Throws Unreadable for other files."""
+    """The outcomes of `foldproof ablate --out DIR`, and of cases that it does not speak of those
+    that are recorded in the folder `cases`; None if there are none.
+    Throws Unreadable for other files."""
     found: list[CaseNeeds] = []
     if file.is_file():
         with reading(file):
             here = json.loads(file.read_text(encoding="utf-8"))
-            found = [_case(row, here["program"], recorded=False, changed=False) for row in here["cases"]]
+            found = [
+                _case(row, here["program"], recorded=False, changed=False) for row in here["cases"]
+            ]
     known, kept = {case.name for case in found}, cases / "needs.json" if cases else None
     if cases and kept and kept.is_file():
         with reading(kept):
             rows = json.loads(kept.read_text(encoding="utf-8"))["cases"]
-            found += [_case(row, row["program"], recorded=True, changed=_has_changed(row, cases)) for row in rows if row["case"] not in known]
+            found += [
+                _case(row, row["program"], recorded=True, changed=_has_changed(row, cases))
+                for row in rows
+                if row["case"] not in known
+            ]
     return Needs(found) if found else None
 
 
 def _has_changed(row: dict[str, Any], cases: Path) -> bool:
     files = case_files(cases)
-    return row["case"] not in files or case_digest(files[row["case"]], lambda name: (cases / name).read_bytes()) != row["digest"]
+    return (
+        row["case"] not in files
+        or case_digest(files[row["case"]], lambda name: (cases / name).read_bytes())
+        != row["digest"]
+    )
 
 
-def _case(row: dict[str, Any], program: dict[str, Any], *, recorded: bool, changed: bool) -> CaseNeeds:
+def _case(
+    row: dict[str, Any], program: dict[str, Any], *, recorded: bool, changed: bool
+) -> CaseNeeds:
     own, scene = row["own_error"], row["run"]
-    part_of_time = f"first {row['asked_end']:g} of {row['end']:g} s" if row.get("asked_end") != row.get("end") else ""
-    kind, mesh = ("coarser mesh", f"from a coarser mesh, {', '.join(own['coarser_mesh'])},") if own.get("coarser_mesh") else ("finer mesh", "finer mesh")
-    unknown = "; ".join(f"{other}: {why}" for other, why in (("half the step", own["without_time"]), (kind, own["without_mesh"])) if why)
-    return CaseNeeds(row["case"], row.get("overrides", []), part_of_time, row["wrong"], mesh, _number(own["value"]), _number(own["time"]), _number(own["mesh"]), unknown, scene["seconds"],
-                     _number(scene["crossings"]), _number(scene["deepest"]), [_part(part, scene) for part in row["parts"]],
-                     program["commit"], program.get("tree") == "dirty", recorded, changed)
+    part_of_time = (
+        f"first {row['asked_end']:g} of {row['end']:g} s"
+        if row.get("asked_end") != row.get("end")
+        else ""
+    )
+    kind, mesh = (
+        ("coarser mesh", f"from a coarser mesh, {', '.join(own['coarser_mesh'])},")
+        if own.get("coarser_mesh")
+        else ("finer mesh", "finer mesh")
+    )
+    unknown = "; ".join(
+        f"{other}: {why}"
+        for other, why in (("half the step", own["without_time"]), (kind, own["without_mesh"]))
+        if why
+    )
+    return CaseNeeds(
+        row["case"], row.get("overrides", []), part_of_time, row["wrong"], mesh,
+        _number(own["value"]), _number(own["time"]), _number(own["mesh"]), unknown,
+        scene["seconds"], _number(scene["crossings"]), _number(scene["deepest"]),
+        [_part(part, scene) for part in row["parts"]], program["commit"],
+        program.get("tree") == "dirty", recorded, changed
+    )
 
 
 def _part(part: dict[str, Any], scene: dict[str, Any]) -> PartNeed:
     run = part["run"]
-    work = [(words, run[key] / scene[key]) for key, words in COUNTED.items() if scene[key] and run[key] != scene[key]]
-    return PartNeed(part["name"], part["present"], OLD_NEEDS.get(part["need"], part["need"]), part["because"], part["declared"], part["as_it_should_be"],
-                    _number(part["position_difference"]),
-                    _number(part["energy_difference"]), _number(run["crossings"]), _number(run["deepest"]),
-                    run["seconds"] / scene["seconds"] if scene["seconds"] else nan, work)
+    work = [
+        (words, run[key] / scene[key])
+        for key, words in COUNTED.items()
+        if scene[key] and run[key] != scene[key]
+    ]
+    return PartNeed(
+        part["name"], part["present"], OLD_NEEDS.get(part["need"], part["need"]), part["because"],
+        part["declared"], part["as_it_should_be"], _number(part["position_difference"]),
+        _number(part["energy_difference"]), _number(run["crossings"]), _number(run["deepest"]),
+        run["seconds"] / scene["seconds"] if scene["seconds"] else nan, work
+    )
 
 
 def _number(value: float | None) -> float:

@@ -1,4 +1,5 @@
-"""Puts what was read and drawn into the page. Groups, counts and sorts for display; decides nothing."""
+"""Puts what was read and drawn into the page. Groups, counts and
+sorts for display; decides nothing."""
 from __future__ import annotations
 
 import re
@@ -40,15 +41,20 @@ TEMPLATES = (REPORTS / "pages", REPORTS / "viewer")
 OUTCOMES = ("holds", "fails", "inconclusive", "not applicable")
 WHOLE_TABLE, WHOLE_STUDY_TABLE = 12, 60   # rows; longer tables show FIRST_ROWS and LAST_ROWS
 FIRST_ROWS, LAST_ROWS = 7, 3
-FIRST_STUDIES = ("work-precision", "stability-oscillator", "stability-sheet", "variable-step-stability")
+FIRST_STUDIES = (
+    "work-precision", "stability-oscillator", "stability-sheet", "variable-step-stability"
+)
 MOST_OPEN = 5                       # findings that do not plainly hold, on the first screen
-STYLES = ("pages/style.css", "viewer/view.css", "pages/opening.css", "pages/print.css", "pages/summary.css",
-          "pages/site.css")
+STYLES = (
+    "pages/style.css", "viewer/view.css", "pages/opening.css", "pages/print.css",
+    "pages/summary.css", "pages/site.css"
+)
 MOST_WORDS = 450                    # of the page of verdict: two minutes
 BAR_END = 1.25                      # measured / bound at the end of the margin bar
 
 
-VALIDATION = "validation"            # the kind of findings that compare with something measured, or the continuum
+# the kind of findings that compare with something measured, or the continuum
+VALIDATION = "validation"
 OF_STUDIES = ("study", VALIDATION)   # kinds of findings that studies have
 
 
@@ -102,7 +108,11 @@ class Page:
 
     def validations(self) -> list[StudyView]:
         """The studies whose findings compare with something measured, or with the continuum."""
-        return [view for view in self.studies if any(finding.kind == VALIDATION for finding in view.findings)]
+        return [
+            view
+            for view in self.studies
+            if any(finding.kind == VALIDATION for finding in view.findings)
+        ]
 
     def first_studies(self) -> list[StudyView]:
         """The studies that help to choose an integrator, in the order of FIRST_STUDIES."""
@@ -116,16 +126,26 @@ class Page:
     def other_studies(self) -> list[StudyView]:
         """All other studies, as the run lists them."""
         elsewhere = [view.study.name for view in self.validations()]
-        return [view for view in self.studies if view.study.name not in [*FIRST_STUDIES, *HARD_STUDIES, *elsewhere]]
+        return [
+            view
+            for view in self.studies
+            if view.study.name not in [*FIRST_STUDIES, *HARD_STUDIES, *elsewhere]
+        ]
 
     def errors_alone(self) -> bool:
         """Is this what `foldproof converge` found, and nothing else?"""
-        return bool(self.studies) and all(view.study.name.startswith("converge.") for view in self.studies)
+        return bool(self.studies) and all(
+            view.study.name.startswith("converge.") for view in self.studies
+        )
 
     def all_findings(self) -> list[Finding]:
         """All that the page shows, once each."""
-        of_studies = [finding for view in self.studies + self.bench_studies for finding in view.findings]
-        of_cases = [finding for case in self.case_findings + self.hard_findings for finding in case.findings]
+        of_studies = [
+            finding for view in self.studies + self.bench_studies for finding in view.findings
+        ]
+        of_cases = [
+            finding for case in self.case_findings + self.hard_findings for finding in case.findings
+        ]
         return self.checks + of_studies + self.other_findings + of_cases + self.rates
 
 
@@ -136,23 +156,44 @@ def render_site(page: Page) -> dict[str, str]:
 
 
 def render(page: Page, since: list[Piece] | None = None, cuts: Cuts | None = None) -> str:
-    """The whole report as one HTML text; `since` says what changed from the run before, `cuts` take note of the pages
-    into which the text can be cut."""
+    """The whole report as one HTML text; `since` says what changed from the run before, `cuts` take
+    note of the pages into which the text can be cut."""
     environment = new_environment()
     environment.globals.update(cuts=cuts or Cuts(is_site=False))
     environment.globals.update(
-        keys=figure_keys, notes=figure_notes, map_notes=map_notes, orders=order_table, table=select_rows, groups=group_by_prefix,
-        margin=margin_percent, plain=all_hold, whole_study_table=WHOLE_STUDY_TABLE, whole_table=WHOLE_TABLE,
-        most_open=MOST_OPEN, viewer=Markup(_viewer()), rulings=ledger.ruling_counts, sections=ledger.by_section, papers=ledger.by_paper,
+        keys=figure_keys,
+        notes=figure_notes,
+        map_notes=map_notes,
+        orders=order_table,
+        table=select_rows,
+        groups=group_by_prefix,
+        margin=margin_percent,
+        plain=all_hold,
+        whole_study_table=WHOLE_STUDY_TABLE,
+        whole_table=WHOLE_TABLE,
+        most_open=MOST_OPEN,
+        viewer=Markup(_viewer()),
+        rulings=ledger.ruling_counts,
+        sections=ledger.by_section,
+        papers=ledger.by_paper,
         cheapest=cheapest_of(view.study for view in page.studies),
-        known_faults={fault.name: fault for fault in page.faults}, caught=CaughtCount(page.faults),
-        by_file=faults_by_file, fault_outcomes=fault_outcomes, kill_tables=kill_tables(page.faults),
-        known_findings={finding.name for finding in page.all_findings()}, commands=commands_of(page),
+        known_faults={fault.name: fault for fault in page.faults},
+        caught=CaughtCount(page.faults),
+        by_file=faults_by_file,
+        fault_outcomes=fault_outcomes,
+        kill_tables=kill_tables(page.faults),
+        known_findings={finding.name for finding in page.all_findings()},
+        commands=commands_of(page),
         program=program_of(page),
-        of_case={finding.name: case for case in page.case_findings + page.hard_findings
-                 for finding in case.findings}.get)
-    return environment.get_template("page.html.j2").render(page=page, said=page.provenance,
-                                                           summary=summary_of_page(page, since, environment))
+        of_case={
+            finding.name: case
+            for case in page.case_findings + page.hard_findings
+            for finding in case.findings
+        }.get,
+    )
+    return environment.get_template("page.html.j2").render(
+        page=page, said=page.provenance, summary=summary_of_page(page, since, environment)
+    )
 
 
 def summary_of_page(page: Page, since: list[Piece] | None, environment: Environment) -> Summary:
@@ -160,9 +201,15 @@ def summary_of_page(page: Page, since: list[Piece] | None, environment: Environm
     findings = [finding for finding in page.all_findings() if finding.kind != "bench"]
     studies = [view.study for view in page.studies]
     judged = Judged(
-        provenance=page.provenance, findings=findings, studies=len(studies), faults=page.faults,
-        tolerances=page.tolerances, results=Results(findings, studies, page.claims, environment.globals["anchor"]),
-        since=since if since is not None else since_last(None, None, str), alone=page.alone)
+        provenance=page.provenance,
+        findings=findings,
+        studies=len(studies),
+        faults=page.faults,
+        tolerances=page.tolerances,
+        results=Results(findings, studies, page.claims, environment.globals["anchor"]),
+        since=since if since is not None else since_last(None, None, str),
+        alone=page.alone,
+    )
     whole = summary_of(judged)
     return whole if count_words(whole) <= MOST_WORDS else summary_of(replace(judged, is_brief=True))
 
@@ -178,7 +225,11 @@ def commands_of(page: Page) -> dict[str, str]:
     """Commands that repeat findings of simulations outside a verification run."""
     if not page.alone:
         return {}
-    made_by = {view.entry.name: str(view.case.about_run.get("command", "")) for view in page.cases if view.case}
+    made_by = {
+        view.entry.name: str(view.case.about_run.get("command", ""))
+        for view in page.cases
+        if view.case
+    }
     return {finding.name: made_by[group.name] for group in page.case_findings + page.hard_findings
             for finding in group.findings if made_by.get(group.name)}
 
@@ -192,20 +243,31 @@ def render_comparison(comparison: Comparison) -> str:
 
 def new_environment() -> Environment:
     """Values shared by all templates."""
-    environment = Environment(loader=FileSystemLoader(TEMPLATES), autoescape=True, undefined=StrictUndefined,
-                              trim_blocks=True, lstrip_blocks=True)
-    environment.filters.update(number=quantities.number_html, known=quantities.known_html, unit=quantities.unit_text,
-                               seconds=quantities.seconds_html, bar_length=length_text, sentence=html_of, measured=measured_html, bound=bound_html,
-                               rule=rule_html)
+    environment = Environment(
+        loader=FileSystemLoader(TEMPLATES), autoescape=True, undefined=StrictUndefined,
+        trim_blocks=True, lstrip_blocks=True
+    )
+    environment.filters.update(
+        number=quantities.number_html, known=quantities.known_html, unit=quantities.unit_text,
+        seconds=quantities.seconds_html, bar_length=length_text, sentence=html_of,
+        measured=measured_html, bound=bound_html, rule=rule_html
+    )
     environment.globals.update(
-        quantity=quantities.quantity_html, ratio=quantities.ratio_of, isnan=isnan, anchor=Anchors().of,
-        outcome_class=outcome_class, counts=count_outcomes, style=Markup(_text_of(*STYLES)), script=Markup(_text_of("pages/filter.js")))
+        quantity=quantities.quantity_html,
+        ratio=quantities.ratio_of,
+        isnan=isnan,
+        anchor=Anchors().of,
+        outcome_class=outcome_class,
+        counts=count_outcomes,
+        style=Markup(_text_of(*STYLES)),
+        script=Markup(_text_of("pages/filter.js")),
+    )
     return environment
 
 
 class Anchors:
-    """Permanent ids: a name is its own anchor where HTML allows; the same name gets the same anchor each
-    time."""
+    """Permanent ids: a name is its own anchor where HTML allows; the same name
+    gets the same anchor each time."""
 
     def __init__(self) -> None:
         self._taken: dict[str, str] = {}
@@ -219,7 +281,8 @@ class Anchors:
 
 
 class CaughtCount:
-    """How many of a finding's seeded faults were caught; None where the run's folder has no outcomes."""
+    """How many of a finding's seeded faults were caught; None where
+    the run's folder has no outcomes."""
 
     def __init__(self, faults: list[Fault]) -> None:
         self._caught = {fault.name for fault in faults if fault.outcome == "caught"}
@@ -263,7 +326,8 @@ def all_hold(findings: Iterable[Finding]) -> bool:
 
 
 def group_by_prefix(findings: Iterable[Finding]) -> list[tuple[str, list[Finding]]]:
-    """Findings by the part of their name before the first dot, groups in the order of their first member."""
+    """Findings by the part of their name before the first dot, groups in
+    the order of their first member."""
     grouped: dict[str, list[Finding]] = {}
     for finding in findings:
         grouped.setdefault(finding.name.split(".")[0], []).append(finding)
@@ -271,15 +335,16 @@ def group_by_prefix(findings: Iterable[Finding]) -> list[tuple[str, list[Finding
 
 
 def margin_percent(finding: Finding) -> float | None:
-    """Length of the margin bar in percent: measured / bound, on a scale from zero to BAR_END; None where that says
-    nothing."""
+    """Length of the margin bar in percent: measured / bound, on a scale from zero to BAR_END; None
+    where that says nothing."""
     ratio = quantities.ratio_of(finding.measured, finding.bound)
     return None if isnan(ratio) else 100.0 * min(ratio / BAR_END, 1.0)
 
 
 @dataclass
 class ShownTable:
-    """A table ready to be set: heads with units, the rows shown first and last, and how many lie between."""
+    """A table ready to be set: heads with units, the rows shown first and
+    last, and how many lie between."""
     heads: list[tuple[str, str, bool]]   # name, unit, whether it holds numbers
     first: list[tuple[Markup, ...]]
     left_out: int
@@ -292,11 +357,18 @@ def select_rows(columns: list[Column], most: int = WHOLE_TABLE) -> ShownTable:
     count = max((len(column.values) for column in flat), default=0)
     whole = count <= most
     kept = [*range(count)] if whole else [*range(FIRST_ROWS), *range(count - LAST_ROWS, count)]
-    cells = [quantities.cells_html(column.values[row] if row < len(column.values) else "" for row in kept)
-             for column in flat]
+    cells = [
+        quantities.cells_html(
+            column.values[row] if row < len(column.values) else "" for row in kept
+        )
+        for column in flat
+    ]
     rows = list(zip(*cells))
     cut = len(rows) if whole else FIRST_ROWS
-    heads = [(column.name.replace("_", " "), column.unit, column.values.dtype.kind == "f") for column in flat]
+    heads = [
+        (column.name.replace("_", " "), column.unit, column.values.dtype.kind == "f")
+        for column in flat
+    ]
     return ShownTable(heads, rows[:cut], count - len(rows), rows[cut:])
 
 
@@ -305,14 +377,20 @@ def _components(column: Column) -> list[Column]:
         return [column]
     flat = column.values.reshape(len(column.values), -1)
     names = "xyz" if flat.shape[1] == 3 else [str(k + 1) for k in range(flat.shape[1])]
-    return [Column(f"{column.name} {name}", column.unit, flat[:, k]) for k, name in enumerate(names)]
+    return [
+        Column(f"{column.name} {name}", column.unit, flat[:, k]) for k, name in enumerate(names)
+    ]
 
 
-def findings_by_section(run: Run, bench: Run | None) -> tuple[list[Finding], list[Finding], list[Finding]]:
+def findings_by_section(
+    run: Run, bench: Run | None
+) -> tuple[list[Finding], list[Finding], list[Finding]]:
     """Checks but those of cases; findings that no section of a study shows; rates of work."""
     known = {study.name for study in run.studies + (bench.studies if bench else [])}
     findings = run.findings + (bench.findings if bench else [])
-    checks = [finding for finding in findings if finding.kind == "check" and not is_of_case(finding)]
+    checks = [
+        finding for finding in findings if finding.kind == "check" and not is_of_case(finding)
+    ]
     rates = [finding for finding in findings if finding.kind == "bench"]
     others = [finding for finding in findings if finding.kind not in ("check", "bench")
               and finding.study not in known]
@@ -327,7 +405,9 @@ def faults_of(run: Run) -> list[Fault]:
     for finding in run.findings:
         for fault in finding.faults:
             mentioned.setdefault(fault, []).append(finding.name)
-    return [Fault(name, "", "", "", "", caught_by, "not run") for name, caught_by in mentioned.items()]
+    return [
+        Fault(name, "", "", "", "", caught_by, "not run") for name, caught_by in mentioned.items()
+    ]
 
 
 def _text_of(*names: str) -> str:
@@ -336,4 +416,8 @@ def _text_of(*names: str) -> str:
 
 def _viewer() -> str:
     """The program of the views, with names of its own."""
-    return '"use strict";\n{\n' + _text_of("viewer/viewer_data.js", "viewer/viewer_gl.js", "viewer/viewer.js") + "}\n"
+    return (
+        '"use strict";\n{\n'
+        + _text_of("viewer/viewer_data.js", "viewer/viewer_gl.js", "viewer/viewer.js")
+        + "}\n"
+    )

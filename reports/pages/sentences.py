@@ -1,5 +1,6 @@
-"""Sentences whose numbers and quotations come from the results of a run, and carry the place they come from. The
-words between them hold no digits, so that no number on a page can be anything but data."""
+"""Sentences whose numbers and quotations come from the results of a run, and carry the place they
+come from. The words between them hold no digits, so that no number on a
+page can be anything but data."""
 from __future__ import annotations
 
 import re
@@ -21,7 +22,8 @@ class Number:
 
 @dataclass(frozen=True)
 class Quoted:
-    """Words of the run: a name, a statement, a date. `anchor` leads to it on the page; "" leads nowhere."""
+    """Words of the run: a name, a statement, a date. `anchor` leads to it
+    on the page; "" leads nowhere."""
     text: str
     source: str
     anchor: str = ""
@@ -69,7 +71,11 @@ def _html(piece: Piece) -> Markup:
         return quantity_html(piece.value, piece.unit)
     if isinstance(piece, Quoted):
         said = Markup('<span class="quoted">{}</span>').format(piece.text)
-        return Markup('<a href="#{}">{}</a>').format(piece.anchor, piece.text) if piece.anchor else said
+        return (
+            Markup('<a href="#{}">{}</a>').format(piece.anchor, piece.text)
+            if piece.anchor
+            else said
+        )
     return escape(piece)
 
 
@@ -78,5 +84,9 @@ def _markdown(piece: Piece) -> str:
         return quantity_text(piece.value, piece.unit)
     if isinstance(piece, Quoted):
         # a name in code may hold anything but the sign that ends it
-        return f"`{' '.join(piece.text.replace('`', ' ').split())}`" if piece.is_name else escaped_markdown(piece.text)
+        return (
+            f"`{' '.join(piece.text.replace('`', ' ').split())}`"
+            if piece.is_name
+            else escaped_markdown(piece.text)
+        )
     return piece

@@ -1,5 +1,5 @@
-"""The report as a folder of pages. The template marks what becomes a page of its own; the finished text is cut there,
-and links lead to the page that holds their target."""
+"""The report as a folder of pages. The template marks what becomes a page of its own; the finished
+text is cut there, and links lead to the page that holds their target."""
 from __future__ import annotations
 
 import re
@@ -57,7 +57,9 @@ def split(text: str, cuts: Cuts, viewer: str) -> dict[str, str]:
     for cut in cuts.pages:
         shown = '<main id="content">' + _levelled(parts[cut.file])
         scripts = f"<script>{viewer}</script>" if 'class="view"' in shown else ""
-        whole[cut.file] = _titled(before, cut.title) + _crumbs(cut, cuts.pages) + shown + scripts + foot
+        whole[cut.file] = (
+            _titled(before, cut.title) + _crumbs(cut, cuts.pages) + shown + scripts + foot
+        )
     return _linked({file: _without_idle_search(page) for file, page in whole.items()})
 
 
@@ -90,7 +92,10 @@ def _contents(pages: list[Cut]) -> str:
             below = "".join(listed(cut.file))
             yield (f'<li><a href="{escape(cut.file)}">{escape(cut.title)}</a>'
                    + (f"<ul>{below}</ul>" if below else "") + "</li>\n")
-    return f'<section id="contents"><h2>Contents</h2>\n<ul class="contents">{"".join(listed(FIRST))}</ul></section>\n'
+    return (
+        '<section id="contents"><h2>Contents</h2>\n<ul'
+        f' class="contents">{"".join(listed(FIRST))}</ul></section>\n'
+    )
 
 
 def _crumbs(cut: Cut, pages: list[Cut]) -> str:
@@ -100,12 +105,18 @@ def _crumbs(cut: Cut, pages: list[Cut]) -> str:
         above = next(one for one in pages if one.file == file)
         way.append((above.file, above.title))
         file = above.above
-    links = " › ".join(f'<a href="{escape(file)}">{escape(title)}</a>' for file, title in [(FIRST, "Report"), *reversed(way)])
+    links = " › ".join(
+        f'<a href="{escape(file)}">{escape(title)}</a>'
+        for file, title in [(FIRST, "Report"), *reversed(way)]
+    )
     return f'<header><p class="kicker crumbs">{links}</p></header>\n'
 
 
 def _titled(before: str, title: str) -> str:
-    return re.sub(r"<title>.*?</title>", lambda _: f"<title>{escape(title)}: foldproof</title>", before, count=1, flags=re.DOTALL)
+    return re.sub(
+        r"<title>.*?</title>", lambda _: f"<title>{escape(title)}: foldproof</title>", before,
+        count=1, flags=re.DOTALL
+    )
 
 
 def _levelled(text: str) -> str:
@@ -129,4 +140,7 @@ def _linked(pages: dict[str, str]) -> dict[str, str]:
 
     def lead(file: str, name: str) -> str:
         return f"#{name}" if name in ids[file] or name not in home else f"{home[name]}#{name}"
-    return {file: _LINK.sub(lambda found: f'href="{lead(file, found[1])}"', page) for file, page in pages.items()}
+    return {
+        file: _LINK.sub(lambda found: f'href="{lead(file, found[1])}"', page)
+        for file, page in pages.items()
+    }

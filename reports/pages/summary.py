@@ -1,5 +1,5 @@
-"""One page of verdict: a run as a manager, a reviewer or a pull request needs it. Counts, sorts and looks up;
-decides nothing."""
+"""One page of verdict: a run as a manager, a reviewer or a pull request needs it. Counts, sorts and
+looks up; decides nothing."""
 from __future__ import annotations
 
 from collections import Counter
@@ -14,10 +14,14 @@ from pages.sentences import Conclusion, Number, Piece, Quoted, in_words
 from pages.trust import Tolerances
 
 MARGINS = 5                # bounds shown
-ATTAINED = 0.999           # used of a bound; from here on bounds are sharp or count exactly, so that no margin is expected
+# used of a bound; from here on bounds are sharp or count exactly, so that no margin is expected
+ATTAINED = 0.999
 MOST_NAMED = 3             # findings or changes that are named
 REFERENCE = "foldproof reference"
-TESTED = (("subject", "subject"), ("commit", "commit"), ("tier", "tier"), ("date", "date"), ("machine", "cpu"))
+TESTED = (
+    ("subject", "subject"), ("commit", "commit"), ("tier", "tier"), ("date", "date"),
+    ("machine", "cpu")
+)
 
 
 @dataclass(frozen=True)
@@ -59,15 +63,29 @@ class Judged:
 
 def summary_of(judged: Judged) -> Summary:
     """The summary of one run."""
-    ranked = [entry for entry in judged.tolerances.ranked if entry.used < ATTAINED or entry.finding.outcome != "holds"]
-    return Summary(tested=_tested(judged.provenance), verdict=_verdict(judged),
-                   holds=all(one.outcome in ("holds", "not applicable") for one in judged.findings),
-                   asked=_asked(judged), scope=_scope(judged), conclusions=conclusions_of(judged.results, judged.is_brief),
-                   limits=_limits(judged),
-                   margins=[Margin(entry.finding, Number(100 * (1 - entry.used), "%", f"finding {entry.finding.name}"))
-                            for entry in ranked[:MARGINS]],
-                   attained=_attained(len(judged.tolerances.ranked) - len(ranked)), faults=_faults(judged.faults),
-                   since=judged.since)
+    ranked = [
+        entry
+        for entry in judged.tolerances.ranked
+        if entry.used < ATTAINED or entry.finding.outcome != "holds"
+    ]
+    return Summary(
+        tested=_tested(judged.provenance),
+        verdict=_verdict(judged),
+        holds=all(one.outcome in ("holds", "not applicable") for one in judged.findings),
+        asked=_asked(judged),
+        scope=_scope(judged),
+        conclusions=conclusions_of(judged.results, judged.is_brief),
+        limits=_limits(judged),
+        margins=[
+            Margin(
+                entry.finding, Number(100 * (1 - entry.used), "%", f"finding {entry.finding.name}")
+            )
+            for entry in ranked[:MARGINS]
+        ],
+        attained=_attained(len(judged.tolerances.ranked) - len(ranked)),
+        faults=_faults(judged.faults),
+        since=judged.since,
+    )
 
 
 def _tested(said: dict[str, Any]) -> list[tuple[str, str]]:
@@ -88,11 +106,25 @@ def _verdict(judged: Judged) -> list[Piece]:
     """How many findings hold, and which do not."""
     counted = Counter(finding.outcome for finding in judged.findings)
     total = Number(len(judged.findings), "1", "findings")
+<<<<<<< HEAD
     said: list[Piece] = [_count(counted["holds"], "findings that hold"), " of ", total, " findings hold"]
     if generic := sum(one.scope == "generic" and one.outcome == "holds" for one in judged.findings):
         said += [", ", _count(generic, "generic findings that hold"), " of them generic"]
     others = [[_count(count, f"findings: {outcome}"), " ", "fail" if outcome == "fails" and count > 1 else Quoted(outcome, "outcomes")]
               for outcome, count in counted.items() if outcome != "holds"]
+=======
+    said: list[Piece] = [
+        _count(counted["holds"], "findings that hold"), " of ", total, " findings hold"
+    ]
+    others = [
+        [
+            _count(count, f"findings: {outcome}"), " ",
+            "fail" if outcome == "fails" and count > 1 else Quoted(outcome, "outcomes")
+        ]
+        for outcome, count in counted.items()
+        if outcome != "holds"
+    ]
+>>>>>>> ff06aa38630a9a2599f26ec5a7081bb2276eabcf
     said += ["; ", *in_words(others)] if others else []
     broken = [one for one in judged.findings if one.outcome not in ("holds", "not applicable")]
     if not broken:
@@ -108,21 +140,42 @@ def _count(value: int, source: str) -> Number:
 def _asked(judged: Judged) -> list[Piece]:
     """How much was asked."""
     cases = {one.name.split(".")[1] for one in judged.findings if one.name.startswith("case.")}
-    checks = [one for one in judged.findings if one.kind == "check" and not one.name.startswith("case.")]
-    counted = [(len(checks), "check", "checks"), (judged.studies, "study", "studies"), (len(cases), "case", "cases"),
-               (len(judged.results.claims), "claim", "claims")]
-    return in_words([[_count(count, many), f" {one if count == 1 else many}"] for count, one, many in counted if count])
+    checks = [
+        one for one in judged.findings if one.kind == "check" and not one.name.startswith("case.")
+    ]
+    counted = [
+        (len(checks), "check", "checks"), (judged.studies, "study", "studies"),
+        (len(cases), "case", "cases"), (len(judged.results.claims), "claim", "claims")
+    ]
+    return in_words(
+        [
+            [_count(count, many), f" {one if count == 1 else many}"]
+            for count, one, many in counted
+            if count
+        ]
+    )
 
 
 def _scope(judged: Judged) -> list[Piece]:
     """What the run is about, and what it does not say."""
     if judged.alone:
-        return ["These are single simulations and what was expected of them; no check of the method was run."]
+        return [
+            "These are single simulations and what was expected of them; no check of the method was"
+            " run."
+        ]
     if judged.provenance.get("subject") == REFERENCE:
-        return ["Tells whether the program does what the paper describes, and where the method errs; not whether real "
-                "cloth moves so, nor whether your solver is right: ask ", Quoted("foldproof judge", "command", is_name=True), "."]
-    return ["Tells whether this solver meets laws that any cloth solver must meet, where its adapter offers what they "
-            "need; not whether real cloth moves so."]
+        return [
+            (
+                "Tells whether the program does what the paper describes, and where the method"
+                " errs; not whether real cloth moves so, nor whether your solver is right: ask "
+            ),
+            Quoted("foldproof judge", "command", is_name=True),
+            ".",
+        ]
+    return [
+        "Tells whether this solver meets laws that any cloth solver must meet, where its adapter"
+        " offers what they need; not whether real cloth moves so."
+    ]
 
 
 def _limits(judged: Judged) -> list[list[Piece]]:
@@ -130,13 +183,23 @@ def _limits(judged: Judged) -> list[list[Piece]]:
     limits: list[list[Piece]] = []
     apart = sum(one.outcome == "not applicable" for one in judged.findings)
     if apart:
-        limits.append([_count(apart, "findings that do not apply"), " finding does" if apart == 1 else " findings do", " not apply to this subject or mesh."])
+        limits.append(
+            [
+                _count(apart, "findings that do not apply"),
+                " finding does" if apart == 1 else " findings do",
+                " not apply to this subject or mesh."
+            ]
+        )
     ends = [row for row in judged.results.rows("work-precision", "end", "particles")]
     if ends:
         source = "study work-precision"
         last, particles = ([float(row[key]) for row in ends] for key in ("end", "particles"))
-        limits.append(["Integrators were priced on at most ", Number(max(last), "s", source), " and ",
-                       Number(max(particles), "1", source), " particles; others may rank them differently."])
+        limits.append(
+            [
+                "Integrators were priced on at most ", Number(max(last), "s", source), " and ",
+                Number(max(particles), "1", source), " particles; others may rank them differently."
+            ]
+        )
     if judged.provenance.get("subject") == REFERENCE:
         if judged.provenance.get("tier") == "quick":
             limits.append(["The longest cases and finest meshes need ",
@@ -146,8 +209,15 @@ def _limits(judged: Judged) -> list[list[Piece]]:
 
 
 def _attained(count: int) -> list[Piece]:
-    return [_count(count, "bounds that are attained"), " more with less than ",
-            Number(100 * (1 - ATTAINED), "%", "this page"), " left, as sharp bounds and exact counts have."] if count else []
+    return (
+        [
+            _count(count, "bounds that are attained"), " more with less than ",
+            Number(100 * (1 - ATTAINED), "%", "this page"),
+            " left, as sharp bounds and exact counts have."
+        ]
+        if count
+        else []
+    )
 
 
 def _faults(faults: list[Fault]) -> list[Piece]:
@@ -158,15 +228,28 @@ def _faults(faults: list[Fault]) -> list[Piece]:
     run = sum(counted[outcome] for outcome in ("caught", "SURVIVED", "equivalent", "ERROR"))
     total = _count(len(faults), "faults")
     if not run:
-        return [total, " are" if len(faults) != 1 else " is", " listed; none was run with these results. Run ",
-                Quoted("scripts/faults --out DIR/faults.json", "command", is_name=True), "."]
-    said: list[Piece] = ["Of ", total, " seeded faults " if len(faults) != 1 else " seeded fault ", _count(counted["caught"], "faults caught"), " was caught, " if counted["caught"] == 1 else " were caught, ",
-                         _count(counted["SURVIVED"], "faults that survived"), " survived"]
+        return [
+            total, " are" if len(faults) != 1 else " is",
+            " listed; none was run with these results. Run ",
+            Quoted("scripts/faults --out DIR/faults.json", "command", is_name=True), "."
+        ]
+    said: list[Piece] = [
+        "Of ", total, " seeded faults " if len(faults) != 1 else " seeded fault ",
+        _count(counted["caught"], "faults caught"),
+        " was caught, " if counted["caught"] == 1 else " were caught, ",
+        _count(counted["SURVIVED"], "faults that survived"), " survived"
+    ]
     rest = len(faults) - counted["caught"] - counted["SURVIVED"]
-    return [*said, *([", ", _count(rest, "other faults"), " were not run or are equivalent"] if rest else []), "."]
+    return [
+        *said,
+        *([", ", _count(rest, "other faults"), " were not run or are equivalent"] if rest else []),
+        "."
+    ]
 
 
-def since_last(before: RunRow | None, now: RunRow | None, anchor: Callable[[str], str]) -> list[Piece]:
+def since_last(
+    before: RunRow | None, now: RunRow | None, anchor: Callable[[str], str]
+) -> list[Piece]:
     """What changed from one run to the next, in words."""
     if before is None or now is None:
         return ["No earlier run was given."]
@@ -175,7 +258,9 @@ def since_last(before: RunRow | None, now: RunRow | None, anchor: Callable[[str]
     rows = in_order([before, now])
     if len(rows) < 2:
         return ["The two runs are the same run."]
-    return [*_label(rows[0]), ": ", *_changed(changes(rows), anchor), *_closer(margin_changes(rows))]
+    return [
+        *_label(rows[0]), ": ", *_changed(changes(rows), anchor), *_closer(margin_changes(rows))
+    ]
 
 
 def _label(row: RunRow) -> list[Piece]:
@@ -186,12 +271,23 @@ def _changed(found: list[Change], anchor: Callable[[str], str]) -> list[Piece]:
     if not found:
         return ["no verdict and no ruling changed"]
     worse = [change for change in found if change.is_regression]
-    said: list[Piece] = [_count(len(worse), "changes for the worse"), " worse, ",
-                         _count(len(found) - len(worse), "other changes"), " new or changed otherwise"]
+    said: list[Piece] = [
+        _count(len(worse), "changes for the worse"), " worse, ",
+        _count(len(found) - len(worse), "other changes"), " new or changed otherwise"
+    ]
     if not worse:
         return said
-    named = in_words([[Quoted(change.name, f"finding {change.name}", anchor(change.name) if change.after else "",
-                              is_name=True)] for change in worse[:MOST_NAMED]])
+    named = in_words(
+        [
+            [
+                Quoted(
+                    change.name, f"finding {change.name}",
+                    anchor(change.name) if change.after else "", is_name=True
+                )
+            ]
+            for change in worse[:MOST_NAMED]
+        ]
+    )
     return [*said, "; worse: ", *named]
 
 

@@ -27,10 +27,15 @@ def summary_markdown(summary: Summary) -> str:
                     f"*{markdown_of(one.advice)}*" if one.advice else ""]
             lines.append(f"{number}. {' '.join(part for part in said if part)}")
     if summary.limits:
-        lines += ["", "## Known limits", "", *(f"- {markdown_of(limit)}" for limit in summary.limits)]
+        lines += [
+            "", "## Known limits", "", *(f"- {markdown_of(limit)}" for limit in summary.limits)
+        ]
     if summary.margins:
         lines += ["", "## Tightest margins", "", "| finding | left of its bound |", "|---|---:|"]
-        lines += [f"| {_name(margin.finding.name)} | {markdown_of([margin.left])} |" for margin in summary.margins]
+        lines += [
+            f"| {_name(margin.finding.name)} | {markdown_of([margin.left])} |"
+            for margin in summary.margins
+        ]
         lines += ["", markdown_of(summary.attained)] if summary.attained else []
     lines += ["", "## Seeded faults", "", markdown_of(summary.faults)]
     lines += ["", "## Since the last run", "", markdown_of(summary.since), ""]

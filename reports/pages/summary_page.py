@@ -11,8 +11,8 @@ _LINK = re.compile(r'<a href="#[^"]*"[^>]*>(.*?)</a>', re.DOTALL)
 
 
 def render_summary(page: Page, since: list[Piece] | None = None) -> tuple[str, str]:
-    """The page as one HTML text that needs nothing beside it and has no links, as there is nothing to lead to; and
-    as Markdown."""
+    """The page as one HTML text that needs nothing beside it and has no links, as there is nothing
+    to lead to; and as Markdown."""
     environment = new_environment()
     summary = summary_of_page(page, since, environment)
     text = environment.get_template("summary_page.html.j2").render(summary=summary, title=TITLE)

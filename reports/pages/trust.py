@@ -1,4 +1,5 @@
-"""How far to trust the run: margins of all bounds, lines that the run reaches. Sorts and counts; decides nothing."""
+"""How far to trust the run: margins of all bounds, lines that the run reaches.
+Sorts and counts; decides nothing."""
 from __future__ import annotations
 
 import json
@@ -24,10 +25,12 @@ class Tolerance:
 
 @dataclass
 class Tolerances:
-    """Findings by the part of their bound that is used, the tightest first; and those whose bound is zero."""
+    """Findings by the part of their bound that is used, the tightest first;
+    and those whose bound is zero."""
     ranked: list[Tolerance]
     exact: list[Finding]       # bound zero: nothing may differ, so there is no margin
-    one_sided: list[Finding]   # below a bound of zero or less: the share of it that is used says nothing
+    # below a bound of zero or less: the share of it that is used says nothing
+    one_sided: list[Finding]
 
     def tightest(self) -> list[Tolerance]:
         """Those that stand nearest to their bound, fulfilled or not."""
@@ -96,8 +99,11 @@ class Kinds:
 def kinds_of(findings: Iterable[Finding]) -> Kinds:
     """Labels of all findings that were judged against a bound; those of old files have none."""
     judged = [finding for finding in findings if finding.outcome in JUDGED]
-    return Kinds(_counts(finding.scope for finding in judged), _counts(finding.certainty for finding in judged),
-                 [finding for finding in judged if finding.basis == "empirical"], len(judged))
+    return Kinds(
+        _counts(finding.scope for finding in judged),
+        _counts(finding.certainty for finding in judged),
+        [finding for finding in judged if finding.basis == "empirical"], len(judged)
+    )
 
 
 def _counts(labels: Iterable[str]) -> list[tuple[str, int]]:
@@ -107,11 +113,15 @@ def _counts(labels: Iterable[str]) -> list[tuple[str, int]]:
 def tolerances_of(findings: Iterable[Finding]) -> Tolerances:
     """All findings that were judged against a bound."""
     judged = [finding for finding in findings if finding.outcome in JUDGED]
-    ranked = [Tolerance(finding, used) for finding in judged if isfinite(used := used_share(finding))]
+    ranked = [
+        Tolerance(finding, used) for finding in judged if isfinite(used := used_share(finding))
+    ]
     ranked.sort(key=lambda entry: -entry.used)
     others = [finding for finding in judged if finding.bound <= 0]
-    return Tolerances(ranked, [finding for finding in others if finding.bound == 0 and not finding.measured < 0],
-                      [finding for finding in others if finding.bound < 0 or finding.measured < 0])
+    return Tolerances(
+        ranked, [finding for finding in others if finding.bound == 0 and not finding.measured < 0],
+        [finding for finding in others if finding.bound < 0 or finding.measured < 0]
+    )
 
 
 def used_share(finding: Finding) -> float:
@@ -122,45 +132,64 @@ def used_share(finding: Finding) -> float:
 
 
 def load_coverage(file: Path) -> Coverage | None:
-    """The counts of `scripts/coverage --out DIR/coverage.json`; None if there are none. Throws Unreadable
-    for another file."""
+    """The counts of `scripts/coverage --out DIR/coverage.json`; None if there are none. Throws
+    Unreadable for another file."""
     if not file.is_file():
         return None
     with reading(file):
         content = json.loads(file.read_text(encoding="utf-8"))
-        files = [_coverage_of(row["file"], row, _ranges(row["lines_missed"])) for row in content["files"] if row["lines"]]
+        files = [
+            _coverage_of(row["file"], row, _ranges(row["lines_missed"]))
+            for row in content["files"]
+            if row["lines"]
+        ]
         files.sort(key=lambda row: row.lines_reached / max(row.lines, 1))
-        return Coverage(content["commit"], content["ran"], content["least"], _coverage_of("all", content["total"], ""), files)
+        return Coverage(
+            content["commit"], content["ran"], content["least"],
+            _coverage_of("all", content["total"], ""), files
+        )
 
 
 def load_variants(file: Path) -> Variants | None:
-    """The outcomes of `scripts/variants --out DIR/variants.json`; None if there are none. Throws Unreadable
-    for another file."""
+    """The outcomes of `scripts/variants --out DIR/variants.json`; None if there are none. Throws
+    Unreadable for another file."""
     if not file.is_file():
         return None
     with reading(file):
         content = json.loads(file.read_text(encoding="utf-8"))
-        runs = [VariantRun(row["variant"], " ".join(row["options"]), row["findings"],
-                           [alarm["name"] for alarm in row["false_alarms"]]) for row in content["runs"]]
+        runs = [
+            VariantRun(
+                row["variant"], " ".join(row["options"]), row["findings"],
+                [alarm["name"] for alarm in row["false_alarms"]]
+            )
+            for row in content["runs"]
+        ]
         return Variants(content.get("commit", "not recorded"), runs)
 
 
 def note_on_unfinished_run(file: Path) -> str:
-    """A warning if the last run into this folder did not finish; "" if it did, or if there is no file.
-    Throws Unreadable for another file."""
+    """A warning if the last run into this folder did not finish; "" if it did, or if there is no
+    file. Throws Unreadable for another file."""
     if not file.is_file():
         return ""
     with reading(file):
         content = json.loads(file.read_text(encoding="utf-8"))
-        waiting, begun = sum(finding["outcome"] == "did not run" for finding in content["findings"]), content["program"]["date"]
+        waiting, begun = (
+            sum(finding["outcome"] == "did not run" for finding in content["findings"]),
+            content["program"]["date"],
+        )
     if not waiting:
         return ""
-    return (f"The last run into this folder, begun {begun}, did not come to its end: {waiting} checks, studies "
-            "and cases of it have no result. What is shown here is older.")
+    return (
+        f"The last run into this folder, begun {begun}, did not come to its end: {waiting} checks,"
+        " studies and cases of it have no result. What is shown here is older."
+    )
 
 
 def _coverage_of(name: str, row: dict, missed: str) -> CoveredFile:
-    return CoveredFile(name, row["lines"], row["lines_reached"], row["branches"], row["branches_taken"], missed)
+    return CoveredFile(
+        name, row["lines"], row["lines_reached"], row["branches"], row["branches_taken"], missed
+    )
 
 
 def _ranges(numbers: list[int]) -> str:

@@ -1,7 +1,7 @@
 """One camera for all the pictures of a case, chosen from the positions and from where up is.
 
-The projection is orthographic: a scale bar then holds for every length across the view, and pictures of a
-row compare.
+The projection is orthographic: a scale bar then holds for every length across the view, and
+pictures of a row compare.
 """
 from __future__ import annotations
 
@@ -22,8 +22,8 @@ WITHOUT_GRAVITY = np.array([0.0, 1.0, 0.0])  # up, where nothing falls
 
 @dataclass(frozen=True)
 class Camera:
-    """Orthographic: `right`, `up`, `toward` (the viewer) are orthonormal; `corner` is the lower left of the
-    picture."""
+    """Orthographic: `right`, `up`, `toward` (the viewer) are orthonormal; `corner` is the lower
+    left of the picture."""
     right: np.ndarray
     up: np.ndarray
     toward: np.ndarray
@@ -42,8 +42,8 @@ class Camera:
         return replace(self, pixels_per_metre=min(width / self.metres[0], height / self.metres[1]))
 
     def project(self, x: np.ndarray, supersampling: int) -> tuple[np.ndarray, np.ndarray]:
-        """Pixel coordinates (N x 2, y downwards) and nearness to the viewer (N) [m] of points x (N x 3)
-        [m]."""
+        """Pixel coordinates (N x 2, y downwards) and nearness to the viewer
+        (N) [m] of points x (N x 3) [m]."""
         scale = self.pixels_per_metre * supersampling
         across = (x @ self.right - self.corner[0]) * scale
         down = (self.corner[1] + self.metres[1] - x @ self.up) * scale
@@ -57,23 +57,32 @@ def up_against(gravity: np.ndarray | None) -> np.ndarray:
 
 
 def upright_axes(up: np.ndarray) -> np.ndarray:
-    """Side, up and front as rows, 3 x 3: the axes x, y, z turned the shortest way from y to `up` (3, unit). So z up has
-    its front at -y, as in modelling programs; y down is turned about z."""
+    """Side, up and front as rows, 3 x 3: the axes x, y, z turned the shortest way from y to `up`
+    (3, unit). So z up has its front at -y, as in modelling programs; y down is turned about z."""
     x, y, z = up
     aside = x * x + z * z                   # 1 - y^2, without cancellation
     if aside == 0:
         return np.diag([y, y, 1.0])
     share = (1 - y) / aside                 # 1 / (1 + y)
-    return np.array([[1 - share * x * x, -x, -share * x * z], [x, y, z], [-share * x * z, -z, 1 - share * z * z]])
+    return np.array(
+        [
+            [1 - share * x * x, -x, -share * x * z], [x, y, z],
+            [-share * x * z, -z, 1 - share * z * z]
+        ]
+    )
 
 
-def choose_camera(frames: list[np.ndarray], triangles: np.ndarray, landmarks: np.ndarray | None = None,
-                  up: np.ndarray = WITHOUT_GRAVITY) -> Camera:
-    """An upright camera that holds all frames (each N x 3 [m]) and landmarks (M x 3 [m]), a little to the side of where
-    most of the cloth faces the viewer."""
+def choose_camera(
+    frames: list[np.ndarray], triangles: np.ndarray, landmarks: np.ndarray | None = None,
+    up: np.ndarray = WITHOUT_GRAVITY
+) -> Camera:
+    """An upright camera that holds all frames (each N x 3 [m]) and landmarks (M x 3 [m]), a little
+    to the side of where most of the cloth faces the viewer."""
     upright = upright_axes(up)
     frames = frames_that_set_the_scale(frames)
-    normals = np.concatenate([area_normals(x, triangles[:: max(1, len(triangles) // 4000)]) for x in frames])
+    normals = np.concatenate(
+        [area_normals(x, triangles[:: max(1, len(triangles) // 4000)]) for x in frames]
+    )
     normals = normals[np.isfinite(normals).all(axis=1)] @ upright.T
     elevation = _elevation(normals)
     azimuth = _azimuth(normals, elevation)
@@ -96,8 +105,8 @@ def fit_camera(points: np.ndarray, right: np.ndarray, up: np.ndarray, toward: np
 
 
 def frames_that_set_the_scale(frames: list[np.ndarray]) -> list[np.ndarray]:
-    """Those of the frames (each N x 3 [m]) whose particles are all finite and not far outside the first; if there are
-    none, the first with zeros for what is infinite."""
+    """Those of the frames (each N x 3 [m]) whose particles are all finite and not far outside the
+    first; if there are none, the first with zeros for what is infinite."""
     finite = [x[np.isfinite(x).all(axis=1)] if not np.isfinite(x).all() else x for x in frames]
     size = np.ptp(finite[0], axis=0).max() if len(finite[0]) else 1.0
     centre = finite[0].mean(axis=0) if len(finite[0]) else np.zeros(3)
@@ -122,8 +131,8 @@ def _elevation(normals: np.ndarray) -> float:
 
 
 def _azimuth(normals: np.ndarray, elevation: float) -> float:
-    """Degrees: 28 to the side of the fullest view, on the side that shows more, and facing the cloth's
-    front."""
+    """Degrees: 28 to the side of the fullest view, on the side that shows
+    more, and facing the cloth's front."""
     def share_shown(azimuth: float) -> float:
         return float(np.abs(normals @ _axes(azimuth, elevation)[2]).sum())
 

@@ -9,14 +9,17 @@ import numpy as np
 from data.cloth_values import all_values, edges_of
 from data.results import Case
 
-WORDS = {"speed": ("speed", "m/s"),
-         "strain": ("strain, the largest |length / rest length \u2212 1| of a particle's edges", "1"),
-         "angle": ("bending angle, the largest of a particle's hinges, 0 where flat", "rad"),
-         "phi": ("distance to the objects, negative inside", "m")}
+WORDS = {
+    "speed": ("speed", "m/s"),
+    "strain": ("strain, the largest |length / rest length \u2212 1| of a particle's edges", "1"),
+    "angle": ("bending angle, the largest of a particle's hinges, 0 where flat", "rad"),
+    "phi": ("distance to the objects, negative inside", "m")
+}
 COLOUR_BINS = 16                    # in which the colours of a picture are counted
 SMALLEST = 1e-9                     # [unit]: a field whose values all stay below is roundings
 OF_LARGEST = 99.0                   # percentile of all values at which the colours of a field end
-SIDES, SIZES = "RdBu", "viridis"    # matplotlib's names of the colour maps: red below zero; sizes from zero on
+# matplotlib's names of the colour maps: red below zero; sizes from zero on
+SIDES, SIZES = "RdBu", "viridis"
 
 
 @dataclass
@@ -31,26 +34,33 @@ class Field:
     colours: str                    # SIDES | SIZES
 
     def codes(self, row: int) -> np.ndarray:
-        """Places on the colour bar, N, from 0 to 1; what lies beyond its ends has the colour of the end."""
+        """Places on the colour bar, N, from 0 to 1; what lies beyond its
+        ends has the colour of the end."""
         return np.clip((self.values[row] - self.low) / (self.high - self.low), 0.0, 1.0)
 
 
 def fields_of(case: Case, frames: list[int]) -> list[Field]:
-    """Every field that the file allows and that is more than roundings, in these frames; colours span the values of all
-    of them."""
+    """Every field that the file allows and that is more than roundings, in these frames; colours
+    span the values of all of them."""
     made = []
     for name, values in all_values(case).items():
         ends = _side_ends(case) if name == "phi" else _size_ends(values[frames])
         if ends[1] > SMALLEST:
-            made.append(Field(name, *WORDS[name], np.nan_to_num(values[frames], posinf=1e300), *ends,
-                              SIDES if name == "phi" else SIZES))
+            made.append(
+                Field(
+                    name, *WORDS[name], np.nan_to_num(values[frames], posinf=1e300), *ends,
+                    SIDES if name == "phi" else SIZES
+                )
+            )
     return made
 
 
-def most_telling(fields: list[Field], rows: list[int], edges: np.ndarray) -> tuple[Field, int] | None:
-    """The field and that of the rows whose picture says most: colours are many (their entropy in bits), and neighbours are
-    alike (the correlation over the edges), so that it is no noise. Where all say the same, as of a sheet that moves as one,
-    the last. None where there are no fields."""
+def most_telling(
+    fields: list[Field], rows: list[int], edges: np.ndarray
+) -> tuple[Field, int] | None:
+    """The field and that of the rows whose picture says most: colours are many (their entropy in
+    bits), and neighbours are alike (the correlation over the edges), so that it is no noise. Where
+    all say the same, as of a sheet that moves as one, the last. None where there are no fields."""
     rated = [(_telling(field.codes(row), edges), field, row) for field in fields for row in rows]
     return max(rated, key=lambda entry: (entry[0], entry[2]))[1:] if rated else None
 
@@ -62,7 +72,8 @@ def _size_ends(values: np.ndarray) -> tuple[float, float]:
 
 
 def _side_ends(case: Case) -> tuple[float, float]:
-    """Colours of distances to the objects go to half an edge to both sides, as those of the contact maps do."""
+    """Colours of distances to the objects go to half an edge to both sides,
+    as those of the contact maps do."""
     edges, rest = edges_of(case.triangles), case.rest_positions()
     places = case.positions(0) if rest is None else rest
     limit = 0.5 * float(np.linalg.norm(places[edges[:, 0]] - places[edges[:, 1]], axis=1).mean())
@@ -74,5 +85,9 @@ def _telling(codes: np.ndarray, edges: np.ndarray) -> float:
     entropy = -float((share[share > 0] * np.log2(share[share > 0])).sum())
     near, far = codes[edges[:, 0]], codes[edges[:, 1]]
     spread = float(near.std() * far.std())
-    alike = float(((near - near.mean()) * (far - far.mean())).mean()) / spread if spread > 1e-12 else 0.0
+    alike = (
+        float(((near - near.mean()) * (far - far.mean())).mean()) / spread
+        if spread > 1e-12
+        else 0.0
+    )
     return entropy * max(alike, 0.0)

@@ -1,5 +1,5 @@
-"""The row of pictures of one simulation: which frames, one camera for all, a scale bar, and the strip as a
-file."""
+"""The row of pictures of one simulation: which frames, one camera for all, a
+scale bar, and the strip as a file."""
 from __future__ import annotations
 
 from base64 import b64encode
@@ -45,8 +45,8 @@ class PictureRow:
 
 
 def make_pictures(case: Case, name: str, folder: Path) -> PictureRow | None:
-    """Draws the case, and for papers writes the strip name-pictures.{svg,pdf,png}; None if it has no frames or no
-    triangles."""
+    """Draws the case, and for papers writes the strip name-pictures.{svg,pdf,png}; None if it has
+    no frames or no triangles."""
     if not len(case.frame_times) or not len(case.triangles):
         return None
     chosen, scene = select_frames(case)
@@ -59,19 +59,30 @@ def make_pictures(case: Case, name: str, folder: Path) -> PictureRow | None:
         _write_strip(drawn, times, bar, camera, f"{name}-pictures", folder)
     whole = [scene.is_whole(case.positions(frame)) for frame in chosen]
     portrait = _portrait(painted[_portrait_of(whole)])
-    return PictureRow(pictures=[Picture(time, picture_uri(picture), complete)
-                                for time, picture, complete in zip(times, drawn, whole)],
-                      size=camera.pixels, columns=3 if len(drawn) == WIDE else USUAL, bar_metres=bar,
-                      bar_fraction=bar / camera.metres[0], held=int(case.held.sum()),
-                      sticks=case.stuck(0) is not None,
-                      portrait=picture_uri(portrait), portrait_size=(portrait.shape[1], portrait.shape[0]))
+    return PictureRow(
+        pictures=[
+            Picture(time, picture_uri(picture), complete)
+            for time, picture, complete in zip(times, drawn, whole)
+        ],
+        size=camera.pixels,
+        columns=3 if len(drawn) == WIDE else USUAL,
+        bar_metres=bar,
+        bar_fraction=bar / camera.metres[0],
+        held=int(case.held.sum()),
+        sticks=case.stuck(0) is not None,
+        portrait=picture_uri(portrait),
+        portrait_size=(portrait.shape[1], portrait.shape[0]),
+    )
 
 
 def select_frames(case: Case) -> tuple[list[int], CaseScene]:
     """The frames that stand in the row, and the scene whose camera holds them."""
     chosen = evenly_spaced(case.frame_times, USUAL)
     scene = CaseScene(case, chosen)
-    if scene.camera.metres[0] < WIDE_ASPECT * scene.camera.metres[1] or len(case.frame_times) < WIDE:
+    if (
+        scene.camera.metres[0] < WIDE_ASPECT * scene.camera.metres[1]
+        or len(case.frame_times) < WIDE
+    ):
         return chosen, scene
     chosen = evenly_spaced(case.frame_times, WIDE)
     return chosen, CaseScene(case, chosen)
@@ -86,7 +97,9 @@ def evenly_spaced(times: np.ndarray, count: int) -> list[int]:
 def nice_length(most: float) -> float:
     """The largest of 1, 2, 5 times a power of ten that is not longer than `most` [m]."""
     power = 10.0 ** np.floor(np.log10(most))
-    return float(max(step * power for step in (1.0, 2.0, 5.0) if step * power <= most * (1 + 1e-12)))
+    return float(
+        max(step * power for step in (1.0, 2.0, 5.0) if step * power <= most * (1 + 1e-12))
+    )
 
 
 def length_text(metres: float) -> str:
@@ -98,7 +111,8 @@ def length_text(metres: float) -> str:
 
 
 def _portrait_of(whole: list[bool]) -> int:
-    """Which picture stands for the case: the last complete one of the first six tenths, else the first."""
+    """Which picture stands for the case: the last complete one of the
+    first six tenths, else the first."""
     return max((k for k in range(round(0.6 * (len(whole) - 1)) + 1) if whole[k]), default=0)
 
 
@@ -119,7 +133,9 @@ def _portrait(samples: np.ndarray) -> np.ndarray:
 
 def picture_uri(picture: np.ndarray) -> str:
     """The picture as a data URI."""
-    return "data:image/webp;base64," + b64encode(webp_bytes(np.ascontiguousarray(picture))).decode("ascii")
+    return "data:image/webp;base64," + b64encode(webp_bytes(np.ascontiguousarray(picture))).decode(
+        "ascii"
+    )
 
 
 def _write_strip(drawn: list[np.ndarray], times: list[float], bar: float, camera: Camera, name: str,
@@ -134,12 +150,17 @@ def _write_strip(drawn: list[np.ndarray], times: list[float], bar: float, camera
     for k, (picture, time) in enumerate(zip(drawn, times)):
         bottom = 1.0 - (k // columns + 1) / lines + TEXT_HEIGHT / cell / lines
         axes = figure.add_axes(((k % columns) / columns, bottom, 1 / columns, tall / cell / lines))
-        axes.imshow(picture, interpolation="none", extent=(0.0, camera.metres[0], 0.0, camera.metres[1]))
+        axes.imshow(
+            picture, interpolation="none", extent=(0.0, camera.metres[0], 0.0, camera.metres[1])
+        )
         axes.axis("off")
         axes.annotate(f"{number_text(time)} s", (0.5, 0.0), (0, -7), xycoords="axes fraction",
                       textcoords="offset points", ha="center", va="top")
         if k == 0:
-            axes.plot([0.0, bar], [0.0, 0.0], color=INK, linewidth=1.6, clip_on=False, solid_capstyle="butt")
+            axes.plot(
+                [0.0, bar], [0.0, 0.0], color=INK, linewidth=1.6, clip_on=False,
+                solid_capstyle="butt"
+            )
             axes.annotate(length_text(bar), (0.0, 0.0), (0, -7), xycoords="axes fraction",
                           textcoords="offset points", ha="left", va="top")
     finish(figure, name, folder, "")

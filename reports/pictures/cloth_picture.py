@@ -1,5 +1,5 @@
-"""Draws a triangle mesh into an RGBA picture: z-buffer, normals interpolated per sample, two sides of two colours or a
-field's, and the shadows of one light.
+"""Draws a triangle mesh into an RGBA picture: z-buffer, normals interpolated per sample, two sides
+of two colours or a field's, and the shadows of one light.
 
 Light is added up in linear colour and averaged over the samples of a pixel before it becomes sRGB.
 """
@@ -28,7 +28,8 @@ class Cloth:
     triangles: np.ndarray           # M x 3
     held: np.ndarray                # N, what is marked
     stuck: np.ndarray | None = None  # N, what is marked in another colour
-    codes: np.ndarray | None = None  # N, places on the colour bar `colours`; None: two sides of two colours
+    # N, places on the colour bar `colours`; None: two sides of two colours
+    codes: np.ndarray | None = None
     colours: str = ""
 
 
@@ -48,7 +49,8 @@ def picture_of(cloth: Cloth, camera: Camera, scenery: Scenery | None = None) -> 
 
 
 def paint(cloth: Cloth, camera: Camera, scenery: Scenery | None = None) -> np.ndarray:
-    """Linear light and coverage of every sample, height x width x 4, SAMPLES times the camera's pixels each way."""
+    """Linear light and coverage of every sample, height x width x 4, SAMPLES
+    times the camera's pixels each way."""
     width, height = (SAMPLES * size for size in camera.pixels)
     surface = _surface_of(cloth, scenery)
     points, nearness = camera.project(surface.x, SAMPLES)
@@ -67,7 +69,8 @@ def paint(cloth: Cloth, camera: Camera, scenery: Scenery | None = None) -> np.nd
 
 
 def finish_pixels(colour: np.ndarray, size: int = SAMPLES) -> np.ndarray:
-    """Averages size x size samples (weighted by coverage) to a pixel and turns linear light into 8-bit sRGB."""
+    """Averages size x size samples (weighted by coverage) to a pixel and
+    turns linear light into 8-bit sRGB."""
     height, width = colour.shape[0] // size, colour.shape[1] // size
     weighted = colour[:height * size, :width * size].copy()
     weighted[:, :, :3] *= weighted[:, :, 3:]
@@ -81,15 +84,16 @@ def finish_pixels(colour: np.ndarray, size: int = SAMPLES) -> np.ndarray:
 
 
 def webp_bytes(picture: np.ndarray) -> bytes:
-    """The picture as a WebP file: its outlines without a loss, its colours nearly so, in a fifth of the space."""
+    """The picture as a WebP file: its outlines without a loss, its colours
+    nearly so, in a fifth of the space."""
     buffer = BytesIO()
     image.imsave(buffer, picture, format="webp", pil_kwargs={"quality": WEBP_QUALITY, "method": 5})
     return buffer.getvalue()
 
 
 def _surface_of(cloth: Cloth, scenery: Scenery | None) -> Surface:
-    """A coarse mesh is taken apart: three corners of its own for every triangle, behind the particles, which keep the
-    marks."""
+    """A coarse mesh is taken apart: three corners of its own for every triangle, behind the
+    particles, which keep the marks."""
     x, triangles, codes = cloth.x, cloth.triangles, cloth.codes
     if len(triangles) <= COARSE:
         corners = len(x) + np.arange(3 * len(triangles)).reshape(-1, 3)
@@ -100,14 +104,20 @@ def _surface_of(cloth: Cloth, scenery: Scenery | None) -> Surface:
     if scenery is None:
         centre = np.median(cloth.x[np.isfinite(cloth.x).all(axis=1)], axis=0)
         return Surface(x, triangles, len(x), ground, centre, 1.0, codes, cloth.colours)
-    return Surface(np.concatenate([x, scenery.x]), np.concatenate([triangles, scenery.triangles + len(x)]), len(x),
-                   np.concatenate([ground, scenery.ground]), scenery.centre, scenery.reach, codes, cloth.colours)
+    return Surface(
+        np.concatenate([x, scenery.x]), np.concatenate([triangles, scenery.triangles + len(x)]),
+        len(x), np.concatenate([ground, scenery.ground]), scenery.centre, scenery.reach, codes,
+        cloth.colours
+    )
 
 
-def _mark(colour: np.ndarray, place: tuple[np.ndarray, np.ndarray], marked: np.ndarray, raster: Raster,
-          pen: tuple[float, np.ndarray]) -> None:
-    """A ringed dot on every marked particle, weaker where cloth hides it. place: of all points in the picture, and their
-    nearness [m]; pen: behind how much a dot is hidden [m], and its colour."""
+def _mark(
+    colour: np.ndarray, place: tuple[np.ndarray, np.ndarray], marked: np.ndarray, raster: Raster,
+    pen: tuple[float, np.ndarray]
+) -> None:
+    """A ringed dot on every marked particle, weaker where cloth hides it. place: of all points in
+    the picture, and their nearness [m]; pen: behind how much a dot
+    is hidden [m], and its colour."""
     (points, nearness), (behind, inside) = place, pen
     which = np.flatnonzero(marked & np.isfinite(points[:len(marked)]).all(axis=1))
     radius = (7.0 if len(which) <= 60 else 3.2) * SAMPLES

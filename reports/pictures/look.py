@@ -16,9 +16,12 @@ STUCK = np.array([0.60, 0.30, 0.01])        # particles that stick to something
 KEY_LIGHT = np.array([-0.52, 0.74, 0.42])   # casts the shadows
 FILL_LIGHT = np.array([0.85, -0.05, 0.50])
 
-SET_BACK = 0.008                            # of the picture's size: cloth that lies on an object stays visible
-GROUND_FADES = (0.75, 1.3)                  # of how far the cloth reaches: ground beyond is seen less and less
-STOPS = 17                                  # colours that stand for a colour map; between them it is straight
+# of the picture's size: cloth that lies on an object stays visible
+SET_BACK = 0.008
+# of how far the cloth reaches: ground beyond is seen less and less
+GROUND_FADES = (0.75, 1.3)
+# colours that stand for a colour map; between them it is straight
+STOPS = 17
 
 
 def colour_stops(name: str) -> np.ndarray:
@@ -29,7 +32,12 @@ def colour_stops(name: str) -> np.ndarray:
 def field_colours(codes: np.ndarray, name: str) -> np.ndarray:
     """Linear RGB of places on a colour bar (any shape, 0 to 1), with the channels in front."""
     fine = np.linspace(0.0, 1.0, 1024)
-    table = np.stack([np.interp(fine, np.linspace(0.0, 1.0, STOPS), channel) for channel in colour_stops(name).T / 255.0])
+    table = np.stack(
+        [
+            np.interp(fine, np.linspace(0.0, 1.0, STOPS), channel)
+            for channel in colour_stops(name).T / 255.0
+        ]
+    )
     return linear(table).astype(np.float32)[:, np.round(1023 * codes).astype(np.int16)]
 
 

@@ -1,6 +1,7 @@
 """The z-buffer: which triangle every sample of a picture sees, and where in it.
 
-Every triangle is cut into rows and every row into a span of sample centres, so no sample outside a triangle is visited.
+Every triangle is cut into rows and every row into a span of sample centres, so no sample outside a
+triangle is visited.
 """
 from __future__ import annotations
 
@@ -17,12 +18,15 @@ class Raster:
     seen: np.ndarray       # height x width
     nearness: np.ndarray   # height x width [m]
     triangles: np.ndarray  # M x 3, those that can be drawn
-    planes: np.ndarray     # M x 3 x 3: weight of corner k at sample (px, py) is planes[m, k] . (px, py, 1)
+    # M x 3 x 3: weight of corner k at sample (px, py) is planes[m, k] . (px, py, 1)
+    planes: np.ndarray
 
 
-def rasterise(points: np.ndarray, nearness: np.ndarray, triangles: np.ndarray, shape: tuple[int, int]) -> Raster:
-    """The nearest triangle at every sample of height x width, for points N x 2 [samples, y downwards] that are so near
-    (N) [m]."""
+def rasterise(
+    points: np.ndarray, nearness: np.ndarray, triangles: np.ndarray, shape: tuple[int, int]
+) -> Raster:
+    """The nearest triangle at every sample of height x width, for points N x 2 [samples, y
+    downwards] that are so near (N) [m]."""
     triangles = _drawable(points, triangles, shape[::-1])
     planes = _barycentric_planes(points, triangles)
     raster = Raster(np.full(shape, -1, dtype=np.int64), np.full(shape, -np.inf), triangles, planes)
@@ -31,14 +35,15 @@ def rasterise(points: np.ndarray, nearness: np.ndarray, triangles: np.ndarray, s
 
 
 def faces_viewer(planes: np.ndarray) -> np.ndarray:
-    """True where a triangle shows its front: its outline then runs clockwise in pixels, whose y points
-    down."""
+    """True where a triangle shows its front: its outline then runs clockwise
+    in pixels, whose y points down."""
     return planes[:, 0, 0] * planes[:, 1, 1] - planes[:, 0, 1] * planes[:, 1, 0] < 0
 
 
 class SeenSamples:
-    """The S samples that see a triangle, in raster order: which one (owner, S), the weights of its corners (3 x S), and how
-    far they are from the border of the picture (S, as a part of its longer side)."""
+    """The S samples that see a triangle, in raster order: which one (owner, S), the weights of its
+    corners (3 x S), and how far they are from the border of the picture (S,
+    as a part of its longer side)."""
 
     def __init__(self, raster: Raster) -> None:
         places = np.flatnonzero(raster.seen.ravel() >= 0)
@@ -49,7 +54,9 @@ class SeenSamples:
         to_sides = np.minimum(np.minimum(column, width - column), np.minimum(line, height - line))
         self.from_border = to_sides / max(height, width)
         self.corners = [raster.triangles[:, corner][self.owner] for corner in range(3)]
-        self.weights = [_affine(raster.planes[:, corner], self.owner, column, line) for corner in range(3)]
+        self.weights = [
+            _affine(raster.planes[:, corner], self.owner, column, line) for corner in range(3)
+        ]
 
     def at(self, of_vertices: np.ndarray) -> np.ndarray:
         """Values of vertices (N) at the samples (S)."""
@@ -57,9 +64,11 @@ class SeenSamples:
         return sum(weight * values[corner] for weight, corner in zip(self.weights, self.corners))
 
 
-def _affine(plane: np.ndarray, owner: np.ndarray, column: np.ndarray, line: np.ndarray) -> np.ndarray:
-    """plane[owner] . (column, line, 1) for planes M x 3, about the first sample's place to spare single
-    precision."""
+def _affine(
+    plane: np.ndarray, owner: np.ndarray, column: np.ndarray, line: np.ndarray
+) -> np.ndarray:
+    """plane[owner] . (column, line, 1) for planes M x 3, about the first sample's
+    place to spare single precision."""
     column0, line0 = float(column[0]) if len(column) else 0.0, float(line[0]) if len(line) else 0.0
     level = plane[:, 0] * column0 + plane[:, 1] * line0 + plane[:, 2]
     slopes = plane.astype(np.float32)
@@ -73,8 +82,12 @@ def _drawable(points: np.ndarray, triangles: np.ndarray, size: tuple[int, int]) 
     corners = points[triangles]
     with np.errstate(invalid="ignore", over="ignore"):
         a, b, c = (corners[:, k] for k in range(3))
-        twice_area = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0])
-        meets = (corners.max(axis=1) >= 0).all(axis=1) & (corners.min(axis=1) <= np.array(size)).all(axis=1)
+        twice_area = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (
+            c[:, 0] - a[:, 0]
+        )
+        meets = (corners.max(axis=1) >= 0).all(axis=1) & (
+            corners.min(axis=1) <= np.array(size)
+        ).all(axis=1)
         modest = (np.abs(corners) < 1e6).all(axis=(1, 2))
         return triangles[meets & modest & (np.abs(twice_area) > 1e-9)]
 
@@ -82,17 +95,22 @@ def _drawable(points: np.ndarray, triangles: np.ndarray, size: tuple[int, int]) 
 def _barycentric_planes(points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
     a, b, c = (points[triangles[:, corner]] for corner in range(3))
     rows = [_edge_plane(b, c), _edge_plane(c, a), _edge_plane(a, b)]
-    twice_area = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0])
+    twice_area = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (
+        c[:, 0] - a[:, 0]
+    )
     return np.stack(rows, axis=1) / twice_area[:, None, None]
 
 
 def _edge_plane(p: np.ndarray, q: np.ndarray) -> np.ndarray:
     """Twice the signed area of (p, q, pixel) as an affine function of the pixel, M x 3."""
-    return np.stack([p[:, 1] - q[:, 1], q[:, 0] - p[:, 0], p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0]], axis=1)
+    return np.stack(
+        [p[:, 1] - q[:, 1], q[:, 0] - p[:, 0], p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0]], axis=1
+    )
 
 
 def _fill(raster: Raster, points: np.ndarray, depth_planes: np.ndarray) -> None:
-    """Enters every triangle at the samples that it covers, where nothing nearer is. depth_planes: M x 3 [m]."""
+    """Enters every triangle at the samples that it covers, where nothing
+    nearer is. depth_planes: M x 3 [m]."""
     planes, shape = raster.planes, raster.seen.shape
     heights = points[raster.triangles][:, :, 1]
     first = np.maximum(np.ceil(heights.min(axis=1) - 0.5).astype(int), 0)
@@ -100,7 +118,9 @@ def _fill(raster: Raster, points: np.ndarray, depth_planes: np.ndarray) -> None:
     rows = np.maximum(last - first + 1, 0)
     box = np.ptp(points[raster.triangles][:, :, 0], axis=1)
     ends = np.cumsum(rows * (box + 2.0))
-    cuts = np.searchsorted(ends, np.arange(PAIRS_AT_ONCE, ends[-1] if len(ends) else 0, PAIRS_AT_ONCE))
+    cuts = np.searchsorted(
+        ends, np.arange(PAIRS_AT_ONCE, ends[-1] if len(ends) else 0, PAIRS_AT_ONCE)
+    )
     for chunk in np.split(np.arange(len(planes)), cuts):
         owner = np.repeat(chunk, rows[chunk])
         line = np.repeat(first[chunk], rows[chunk]) + _count_up(rows[chunk])
@@ -109,7 +129,9 @@ def _fill(raster: Raster, points: np.ndarray, depth_planes: np.ndarray) -> None:
         level = plane[:, 0] * (start + 0.5) + plane[:, 1] * (line + 0.5) + plane[:, 2]
         along = _count_up(count)
         near = np.repeat(level, count) + np.repeat(plane[:, 0], count) * along
-        _keep_nearest(raster, np.repeat(line * shape[1] + start, count) + along, near, np.repeat(owner, count))
+        _keep_nearest(
+            raster, np.repeat(line * shape[1] + start, count) + along, near, np.repeat(owner, count)
+        )
 
 
 def _count_up(count: np.ndarray) -> np.ndarray:
@@ -118,8 +140,8 @@ def _count_up(count: np.ndarray) -> np.ndarray:
 
 
 def _spans(planes: np.ndarray, y: np.ndarray, width: int) -> tuple[np.ndarray, np.ndarray]:
-    """First pixel and number of pixels whose centres lie in the triangle, for triangles `planes` on lines
-    y."""
+    """First pixel and number of pixels whose centres lie in the triangle, for
+    triangles `planes` on lines y."""
     left, right = np.zeros(len(y)), np.full(len(y), float(width))
     for corner in range(3):
         slope = planes[:, corner, 0]

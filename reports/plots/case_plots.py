@@ -1,4 +1,5 @@
-"""Diagnostics of one simulation against time: energies, momenta, the step, the conjugate gradient solves."""
+"""Diagnostics of one simulation against time: energies, momenta, the step,
+the conjugate gradient solves."""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -9,12 +10,18 @@ from matplotlib.axes import Axes
 
 from data.quantities import superscript
 from data.results import Case, Column
-from plots.plot_style import COLOURS, INK, Plot, finish, label_axes, new_figure, say_in_the_middle, scale_axis
+from plots.plot_style import (
+    COLOURS, INK, Plot, finish, label_axes, new_figure, say_in_the_middle, scale_axis
+)
 from plots.study_plots import spread
 
 WIDTH, HEIGHT = 5.3, 3.1            # [inch]
-MOST_POINTS = 300                   # per line; longer histories show mean and extremes of so many stretches
-ENERGIES = ("kinetic_energy", "stretch_energy", "bending_energy", "gravity_energy", "custom_energy", "sticking_energy")
+# per line; longer histories show mean and extremes of so many stretches
+MOST_POINTS = 300
+ENERGIES = (
+    "kinetic_energy", "stretch_energy", "bending_energy", "gravity_energy", "custom_energy",
+    "sticking_energy"
+)
 INKS = (0, 1, 2, 3, 5, 7)           # of present energies; 4 and 6 are those of the work of damping
 
 Line = tuple[str, np.ndarray, str, float]   # label, values, colour, width
@@ -44,8 +51,10 @@ def _energies(columns: dict[str, Column]) -> tuple[list[Panel], str]:
     present = [key for key in ENERGIES if key in columns and columns[key].values.any()]
     if not present:
         return [], ""
-    lines: list[Line] = [(key.removesuffix("_energy"), columns[key].values, COLOURS[INKS[ENERGIES.index(key)]], 1.1)
-                         for key in present]
+    lines: list[Line] = [
+        (key.removesuffix("_energy"), columns[key].values, COLOURS[INKS[ENERGIES.index(key)]], 1.1)
+        for key in present
+    ]
     total = np.sum([columns[key].values for key in present], axis=0)
     lines.append(("total", total, INK, 1.8))
     shown, kept = "Energies that are not zero throughout", "Their total"
@@ -54,8 +63,10 @@ def _energies(columns: dict[str, Column]) -> tuple[list[Panel], str]:
         lines += [("damping work", work, COLOURS[4], 1.1),
                   ("total \u2212 damping work", total - work, COLOURS[6], 1.1)]
         shown, kept = f"{shown}, and the work done by damping so far", "Total minus damping work"
-    caption = (f"{shown}. {kept} changes only by what else does work: moving supports, filters, and the error of the "
-               "integrator")
+    caption = (
+        f"{shown}. {kept} changes only by what else does work: moving supports, filters, and the"
+        " error of the integrator"
+    )
     if "bonds" in columns and columns["bonds"].values.any():
         caption += ". The damping of bonds counts as if what they hold to were at rest"
     return [("energy", columns[present[0]].unit or "J", "linear", lines)], caption
@@ -72,8 +83,9 @@ def _momenta(columns: dict[str, Column]) -> tuple[list[Panel], str]:
 
 
 def _steps(columns: dict[str, Column]) -> tuple[list[Panel], str]:
-    panels = _single_panels(columns, (("step", "step"), ("step_over_elastic_limit", "step / elastic limit")),
-                            "linear")
+    panels = _single_panels(
+        columns, (("step", "step"), ("step_over_elastic_limit", "step / elastic limit")), "linear"
+    )
     return panels, "Time step, and its ratio to the elastic stability limit"
 
 
@@ -97,7 +109,9 @@ def _plot(time: np.ndarray, panels: list[Panel], name: str, folder: Path, captio
     figure = new_figure(WIDTH, HEIGHT)
     height = 0.76 if len(panels) == 1 else 0.315
     for k, (label, unit, scale, lines) in enumerate(panels):
-        axes = figure.add_axes((0.095, 0.145 + (len(panels) - 1 - k) * 0.445, _width(lines), height))
+        axes = figure.add_axes(
+            (0.095, 0.145 + (len(panels) - 1 - k) * 0.445, _width(lines), height)
+        )
         values = [line[1] for line in lines]
         factor, shown_unit = (1.0, unit) if scale == "log" else _power_of_ten(values, unit)
         label_axes(axes, "time" if k == len(panels) - 1 else "", "s", label, shown_unit)
@@ -123,20 +137,28 @@ def _draw_lines(axes: Axes, time: np.ndarray, lines: list[Line], scale: str, fac
     scale_axis(axes, "y", scale, everything)
     for history, (_, _, colour, width) in zip(drawn, lines):
         if np.nanmax(history.largest - history.least, initial=0.0) > 0.01 * np.ptp(everything):
-            axes.fill_between(history.t, history.least, history.largest, facecolor=colour, alpha=0.28,
-                              linewidth=0)
+            axes.fill_between(
+                history.t, history.least, history.largest, facecolor=colour, alpha=0.28, linewidth=0
+            )
         axes.plot(history.t, history.y, color=colour, linewidth=width)
     axes.set_xlim(time[0], max(time[-1], np.nextafter(time[0], np.inf)))
     _set_y_limits(axes, everything, scale)
     to_axes = axes.transData + axes.transAxes.inverted()
-    ends = [float(to_axes.transform((time[-1], h.y[-1]))[1]) if np.isfinite(h.y[-1]) else 0.0 for h in drawn]
+    ends = [
+        float(to_axes.transform((time[-1], h.y[-1]))[1]) if np.isfinite(h.y[-1]) else 0.0
+        for h in drawn
+    ]
     heights = spread(ends, 0.085 if len(lines) > 3 else 0.2)
     for (label, _, colour, _), height, end in zip(lines, heights, ends):
         if label:
-            axes.plot([1.005, 1.03], [end, height], transform=axes.transAxes, clip_on=False, color=colour,
-                      linewidth=0.5)
-            axes.text(1.04, height, label, transform=axes.transAxes, ha="left", va="center", fontsize=7.4,
-                      color=colour)
+            axes.plot(
+                [1.005, 1.03], [end, height], transform=axes.transAxes, clip_on=False, color=colour,
+                linewidth=0.5
+            )
+            axes.text(
+                1.04, height, label, transform=axes.transAxes, ha="left", va="center", fontsize=7.4,
+                color=colour
+            )
 
 
 def _set_y_limits(axes: Axes, values: np.ndarray, scale: str) -> None:
@@ -149,7 +171,11 @@ def _set_y_limits(axes: Axes, values: np.ndarray, scale: str) -> None:
     if low == high == 0.0:
         axes.set_ylim(-0.1, 1.0)
         return
-    margin = 0.06 * (high - low) if high - low > 1e-6 * max(abs(low), abs(high)) else 0.1 * abs(high) or 1.0
+    margin = (
+        0.06 * (high - low)
+        if high - low > 1e-6 * max(abs(low), abs(high))
+        else 0.1 * abs(high) or 1.0
+    )
     bottom = 0.0 if 0 <= low < 0.5 * high else low - margin
     axes.set_ylim(bottom, high + margin)
 
@@ -167,7 +193,8 @@ def _power_of_ten(values: list[np.ndarray], unit: str) -> tuple[float, str]:
 
 @dataclass
 class History:
-    """A line against time; for long histories its mean, least and largest value in each stretch of time."""
+    """A line against time; for long histories its mean, least and largest
+    value in each stretch of time."""
     t: np.ndarray
     y: np.ndarray
     least: np.ndarray
@@ -175,7 +202,8 @@ class History:
 
 
 def thin_out(t: np.ndarray, y: np.ndarray) -> History:
-    """The history as it is up to MOST_POINTS points, else summed up in that many stretches. NaN stays NaN."""
+    """The history as it is up to MOST_POINTS points, else summed up in that
+    many stretches. NaN stays NaN."""
     if len(t) <= MOST_POINTS:
         return History(t, y, y, y)
     starts = np.linspace(0, len(t), MOST_POINTS, endpoint=False).astype(int)

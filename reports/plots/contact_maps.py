@@ -1,4 +1,5 @@
-"""Contact maps: how far each part of a cloth is from the objects, drawn over its rest shape laid flat."""
+"""Contact maps: how far each part of a cloth is from the objects, drawn
+over its rest shape laid flat."""
 from __future__ import annotations
 
 from pathlib import Path
@@ -18,8 +19,9 @@ ROUND = 1e-3                        # of the radius: how round a rest shape must
 
 
 def plot_contacts(case: Case, name: str, folder: Path) -> list[tuple[str, Plot]]:
-    """The map of the frame with the most particles nearer to the objects than half an edge, with its caption; none for
-    cloth that never is, or whose rest shape cannot be laid flat without stretching it."""
+    """The map of the frame with the most particles nearer to the objects than half an edge, with
+    its caption; none for cloth that never is, or whose rest shape cannot be
+    laid flat without stretching it."""
     every, rest = case.every_frame("object_distance"), case.rest_positions()
     if every is None or rest is None:
         return []
@@ -27,20 +29,32 @@ def plot_contacts(case: Case, name: str, folder: Path) -> list[tuple[str, Plot]]
     limit = 0.5 * _mean_edge(rest, case.triangles)
     near = (every < limit).sum(axis=1)
     if len(near) > 1:
-        near[0] = 0                                     # the start is the author's, not the motion's
+        # the start is the author's, not the motion's
+        near[0] = 0
     if flat is None or not near.any():
         return []
     shown = len(near) - 1 - int(near[::-1].argmax())    # the last of those
     distances = every[shown]
-    caption = (f"Distance to the objects at {number_text(case.frame_times[shown])} s, the frame with the most particles nearer "
-               f"than half an edge, over the rest shape laid flat; colours end at half an edge. {_inside(distances)}")
+    caption = (
+        f"Distance to the objects at {number_text(case.frame_times[shown])} s, the frame with the"
+        " most particles nearer than half an edge, over the rest shape laid flat; colours end at"
+        f" half an edge. {_inside(distances)}"
+    )
     triangles = _without_seam(flat, case.triangles)
-    return [(caption, _map(flat, triangles, np.nan_to_num(distances, posinf=1e300), limit, f"{name}-contacts", folder))]
+    return [
+        (
+            caption,
+            _map(
+                flat, triangles, np.nan_to_num(distances, posinf=1e300), limit, f"{name}-contacts",
+                folder
+            ),
+        )
+    ]
 
 
 def flatten_to_plane(rest: np.ndarray) -> np.ndarray | None:
-    """N x 2 [m]: a flat shape without the axis along which it is flat, a tube about an axis cut open and unrolled;
-    None for others."""
+    """N x 2 [m]: a flat shape without the axis along which it is flat, a tube about an axis cut
+    open and unrolled; None for others."""
     extents = np.ptp(rest, axis=0)
     thin = int(extents.argmin())
     if extents[thin] < 1e-6 * extents.max():
@@ -50,7 +64,9 @@ def flatten_to_plane(rest: np.ndarray) -> np.ndarray | None:
         across = across - 0.5 * (across.min(axis=0) + across.max(axis=0))
         radii = np.hypot(*across.T)
         if np.ptp(radii) < ROUND * radii.mean():
-            return np.column_stack([radii.mean() * np.arctan2(across[:, 1], across[:, 0]), rest[:, axis]])
+            return np.column_stack(
+                [radii.mean() * np.arctan2(across[:, 1], across[:, 0]), rest[:, axis]]
+            )
     return None
 
 
@@ -58,8 +74,10 @@ def _inside(distances: np.ndarray) -> str:
     deep = -distances[distances < -ROUNDINGS]
     if not len(deep):
         return f"No particle is inside by more than {number_text(ROUNDINGS)} m"
-    return (f"{number_text(len(deep))} of {number_text(len(distances))} particles are inside, by at most "
-            f"{number_text(deep.max())} m")
+    return (
+        f"{number_text(len(deep))} of {number_text(len(distances))} particles are inside, by at"
+        f" most {number_text(deep.max())} m"
+    )
 
 
 def _without_seam(flat: np.ndarray, triangles: np.ndarray) -> np.ndarray:
@@ -82,13 +100,17 @@ def _map(flat: np.ndarray, triangles: np.ndarray, distances: np.ndarray, limit: 
     for which, places in (("x", flat[:, 0]), ("y", flat[:, 1])):
         scale_axis(axes, which, "linear", places)
     axes.set_aspect("equal", adjustable="datalim")
-    colours = axes.tripcolor(Triangulation(*flat.T, triangles), np.clip(distances, -limit, limit), shading="gouraud",
-                             cmap=COLOURS_OF_SIDES, vmin=-limit, vmax=limit, rasterized=True)
+    colours = axes.tripcolor(
+        Triangulation(*flat.T, triangles), np.clip(distances, -limit, limit), shading="gouraud",
+        cmap=COLOURS_OF_SIDES, vmin=-limit, vmax=limit, rasterized=True
+    )
     bar_axes = canvas.add_axes((0.84, 0.13, 0.03, 0.76))
     bar = Colorbar(bar_axes, colours, ticklocation="right")
     bar.outline.set_visible(False)
     bar.solids.set_rasterized(True)
     scale_axis(bar_axes, "y", "linear", np.array([-limit, limit]))
-    bar_axes.annotate(with_unit("distance", "m"), (1.0, 1.0), xycoords="axes fraction", xytext=(30, 6),
-                      textcoords="offset points", ha="right", va="bottom", fontsize=8.0, color=INK)
+    bar_axes.annotate(
+        with_unit("distance", "m"), (1.0, 1.0), xycoords="axes fraction", xytext=(30, 6),
+        textcoords="offset points", ha="right", va="bottom", fontsize=8.0, color=INK
+    )
     return finish(canvas, name, folder, "Distance of the cloth to the objects, over its rest shape")

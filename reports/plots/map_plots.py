@@ -1,5 +1,6 @@
-"""Maps of a study: a quantity over two parameters as a heat map, with its colour bar, the points without a
-value hatched, and the curves that theory expects drawn over it with their names on them."""
+"""Maps of a study: a quantity over two parameters as a heat map, with its colour bar, the points
+without a value hatched, and the curves that theory expects drawn
+over it with their names on them."""
 from __future__ import annotations
 
 from pathlib import Path
@@ -15,11 +16,14 @@ from matplotlib.patches import Rectangle
 
 from data.quantities import number_text
 from data.results import Curve, StudyMap
-from plots.plot_style import (INK, MUTED, PAPER, Plot, finish, label_axes, level_text, new_figure, say_in_the_middle,
-                              scale_axis, with_unit)
+from plots.plot_style import (
+    INK, MUTED, PAPER, Plot, finish, label_axes, level_text, new_figure, say_in_the_middle,
+    scale_axis, with_unit
+)
 
 WIDTH, HEIGHT = 5.6, 4.0            # [inch]
-COLOURS_OF_VALUES = "viridis"       # perceptually uniform, readable without colour vision, and in grey
+# perceptually uniform, readable without colour vision, and in grey
+COLOURS_OF_VALUES = "viridis"
 DASHES = ("solid", (0, (5, 2)), (0, (1.5, 1.5)), (0, (6, 2, 1.5, 2)))
 MOST_ROWS = 8                       # of a map whose rows are all named
 LABEL_WIDTH = 30                    # characters of a line of a label
@@ -35,7 +39,10 @@ def plot_study_map(study_map: StudyMap, name: str, folder: Path) -> Plot:
     if not drawable.any() or not _places_are_good(study_map):
         say_in_the_middle(axes, "no values to draw")
         return finish(canvas, name, folder, study_map.title)
-    for which, scale, places in (("x", study_map.x_scale, study_map.x), ("y", study_map.y_scale, study_map.y)):
+    for which, scale, places in (
+        ("x", study_map.x_scale, study_map.x),
+        ("y", study_map.y_scale, study_map.y),
+    ):
         scale_axis(axes, which, scale, places)
     if len(study_map.y) <= MOST_ROWS:
         axes.set_yticks(study_map.y, [level_text(value) for value in study_map.y])
@@ -52,12 +59,15 @@ def map_notes(study_map: StudyMap) -> list[str]:
         return []
     why = "NaN, infinite, or not positive on a logarithmic scale" if study_map.scale == "log" \
         else "NaN or infinite"
-    return [f"Hatched: {number_text(hatched)} of {number_text(study_map.values.size)} points without a value "
-            f"({why})."]
+    return [
+        f"Hatched: {number_text(hatched)} of {number_text(study_map.values.size)} points without a"
+        f" value ({why})."
+    ]
 
 
 def edges_of(places: np.ndarray, scale: str) -> np.ndarray:
-    """The borders of the cells around ascending places: halfway between them, on the axis's own scale."""
+    """The borders of the cells around ascending places: halfway between
+    them, on the axis's own scale."""
     at = np.log10(places) if scale == "log" else np.asarray(places, dtype=float)
     if len(at) == 1:
         borders = np.array([at[0] - 0.5, at[0] + 0.5])
@@ -73,8 +83,12 @@ def _drawable(study_map: StudyMap) -> np.ndarray:
 
 
 def _places_are_good(study_map: StudyMap) -> bool:
-    return all(np.isfinite(places).all() and (np.diff(places) > 0).all() and (scale != "log" or places[0] > 0)
-               for places, scale in ((study_map.x, study_map.x_scale), (study_map.y, study_map.y_scale)))
+    return all(
+        np.isfinite(places).all()
+        and (np.diff(places) > 0).all()
+        and (scale != "log" or places[0] > 0)
+        for places, scale in ((study_map.x, study_map.x_scale), (study_map.y, study_map.y_scale))
+    )
 
 
 def _draw_values(axes: Axes, study_map: StudyMap, drawable: np.ndarray) -> ScalarMappable:
@@ -83,11 +97,17 @@ def _draw_values(axes: Axes, study_map: StudyMap, drawable: np.ndarray) -> Scala
     axes.set_xlim(x[0], x[-1])
     axes.set_ylim(y[0], y[-1])
     if not drawable.all():
-        axes.add_patch(Rectangle((0, 0), 1, 1, transform=axes.transAxes, facecolor="none", edgecolor=MUTED,
-                                 hatch="/////", linewidth=0.0, zorder=0.5))
+        axes.add_patch(
+            Rectangle(
+                (0, 0), 1, 1, transform=axes.transAxes, facecolor="none", edgecolor=MUTED,
+                hatch="/////", linewidth=0.0, zorder=0.5
+            )
+        )
     values = np.ma.masked_where(~drawable, study_map.values)
-    return axes.pcolormesh(x, y, values, cmap=COLOURS_OF_VALUES, norm=_norm(values.compressed(), study_map.scale),
-                           rasterized=True, zorder=1)
+    return axes.pcolormesh(
+        x, y, values, cmap=COLOURS_OF_VALUES, norm=_norm(values.compressed(), study_map.scale),
+        rasterized=True, zorder=1
+    )
 
 
 def _norm(values: np.ndarray, scale: str) -> Normalize:
@@ -105,8 +125,10 @@ def _draw_colour_bar(canvas: Figure, study_map: StudyMap, colours: ScalarMappabl
     limits = colours.norm.vmin, colours.norm.vmax
     scale_axis(axes, "y", study_map.scale, np.array(limits))
     axes.set_ylim(*limits)
-    axes.annotate(with_unit(study_map.quantity, study_map.unit), (1.0, 1.0), xycoords="axes fraction",
-                  xytext=(38, 6), textcoords="offset points", ha="right", va="bottom", fontsize=8.0, color=INK)
+    axes.annotate(
+        with_unit(study_map.quantity, study_map.unit), (1.0, 1.0), xycoords="axes fraction",
+        xytext=(38, 6), textcoords="offset points", ha="right", va="bottom", fontsize=8.0, color=INK
+    )
 
 
 def _draw_curves(axes: Axes, curves: list[Curve]) -> None:
@@ -116,21 +138,37 @@ def _draw_curves(axes: Axes, curves: list[Curve]) -> None:
         x, y = curve.x[good], curve.y[good]
         style = DASHES[index % len(DASHES)]
         axes.plot(x, y, color=PAPER, linewidth=3.6, zorder=3, scalex=False, scaley=False)
-        axes.plot(x, y, color=INK, linewidth=1.4, linestyle=style, zorder=4, scalex=False, scaley=False)
+        axes.plot(
+            x, y, color=INK, linewidth=1.4, linestyle=style, zorder=4, scalex=False, scaley=False
+        )
         paths.append(_path(axes, x, y))
     names: list[np.ndarray] = []
     for index, (curve, path) in enumerate(zip(curves, paths)):
         place = _place_of_name(path, names, paths[:index] + paths[index + 1:])
         if place is not None:
             names.append(place)
-            axes.text(*place, fill(curve.label, LABEL_WIDTH), transform=axes.transAxes, ha="center", va="center",
-                      fontsize=7.4, color=INK, zorder=6,
-                      bbox={"facecolor": PAPER, "edgecolor": "none", "boxstyle": "round,pad=0.25", "alpha": 0.9})
+            axes.text(
+                *place,
+                fill(curve.label, LABEL_WIDTH),
+                transform=axes.transAxes,
+                ha="center",
+                va="center",
+                fontsize=7.4,
+                color=INK,
+                zorder=6,
+                bbox={
+                    "facecolor": PAPER, "edgecolor": "none", "boxstyle": "round,pad=0.25",
+                    "alpha": 0.9
+                },
+            )
 
 
-def _place_of_name(path: np.ndarray, names: list[np.ndarray], others: list[np.ndarray]) -> np.ndarray | None:
-    """Where on a curve its name stands: farthest from the frame, from other names and from other curves; None
-    if the curve is not in the picture. Distances count less across, since names are wide."""
+def _place_of_name(
+    path: np.ndarray, names: list[np.ndarray], others: list[np.ndarray]
+) -> np.ndarray | None:
+    """Where on a curve its name stands: farthest from the frame, from other names and from other
+    curves; None if the curve is not in the picture. Distances count
+    less across, since names are wide."""
     if not len(path):
         return None
     across, up = path.T
@@ -138,14 +176,18 @@ def _place_of_name(path: np.ndarray, names: list[np.ndarray], others: list[np.nd
     obstacles = [name[None, :] for name in names] + [other for other in others if len(other)]
     for obstacle in obstacles:
         apart = path[:, None, :] - obstacle[None, :, :]
-        clearance = np.minimum(clearance, np.hypot(apart[:, :, 0], 2.0 * apart[:, :, 1]).min(axis=1))
+        clearance = np.minimum(
+            clearance, np.hypot(apart[:, :, 0], 2.0 * apart[:, :, 1]).min(axis=1)
+        )
     return path[int(np.argmax(np.minimum(clearance, 0.3)))]
 
 
 def _path(axes: Axes, x: np.ndarray, y: np.ndarray) -> np.ndarray:
     """The part of a curve inside the axes, in their coordinates from 0 to 1, in small steps."""
     with np.errstate(all="ignore"):
-        path = axes.transAxes.inverted().transform(axes.transData.transform(np.column_stack([x, y])))
+        path = axes.transAxes.inverted().transform(
+            axes.transData.transform(np.column_stack([x, y]))
+        )
     path = path[np.isfinite(path).all(axis=1)]
     if len(path) > 1:
         lengths = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(path, axis=0).T))])

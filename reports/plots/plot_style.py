@@ -1,4 +1,5 @@
-"""How every plot of the report looks, and how it becomes an inline SVG that follows the page's colours.
+"""How every plot of the report looks, and how it becomes an inline SVG
+that follows the page's colours.
 
 Plots are drawn in the light palette. In the page each of its colours is replaced by a CSS variable
 (style.css gives it a light and a dark value), and the text takes the page's typeface.
@@ -16,7 +17,9 @@ from markupsafe import Markup
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, MaxNLocator, NullFormatter, NullLocator
+from matplotlib.ticker import (
+    FixedLocator, FuncFormatter, LogLocator, MaxNLocator, NullFormatter, NullLocator
+)
 
 from data.quantities import MINUS, is_count, number_text, superscript, unit_text
 from data.whole_file import write_whole
@@ -30,15 +33,37 @@ _VARIABLES = {INK: "--plot-ink", MUTED: "--plot-muted", GRID: "--plot-grid", BAN
               PAPER: "--paper",
               **{colour: f"--plot-{k}" for k, colour in enumerate(COLOURS)}}
 _RC = {
-    "font.family": ["DejaVu Sans"], "font.size": 8.0, "text.color": INK, "text.parse_math": False,
-    "axes.edgecolor": MUTED, "axes.linewidth": 0.6, "axes.labelcolor": INK, "axes.facecolor": "none",
-    "axes.spines.top": False, "axes.spines.right": False, "axes.unicode_minus": True,
-    "xtick.color": MUTED, "ytick.color": MUTED, "xtick.labelcolor": INK, "ytick.labelcolor": INK,
-    "xtick.major.size": 3.0, "ytick.major.size": 0.0, "xtick.major.width": 0.6, "xtick.minor.size": 1.8,
-    "xtick.minor.width": 0.4, "ytick.minor.size": 0.0, "ytick.major.pad": 4.0,
-    "figure.facecolor": "none", "savefig.facecolor": "none", "savefig.transparent": True,
-    "lines.solid_capstyle": "round", "lines.linewidth": 1.3, "path.simplify": True,
-    "svg.fonttype": "none", "svg.hashsalt": "foldproof", "pdf.fonttype": 42,
+    "font.family": ["DejaVu Sans"],
+    "font.size": 8.0,
+    "text.color": INK,
+    "text.parse_math": False,
+    "axes.edgecolor": MUTED,
+    "axes.linewidth": 0.6,
+    "axes.labelcolor": INK,
+    "axes.facecolor": "none",
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.unicode_minus": True,
+    "xtick.color": MUTED,
+    "ytick.color": MUTED,
+    "xtick.labelcolor": INK,
+    "ytick.labelcolor": INK,
+    "xtick.major.size": 3.0,
+    "ytick.major.size": 0.0,
+    "xtick.major.width": 0.6,
+    "xtick.minor.size": 1.8,
+    "xtick.minor.width": 0.4,
+    "ytick.minor.size": 0.0,
+    "ytick.major.pad": 4.0,
+    "figure.facecolor": "none",
+    "savefig.facecolor": "none",
+    "savefig.transparent": True,
+    "lines.solid_capstyle": "round",
+    "lines.linewidth": 1.3,
+    "path.simplify": True,
+    "svg.fonttype": "none",
+    "svg.hashsalt": "foldproof",
+    "pdf.fonttype": 42,
 }
 
 
@@ -51,7 +76,8 @@ class Plot:
 
 @dataclass
 class Pen:
-    """How one curve is drawn. Curves that lie on each other get nested markers and lines of falling width."""
+    """How one curve is drawn. Curves that lie on each other get nested
+    markers and lines of falling width."""
     colour: str
     marker: str
     width: float
@@ -65,8 +91,8 @@ _for_papers = False
 
 
 def use_style(for_papers: bool = False) -> None:
-    """Sets the style for every figure made from here on, and whether files for papers are written: PDF and PNG of each figure,
-    and pictures that the page holds as they are."""
+    """Sets the style for every figure made from here on, and whether files for papers are written:
+    PDF and PNG of each figure, and pictures that the page holds as they are."""
     global _for_papers
     _for_papers = for_papers
     matplotlib.rcParams.update(_RC)
@@ -90,13 +116,15 @@ def new_figure(width: float, height: float) -> Figure:
 
 
 def finish(figure: Figure, name: str, folder: Path, description: str) -> Plot:
-    """Writes name.svg, for papers name.pdf and name.png (200 dpi, white) too, into the folder and returns the SVG
-    for the page."""
+    """Writes name.svg, for papers name.pdf and name.png (200 dpi, white) too, into the folder and
+    returns the SVG for the page."""
     text = svg_text(figure)
     write_whole(folder / f"{name}.svg", text.encode("utf-8"))
     if _for_papers:
         pdf, png = BytesIO(), BytesIO()
-        figure.savefig(pdf, format="pdf", metadata={"CreationDate": None, "Creator": None, "Producer": None})
+        figure.savefig(
+            pdf, format="pdf", metadata={"CreationDate": None, "Creator": None, "Producer": None}
+        )
         figure.savefig(png, format="png", dpi=200, transparent=False, facecolor="white",
                        metadata={"Software": None}, pil_kwargs={"compress_level": 3})
         write_whole(folder / f"{name}.pdf", pdf.getvalue())
@@ -107,7 +135,9 @@ def finish(figure: Figure, name: str, folder: Path, description: str) -> Plot:
 def svg_text(figure: Figure) -> str:
     """The figure as the text of an SVG file, the same on every run."""
     text = StringIO()
-    figure.savefig(text, format="svg", metadata={"Date": None, "Creator": None, "Format": None, "Type": None})
+    figure.savefig(
+        text, format="svg", metadata={"Date": None, "Creator": None, "Format": None, "Type": None}
+    )
     return text.getvalue()
 
 
@@ -117,7 +147,8 @@ def variable_of(colour: str) -> str:
 
 
 def label_axes(axes: Axes, x_label: str, x_unit: str, y_label: str, y_unit: str) -> None:
-    """The y label stands level above its axis, where it reads without turning the head; units in brackets."""
+    """The y label stands level above its axis, where it reads without
+    turning the head; units in brackets."""
     axes.set_xlabel(with_unit(x_label, x_unit), labelpad=4)
     axes.annotate(with_unit(y_label, y_unit), (0.0, 1.0), xycoords="axes fraction", xytext=(0, 6),
                   textcoords="offset points", ha="left", va="bottom", fontsize=8.0, color=INK)
@@ -131,7 +162,8 @@ def with_unit(label: str, unit: str) -> str:
 
 
 def scale_axis(axes: Axes, which: str, scale: str, values: np.ndarray) -> None:
-    """Sets a linear or logarithmic scale and ticks that a reader can name; `which` is "x" or "y"."""
+    """Sets a linear or logarithmic scale and ticks that a reader
+    can name; `which` is "x" or "y"."""
     axis = axes.xaxis if which == "x" else axes.yaxis
     if scale != "log":
         axis.set_major_locator(MaxNLocator(nbins=6, steps=[1, 2, 2.5, 5, 10]))
@@ -149,7 +181,8 @@ def scale_axis(axes: Axes, which: str, scale: str, values: np.ndarray) -> None:
 
 
 def _tick_levels(axes: Axes, levels: np.ndarray) -> None:
-    """Ticks at the very levels that were run; every second one named where the names would touch."""
+    """Ticks at the very levels that were run; every second one
+    named where the names would touch."""
     width = axes.get_position().width * axes.figure.get_figwidth()     # [inch]
     room = np.diff(np.log10(levels)).min() / np.log10(levels[-1] / levels[0]) * 0.89 * width
     needed = 0.08 + 0.07 * max(len(level_text(level)) for level in levels)
@@ -178,7 +211,11 @@ def plain(value: float) -> str:
 def _power(value: float) -> str:
     """A tick of a logarithmic axis: plain from 0.01 to 1000, else as a power of ten."""
     exponent = int(np.floor(np.log10(value) + 1e-9))
-    return plain(value) if -2 <= exponent <= 3 else _times_power(f"{value / 10.0 ** exponent:.6g}", exponent)
+    return (
+        plain(value)
+        if -2 <= exponent <= 3
+        else _times_power(f"{value / 10.0 ** exponent:.6g}", exponent)
+    )
 
 
 def _times_power(mantissa: str, exponent: int) -> str:

@@ -1,4 +1,5 @@
-"""The slopes that theory expects, as triangles: one that all curves of a figure share, or one beside each curve."""
+"""The slopes that theory expects, as triangles: one that all curves of a figure
+share, or one beside each curve."""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -23,36 +24,48 @@ class Triangle:
         """Lowest and highest level of the triangle over the places `at` inside it."""
         on_line = self.base + self.rise * (at - self.start) / self.width
         ends = (self.base, self.base + self.rise)
-        return (np.full_like(at, min(ends)), on_line) if self.is_below else (on_line, np.full_like(at, max(ends)))
+        return (
+            (np.full_like(at, min(ends)), on_line)
+            if self.is_below
+            else (on_line, np.full_like(at, max(ends)))
+        )
 
 
 def draw_common_slope(axes: Axes, shown: list[Points], pens: list[Pen], slope: float) -> None:
-    """A triangle of the expected slope, where it needs the least extra room below or above the curves."""
+    """A triangle of the expected slope, where it needs the least extra
+    room below or above the curves."""
     if not np.isfinite(slope) or slope == 0:
         return
     (bottom, top), gap = np.log10(axes.get_ylim()), _gap(axes, pens)
     places = []
     for place in _places(axes, shown, slope, gap):
-        low, high = min(place.base, place.base + place.rise), max(place.base, place.base + place.rise)
+        low, high = min(place.base, place.base + place.rise), max(
+            place.base, place.base + place.rise
+        )
         beyond = bottom - (low - gap) if place.is_below else high + gap - top
         places.append((max(0.0, beyond), place))
     if not places:
         return
     side = np.sign(slope)
-    _, best = min(places, key=lambda one: (round(one[0], 3), not one[1].is_below, -one[1].start * side))
+    _, best = min(
+        places, key=lambda one: (round(one[0], 3), not one[1].is_below, -one[1].start * side)
+    )
     _draw(axes, best, slope, gap)
 
 
 def draw_own_slopes(axes: Axes, shown: list[Points], pens: list[Pen], slopes: list[float]) -> None:
-    """For every curve with a slope of its own a triangle beside it, where the other curves and triangles leave the
-    most room."""
+    """For every curve with a slope of its own a triangle beside it, where the other curves and
+    triangles leave the most room."""
     gap = 0.6 * _gap(axes, pens)
     drawn: list[Triangle] = []
     for index, slope in enumerate(slopes):
         if not np.isfinite(slope) or slope == 0:
             continue
         others = [points for k, points in enumerate(shown) if k != index and len(points[0]) > 1]
-        places = [(_clearance(axes, place, others, drawn), place) for place in _places(axes, [shown[index]], slope, gap)]
+        places = [
+            (_clearance(axes, place, others, drawn), place)
+            for place in _places(axes, [shown[index]], slope, gap)
+        ]
         if places:
             drawn.append(max(places, key=lambda one: one[0])[1])
             _draw(axes, drawn[-1], slope, gap)
@@ -82,7 +95,8 @@ def _places(axes: Axes, curves: list[Points], slope: float, gap: float) -> list[
 
 
 def _clearance(axes: Axes, place: Triangle, others: list[Points], drawn: list[Triangle]) -> float:
-    """Least distance up or down to other curves, triangles and the frame [decades]; negative where they meet."""
+    """Least distance up or down to other curves, triangles and the frame
+    [decades]; negative where they meet."""
     at = np.linspace(place.start, place.start + place.width, 15)
     low, high = place.span(at)
     bottom, top = np.log10(axes.get_ylim())
@@ -95,13 +109,17 @@ def _clearance(axes: Axes, place: Triangle, others: list[Points], drawn: list[Tr
     for other in drawn:
         if other.start < place.start + place.width and place.start < other.start + other.width:
             other_low, other_high = other.span(np.clip(at, other.start, other.start + other.width))
-            clearance = min(clearance, max(other_low.min() - high.max(), low.min() - other_high.max()))
+            clearance = min(
+                clearance, max(other_low.min() - high.max(), low.min() - other_high.max())
+            )
     return float(clearance)
 
 
-def _envelope(shown: list[Points], start: float, stop: float, slope: float) -> tuple[float, float] | None:
-    """Lowest and highest level (log10, at `start`) of lines of the given slope that touch the curves over the
-    span."""
+def _envelope(
+    shown: list[Points], start: float, stop: float, slope: float
+) -> tuple[float, float] | None:
+    """Lowest and highest level (log10, at `start`) of lines of the given slope that touch the
+    curves over the span."""
     levels = []
     for x, y in shown:
         order = np.argsort(x)
@@ -121,11 +139,15 @@ def _draw(axes: Axes, place: Triangle, slope: float, gap: float) -> None:
     x0, x1 = 10 ** place.start, 10 ** (place.start + place.width)
     y0, y1 = 10 ** place.base, 10 ** (place.base + place.rise)
     corner = (x1, y0) if corner_right else (x0, y1)
-    axes.fill([x0, x1, corner[0]], [y0, y1, corner[1]], facecolor="none", edgecolor=INK, linewidth=1.2,
-              zorder=5, joinstyle="round")
+    axes.fill(
+        [x0, x1, corner[0]], [y0, y1, corner[1]], facecolor="none", edgecolor=INK, linewidth=1.2,
+        zorder=5, joinstyle="round"
+    )
     axes.annotate(number_text(slope), (corner[0], 10 ** (place.base + place.rise / 2)),
                   xytext=(4 if corner_right else -4, 0), textcoords="offset points",
                   ha="left" if corner_right else "right", va="center", fontsize=9.0)
     below = (slope > 0) == corner_right
-    axes.annotate("1", (10 ** (place.start + place.width / 2), corner[1]), xytext=(0, -3 if below else 3),
-                  textcoords="offset points", ha="center", va="top" if below else "bottom", fontsize=9.0)
+    axes.annotate(
+        "1", (10 ** (place.start + place.width / 2), corner[1]), xytext=(0, -3 if below else 3),
+        textcoords="offset points", ha="center", va="top" if below else "bottom", fontsize=9.0
+    )

@@ -1,5 +1,5 @@
-"""Curves of a study: markers and lines, labels beside the curves, the noise floor; with slope_triangles.py the
-slopes that theory expects, with point_marks.py the runs that diverged."""
+"""Curves of a study: markers and lines, labels beside the curves, the noise floor; with
+slope_triangles.py the slopes that theory expects, with point_marks.py the runs that diverged."""
 from __future__ import annotations
 
 from pathlib import Path
@@ -11,21 +11,27 @@ from matplotlib.axes import Axes
 from matplotlib.markers import MarkerStyle
 
 from data.results import Curve, StudyFigure
-from plots.plot_style import (BAND, COLOURS, INK, MARKERS, MUTED, PAPER, Pen, Plot, Points, finish, label_axes,
-                              new_figure, say_in_the_middle, scale_axis, variable_of)
+from plots.plot_style import (
+    BAND, COLOURS, INK, MARKERS, MUTED, PAPER, Pen, Plot, Points, finish, label_axes, new_figure,
+    say_in_the_middle, scale_axis, variable_of
+)
 from plots.point_marks import clip_levels, diverged_x, draw_strip, has_mark, is_marked
 from plots.slope_triangles import draw_common_slope, draw_own_slopes
 
 WIDTH, HEIGHT = 7.6, 4.0            # [inch]
-LABEL_STEP = 0.055                  # least distance of two labels, as a fraction of the axes' height
+# least distance of two labels, as a fraction of the axes' height
+LABEL_STEP = 0.055
 LABEL_WIDTH = 34                    # characters of a line of a label
-SAME = 0.03                         # curves whose values differ by less than this fraction lie on each other
+# curves whose values differ by less than this fraction lie on each other
+SAME = 0.03
 MOST_MARKERS = 60                   # points of a curve beyond which it is a line alone
 FLOOR_REACH = 1.3                   # decades below the lowest point within which a floor is drawn
 
 # Methods look alike wherever they appear; other curves take their looks in turn.
-METHODS = ("A", "B", "C", "forward-euler", "RK2", "SSP-RK3", "RK4", "backward-euler", "linear-backward-euler", "BDF2",
-           "implicit-midpoint")
+METHODS = (
+    "A", "B", "C", "forward-euler", "RK2", "SSP-RK3", "RK4", "backward-euler",
+    "linear-backward-euler", "BDF2", "implicit-midpoint"
+)
 
 
 def plot_study_figure(figure: StudyFigure, name: str, folder: Path) -> Plot:
@@ -56,7 +62,8 @@ def plot_study_figure(figure: StudyFigure, name: str, folder: Path) -> Plot:
 
 
 def is_geometry(figure: StudyFigure) -> bool:
-    """Whether a figure shows shapes: lengths over lengths (of m, or of a strip's own L), each on a linear axis."""
+    """Whether a figure shows shapes: lengths over lengths (of m, or of a strip's
+    own L), each on a linear axis."""
     return (figure.x_unit == figure.y_unit and figure.x_unit in ("m", "L")
             and figure.x_scale == figure.y_scale == "linear")
 
@@ -106,8 +113,8 @@ def choose_pens(curves: list[Curve]) -> list[Pen]:
 
 
 def _look(curves: list[Curve], index: int) -> tuple[str, str]:
-    """Colour and marker: a method's own; ink for what is drawn beside methods; else in turn. Long curves have no
-    marker."""
+    """Colour and marker: a method's own; ink for what is drawn beside methods; else in turn. Long
+    curves have no marker."""
     colour, marker = _look_in_turn(curves, index)
     return colour, marker if len(curves[index].x) <= MOST_MARKERS else ""
 
@@ -151,25 +158,38 @@ def _coincide(one: Curve, other: Curve) -> bool:
 
 
 def _draw_curve(axes: Axes, figure: StudyFigure, curve: Curve, pen: Pen, layer: int) -> None:
-    """Line and markers. Where some runs of a figure are marked, hollow means that a solve did not finish. The line
-    goes from left to right; that of a shape goes from point to point, so that loops can close."""
+    """Line and markers. Where some runs of a figure are marked, hollow means that a solve did not
+    finish. The line goes from left to right; that of a shape goes from point to
+    point, so that loops can close."""
     good = np.flatnonzero(_is_drawable(curve, figure))
     order = good if is_geometry(figure) else good[np.argsort(curve.x[good], kind="stable")]
     x, y = curve.x[order], clip_levels(curve, curve.y[order])
     axes.plot(x, y, color=pen.colour, linewidth=pen.width, zorder=3 + 0.01 * layer)
     if not pen.marker:
         return
-    hollow = has_mark(curve, "unfinished")[order] if is_marked(figure.curves) else np.ones(len(x), dtype=bool)
+    hollow = (
+        has_mark(curve, "unfinished")[order]
+        if is_marked(figure.curves)
+        else np.ones(len(x), dtype=bool)
+    )
     below = curve.y[order] <= curve.floor
     for kind, face in ((hollow, PAPER), (~hollow, pen.colour)):
-        for part, size, edge, alpha in ((kind & ~below, 1.0, 1.1, 1.0), (kind & below, 0.7, 0.6, 0.5)):
-            axes.plot(x[part], y[part], linestyle="none", marker=pen.marker, markersize=size * pen.size,
-                      color=pen.colour, markerfacecolor=face, markeredgewidth=edge, alpha=alpha,
-                      zorder=4 + 0.01 * layer)
+        for part, size, edge, alpha in (
+            (kind & ~below, 1.0, 1.1, 1.0),
+            (kind & below, 0.7, 0.6, 0.5),
+        ):
+            axes.plot(
+                x[part], y[part], linestyle="none", marker=pen.marker, markersize=size * pen.size,
+                color=pen.colour, markerfacecolor=face, markeredgewidth=edge, alpha=alpha,
+                zorder=4 + 0.01 * layer
+            )
 
 
 def _set_limits(axes: Axes, figure: StudyFigure, shown: list[Points]) -> None:
-    for part, scale, set_limits in ((0, figure.x_scale, axes.set_xlim), (1, figure.y_scale, axes.set_ylim)):
+    for part, scale, set_limits in (
+        (0, figure.x_scale, axes.set_xlim),
+        (1, figure.y_scale, axes.set_ylim),
+    ):
         values = np.concatenate([points[part] for points in shown]
                                 + ([diverged_x(figure.curves)] if part == 0 else []))
         low, high = values.min(), values.max()
@@ -192,8 +212,8 @@ def _floor_shows(curve: Curve, lowest: float) -> bool:
 
 
 def _draw_floors(axes: Axes, figure: StudyFigure, pens: list[Pen]) -> None:
-    """Shades what lies below every floor; where floors differ each also gets a dotted line in its curve's
-    colour."""
+    """Shades what lies below every floor; where floors differ each also gets a
+    dotted line in its curve's colour."""
     lowest = _lowest(figure)
     drawn = [(curve, pen) for curve, pen in zip(figure.curves, pens) if _floor_shows(curve, lowest)]
     if not drawn:
@@ -205,39 +225,52 @@ def _draw_floors(axes: Axes, figure: StudyFigure, pens: list[Pen]) -> None:
     axes.set_ylim(bottom, top)
     axes.axhspan(bottom, floors.min(), facecolor=BAND, edgecolor="none", zorder=0.5)
     axes.axhline(floors.min(), color=MUTED, linewidth=0.7, linestyle=(0, (4, 3)), zorder=2)
-    axes.annotate("noise floor of the reference", (0.995, floors.min()), xycoords=("axes fraction", "data"),
-                  xytext=(0, -2.5), textcoords="offset points", ha="right", va="top", fontsize=6.8,
-                  color=MUTED, zorder=6)
+    axes.annotate(
+        "noise floor of the reference", (0.995, floors.min()), xycoords=("axes fraction", "data"),
+        xytext=(0, -2.5), textcoords="offset points", ha="right", va="top", fontsize=6.8,
+        color=MUTED, zorder=6
+    )
     for curve, pen in drawn:
         if curve.floor > 1.01 * floors.min():
-            axes.plot([curve.x.min(), curve.x.max()], [curve.floor] * 2, color=pen.colour, linewidth=0.8,
-                      linestyle=(0, (1, 2.2)), zorder=2)
+            axes.plot(
+                [curve.x.min(), curve.x.max()], [curve.floor] * 2, color=pen.colour, linewidth=0.8,
+                linestyle=(0, (1, 2.2)), zorder=2
+            )
 
 
 def _label_curves(axes: Axes, curves: list[Curve], pens: list[Pen], shown: list[Points]) -> None:
-    """Labels in a column right of the axes, near the right end of their curves, with thin leaders."""
+    """Labels in a column right of the axes, near the right end of
+    their curves, with thin leaders."""
     to_axes = axes.transData + axes.transAxes.inverted()
     ends = [tuple(to_axes.transform((x[x.argmax()], y[x.argmax()]))) if len(x) else (0.0, -1.0)
             for x, y in shown]
     labels = [fill(curve.label, LABEL_WIDTH) for curve in curves]
-    step = min(LABEL_STEP * max(1 + label.count("\n") for label in labels), 1.06 / max(len(curves), 1))
+    step = min(
+        LABEL_STEP * max(1 + label.count("\n") for label in labels), 1.06 / max(len(curves), 1)
+    )
     heights = spread([end[1] for end in ends], step)
     size = 7.6 if step >= LABEL_STEP else 6.4
     for label, pen, end, height in zip(labels, pens, ends, heights):
         key = [1.075] if pen.marker else [1.062, 1.088]
-        axes.plot(key, [height] * len(key), transform=axes.transAxes, clip_on=False, color=pen.colour,
-                  marker=pen.marker, markersize=4.6, markeredgewidth=1.1,
-                  markerfacecolor=pen.colour if is_marked(curves) else PAPER)
-        axes.text(1.10, height, label, transform=axes.transAxes, ha="left", va="center", fontsize=size,
-                  color=INK)
+        axes.plot(
+            key, [height] * len(key), transform=axes.transAxes, clip_on=False, color=pen.colour,
+            marker=pen.marker, markersize=4.6, markeredgewidth=1.1,
+            markerfacecolor=pen.colour if is_marked(curves) else PAPER
+        )
+        axes.text(
+            1.10, height, label, transform=axes.transAxes, ha="left", va="center", fontsize=size,
+            color=INK
+        )
         if end[0] > 0.85 and 0 <= end[1] <= 1:
-            axes.plot([end[0] + 0.012, 1.015, 1.06], [end[1], end[1], height], transform=axes.transAxes,
-                      clip_on=False,
-                      color=pen.colour, linewidth=0.5, alpha=0.7)
+            axes.plot(
+                [end[0] + 0.012, 1.015, 1.06], [end[1], end[1], height], transform=axes.transAxes,
+                clip_on=False, color=pen.colour, linewidth=0.5, alpha=0.7
+            )
 
 
 def spread(heights: list[float], step: float) -> list[float]:
-    """The heights, moved apart to at least `step` with their order kept, inside [0, 1] as far as they fit."""
+    """The heights, moved apart to at least `step` with their order kept,
+    inside [0, 1] as far as they fit."""
     order = np.argsort(heights, kind="stable")
     placed = np.clip(np.array(heights, dtype=float)[order], 0.0, 1.0)
     for _ in range(200):

@@ -1,5 +1,5 @@
-"""Embeds a figure's SVG file in the page. A page holds hundreds of figures, so what no reader sees is left
-out: ids that nothing refers to, groups that say nothing, digits that no pixel shows."""
+"""Embeds a figure's SVG file in the page. A page holds hundreds of figures, so what no reader sees
+is left out: ids that nothing refers to, groups that say nothing, digits that no pixel shows."""
 from __future__ import annotations
 
 import re
@@ -9,8 +9,10 @@ from xml.etree.ElementTree import Element, fromstring
 
 from markupsafe import Markup, escape
 
-DECIMALS = 2                        # of coordinates; the unit of a figure is at most 1.7 pixels in the page
-_LEFT_OUT = ("metadata", "style")   # the one rule of matplotlib's <style> stands in style.css for all figures
+# of coordinates; the unit of a figure is at most 1.7 pixels in the page
+DECIMALS = 2
+# the one rule of matplotlib's <style> stands in style.css for all figures
+_LEFT_OUT = ("metadata", "style")
 _FRACTION = re.compile(r"-?\d*\.\d+")
 _AROUND_A_LETTER = re.compile(r"\s*([A-Za-z])\s*")
 _NO_TURN = re.compile(r"rotate\(-?0 [^)]*\)")
@@ -26,8 +28,8 @@ class _Names:
 
 
 def page_svg(text: str, name: str, description: str, variables: Mapping[str, str]) -> Markup:
-    """An SVG file's text made fit to stand in the page: no prolog, ids of its own that begin with plot-NAME, the page's
-    typeface, and colours as the CSS variables that are given for them."""
+    """An SVG file's text made fit to stand in the page: no prolog, ids of its own that begin with
+    plot-NAME, the page's typeface, and colours as the CSS variables that are given for them."""
     referred = dict.fromkeys(_REFERENCE.findall(text))
     names = _Names({old: f"plot-{name}-{k}" for k, old in enumerate(referred)}, variables)
     drawing = fromstring(text.encode("utf-8"))
@@ -41,7 +43,9 @@ def _write(element: Element, names: _Names) -> str:
     tag = _local(element.tag)
     if tag in _LEFT_OUT:
         return ""
-    inside = _words(element.text) + "".join(_write(child, names) + _words(child.tail) for child in element)
+    inside = _words(element.text) + "".join(
+        _write(child, names) + _words(child.tail) for child in element
+    )
     attributes = "".join(_attribute(_local(key), value, names) for key, value in element.items())
     if tag in ("g", "defs") and not inside:
         return ""

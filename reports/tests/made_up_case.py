@@ -29,7 +29,9 @@ def put_whole_case(folder: Path) -> Path:
         put(ground, name="ground", shape="half_space", friction=0.5)
         ground["vertices"] = 6.0 * SQUARE - [3.0, 3.0, 0.1]
         ground["triangles"] = TWO.astype(np.int32)
-        ground["rotation"], ground["translation"] = np.tile([1.0, 0, 0, 0], (4, 1)), np.zeros((4, 3))
+        ground["rotation"], ground["translation"] = np.tile([1.0, 0, 0, 0], (4, 1)), np.zeros(
+            (4, 3)
+        )
     return folder / "fold.h5"
 
 

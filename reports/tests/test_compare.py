@@ -56,7 +56,10 @@ class TwoRuns(unittest.TestCase):
         found = self.compared()
         self.assertEqual([change.b.name for change in found.verdicts], [NAMES[2]])
         self.assertEqual([claim.name for claim, _ in found.rulings], ["T17"])
-        self.assertEqual([(change.b.name, round(change.factor, 9)) for change in found.margins], [(NAMES[2], 0.01), (NAMES[0], 2.0)])
+        self.assertEqual(
+            [(change.b.name, round(change.factor, 9)) for change in found.margins],
+            [(NAMES[2], 0.01), (NAMES[0], 2.0)],
+        )
         self.assertEqual(found.unscaled, [])
         self.assertEqual([change.b.name for change in found.bounds], [NAMES[6]])
         self.assertEqual([finding.name for finding in found.only_a], [NAMES[3]])
@@ -67,14 +70,18 @@ class TwoRuns(unittest.TestCase):
         found = self.compared()
         self.assertEqual({cost.what: cost.factor for cost in found.seconds if cost.factor != 1.0},
                          {"the whole run": 2.0, "study time-order": 0.5})
-        self.assertEqual([(cost.what, cost.factor) for cost in found.work],
-                         [("case fold: iterations of conjugate gradients", 2.0), ("case fold: steps", 1.0)])
+        self.assertEqual(
+            [(cost.what, cost.factor) for cost in found.work],
+            [("case fold: iterations of conjugate gradients", 2.0), ("case fold: steps", 1.0)],
+        )
         self.assertEqual([(cost.a, cost.b, cost.factor) for cost in found.rates], [(2e7, 1e7, 0.5)])
 
     def test_from_zero_comes_first(self) -> None:
         with h5py.File(self.a / "run.h5", "r+") as file:
             put(file[f"findings/{NAMES[7]}"], measured=0.0)
-        self.assertEqual((self.compared().margins[0].b.name, self.compared().margins[0].factor), (NAMES[7], inf))
+        self.assertEqual(
+            (self.compared().margins[0].b.name, self.compared().margins[0].factor), (NAMES[7], inf)
+        )
 
     def test_the_page_says_so_and_escapes(self) -> None:
         text = compare_runs(self.a, self.b / "run.h5", None).read_text(encoding="utf-8")
@@ -84,13 +91,20 @@ class TwoRuns(unittest.TestCase):
             self.assertFalse(unsafe in text, unsafe)
         for name in (NAMES[0], NAMES[2], "mine.alone"):
             self.assertTrue(name in text, name)
-        again = compare_runs(self.a, self.b / "run.h5", self.b / "again.html").read_text(encoding="utf-8")
+        again = compare_runs(self.a, self.b / "run.h5", self.b / "again.html").read_text(
+            encoding="utf-8"
+        )
         self.assertEqual(again, text)
 
     def test_a_run_does_not_differ_from_itself(self) -> None:
         found = compare(read_side("A", self.a), read_side("B", self.a))
-        self.assertFalse(found.verdicts or found.rulings or found.margins or found.only_a or found.only_b)
-        self.assertIn("has the same verdict in both", compare_runs(self.a, self.a, None).read_text(encoding="utf-8"))
+        self.assertFalse(
+            found.verdicts or found.rulings or found.margins or found.only_a or found.only_b
+        )
+        self.assertIn(
+            "has the same verdict in both",
+            compare_runs(self.a, self.a, None).read_text(encoding="utf-8"),
+        )
 
     def test_a_run_of_version_0_1_0_is_compared_by_the_names_of_today(self) -> None:
         with h5py.File(self.a / "run.h5", "r+") as file:
@@ -105,9 +119,14 @@ class TwoRuns(unittest.TestCase):
 
     def test_what_is_no_run_is_refused(self) -> None:
         (self.b / "run.h5").write_bytes(b"no HDF5")
-        for other, why in ((self.b, "no HDF5 file"), (self.a / "fold.h5", "no run of foldproof"), (self.a / "none", "no such file")):
+        for other, why in (
+            (self.b, "no HDF5 file"), (self.a / "fold.h5", "no run of foldproof"),
+            (self.a / "none", "no such file")
+        ):
             with self.assertRaisesRegex(Unreadable, why):
                 compare_runs(self.a, other, None)
-        done = subprocess.run([sys.executable, str(REPORTS / "make_report.py"), str(self.a), str(self.b)],
-                              capture_output=True, text=True, check=False)
+        done = subprocess.run(
+            [sys.executable, str(REPORTS / "make_report.py"), str(self.a), str(self.b)],
+            capture_output=True, text=True, check=False
+        )
         self.assertEqual((done.returncode, len(done.stderr.splitlines())), (2, 1))

@@ -1,4 +1,5 @@
-"""Tests of what the report says of the errors of shipped cases, and of their record. Run by test_reports.py."""
+"""Tests of what the report says of the errors of shipped cases, and of their
+record. Run by test_reports.py."""
 from __future__ import annotations
 
 import json
@@ -26,14 +27,31 @@ MOST_HOURS_UNASKED = 600 / 3600  # a case that takes less must be asked
 
 def answer(case: str, **others: Any) -> dict[str, Any]:
     """A row of the record, with positions and one quantity."""
-    positions = {"name": "positions", "unit": "m", "order": 1.5, "reading": "not asymptotic", "because": "it <varies>", "error_bar": 2e-5,
-                 "error_as_it_is": 3e-4, "value": None, "finest": None}
-    height = positions | {"name": "height <b>", "order": None, "reading": "inconclusive", "value": 0.25, "finest": 0.26}
-    cheapest = [{"error": 0.01, "method": "RK4", "step": 0.002, "applications": 90, "seconds": 0.3, "tied": ["C"]},
-                {"error": 0.001, "method": None, "step": None, "applications": None, "seconds": None, "tied": []}]
-    return {"case": case, "method": "C", "end": 3.0, "asked_end": 0.5, "mean_step": [0.004, 0.002, 0.001], "seconds": 7, "stopped": {"2": "it <stops>"},
-            "horizon": 0.4, "growth_rate": 3.0, "predictable": "beyond t = 0.4 s only <statistics>", "quantities": [positions, height],
-            "program": PROGRAM, "precision": {"cheapest": cheapest}} | others
+    positions = {
+        "name": "positions", "unit": "m", "order": 1.5, "reading": "not asymptotic",
+        "because": "it <varies>", "error_bar": 2e-5, "error_as_it_is": 3e-4, "value": None,
+        "finest": None
+    }
+    height = positions | {
+        "name": "height <b>", "order": None, "reading": "inconclusive", "value": 0.25,
+        "finest": 0.26
+    }
+    cheapest = [
+        {
+            "error": 0.01, "method": "RK4", "step": 0.002, "applications": 90, "seconds": 0.3,
+            "tied": ["C"]
+        },
+        {
+            "error": 0.001, "method": None, "step": None, "applications": None, "seconds": None,
+            "tied": []
+        },
+    ]
+    return {
+        "case": case, "method": "C", "end": 3.0, "asked_end": 0.5,
+        "mean_step": [0.004, 0.002, 0.001], "seconds": 7, "stopped": {"2": "it <stops>"},
+        "horizon": 0.4, "growth_rate": 3.0, "predictable": "beyond t = 0.4 s only <statistics>",
+        "quantities": [positions, height], "program": PROGRAM, "precision": {"cheapest": cheapest}
+    } | others
 
 
 class ErrorsShown(unittest.TestCase):
@@ -50,12 +68,18 @@ class ErrorsShown(unittest.TestCase):
         """Each with its case."""
         for row in rows:
             (self.shipped / f"{row['case']}.toml").write_bytes(CASE)
-        digest = case_digest(f"{rows[0]['case']}.toml", lambda name: (self.shipped / name).read_bytes())
-        (self.shipped / "errors.json").write_text(json.dumps({"schema": 1, "cases": [row | {"digest": digest} for row in rows]}))
+        digest = case_digest(
+            f"{rows[0]['case']}.toml", lambda name: (self.shipped / name).read_bytes()
+        )
+        (self.shipped / "errors.json").write_text(
+            json.dumps({"schema": 1, "cases": [row | {"digest": digest} for row in rows]})
+        )
 
     def made(self) -> str:
         """The text of the folder's report."""
-        return make_report(self.root, self.root / "report.html", self.root / "figures", shipped=self.shipped).read_text(encoding="utf-8")
+        return make_report(
+            self.root, self.root / "report.html", self.root / "figures", shipped=self.shipped
+        ).read_text(encoding="utf-8")
 
     def test_errors_are_shown_with_each_case_and_in_a_section(self) -> None:
         put_run(self.root)
@@ -63,9 +87,19 @@ class ErrorsShown(unittest.TestCase):
         self.record(answer("fold"), {"case": "bag", "not_asked_hours": 4.5, "program": PROGRAM})
         text = self.made()
         section = re.search(r'<section id="errors">.*?</section>', text, re.DOTALL)[0]
-        self.assertRegex(text, r'Its error: <a href="#errors-of-fold">its step puts its positions off by [^\n]{0,80}\u2009')
-        for shown in ("it &lt;varies&gt;", "height &lt;b&gt;", "only &lt;statistics&gt;", "level 2 came to no end: it &lt;stops&gt;".capitalize(),
-                      "not asked: 4.5 hours", "fold, first 0.5 of 3 s", "(commit fedcba9876)", "(tied: C)", "cheapest for 1 %", "cheapest for 0.1 %"):
+        self.assertRegex(
+            text,
+            (
+                r'Its error: <a href="#errors-of-fold">its step puts its positions off by'
+                r' [^\n]{0,80}\u2009'
+            ),
+        )
+        for shown in (
+            "it &lt;varies&gt;", "height &lt;b&gt;", "only &lt;statistics&gt;",
+            "level 2 came to no end: it &lt;stops&gt;".capitalize(), "not asked: 4.5 hours",
+            "fold, first 0.5 of 3 s", "(commit fedcba9876)", "(tied: C)", "cheapest for 1 %",
+            "cheapest for 0.1 %"
+        ):
             self.assertIn(shown, re.sub("<[^>]*>", "", section))
         self.assertNotIn("earlier form", text)
 
@@ -92,12 +126,15 @@ class ErrorsShown(unittest.TestCase):
     def test_numbers_that_are_not_there_are_not_read_as_zero(self) -> None:
         self.record(answer("fold", horizon=None))
         case = load_errors(self.shipped).of("fold")
-        for value in (case.horizon, case.positions.value, case.quantities[1].order, case.cheapest[1].step):
+        for value in (
+            case.horizon, case.positions.value, case.quantities[1].order, case.cheapest[1].step
+        ):
             self.assertTrue(isnan(value))
 
 
 def is_within_error(expected: dict[str, Any], found: QuantityError) -> bool:
-    """True unless the value that steps of no length would give, within its error bar, keeps the bound."""
+    """True unless the value that steps of no length would give, within
+    its error bar, keeps the bound."""
     if isnan(found.bar):
         return True
     if "at_most" in expected:
@@ -111,9 +148,12 @@ class Bounds(unittest.TestCase):
     def test_a_bound_within_the_bar_is_noticed_on_either_side(self) -> None:
         def found(finest: float, bar: float) -> QuantityError:
             return QuantityError("q", "m", 0, finest, bar, 0, 0, "", "")
-        for expected, finest, bar, within in (({"at_most": 3}, 2, 0.5, False), ({"at_most": 3}, 2, 1.5, True), ({"at_most": 3}, 4, 0.5, True),
-                                              ({"at_least": 3}, 4, 0.5, False), ({"at_least": 3}, 4, 1.5, True), ({"at_least": 3}, 2, 0.5, True),
-                                              ({"at_most": 3}, 2, float("nan"), True), ({"at_least": 4}, 4, 0, False)):
+        for expected, finest, bar, within in (
+            ({"at_most": 3}, 2, 0.5, False), ({"at_most": 3}, 2, 1.5, True),
+            ({"at_most": 3}, 4, 0.5, True), ({"at_least": 3}, 4, 0.5, False),
+            ({"at_least": 3}, 4, 1.5, True), ({"at_least": 3}, 2, 0.5, True),
+            ({"at_most": 3}, 2, float("nan"), True), ({"at_least": 4}, 4, 0, False)
+        ):
             with self.subTest(expected=expected, finest=finest, bar=bar):
                 self.assertEqual(is_within_error(expected, found(finest, bar)), within)
 
@@ -127,15 +167,24 @@ class Record(unittest.TestCase):
     def expectations(self, case: CaseErrors) -> dict[str, dict[str, Any]]:
         """What the case's file expects of its end, where the record was asked to the end."""
         file = SHIPPED_CASES / case_files(SHIPPED_CASES)[case.name]
-        return {} if case.part_of_time else tomllib.loads(file.read_text(encoding="utf-8")).get("expect", {})
+        return (
+            {}
+            if case.part_of_time
+            else tomllib.loads(file.read_text(encoding="utf-8")).get("expect", {})
+        )
 
     def test_each_shipped_case_was_asked_as_it_is_or_says_how_long_that_takes(self) -> None:
         files = case_files(SHIPPED_CASES)
         self.assertEqual({case.name for case in self.found.cases}, set(files))
         for case in self.found.cases:
-            ask = f"build/foldproof converge cases/{files[case.name]} --json > FILE; scripts/record_errors FILE"
+            ask = (
+                f"build/foldproof converge cases/{files[case.name]} --json > FILE;"
+                " scripts/record_errors FILE"
+            )
             with self.subTest(case=case.name):
-                self.assertFalse(case.changed, f"the case is another scene than the one that was asked; {ask}")
+                self.assertFalse(
+                    case.changed, f"the case is another scene than the one that was asked; {ask}"
+                )
                 if case.asked:
                     self.assertGreaterEqual(case.levels, 3)
                     self.assertEqual(case.positions.name, "positions")
@@ -151,8 +200,14 @@ class Record(unittest.TestCase):
                     excused.add((case.name, key))
                 if key in by_name and is_within_error(expected, by_name[key]):
                     tight.add((case.name, key))
-        self.assertEqual(tight - excused, set(), "give the bound more room, or say in despite_error why it has none")
-        self.assertEqual(excused - tight, set(), "despite_error, though the error bar is narrower than the bound's room")
+        self.assertEqual(
+            tight - excused, set(),
+            "give the bound more room, or say in despite_error why it has none"
+        )
+        self.assertEqual(
+            excused - tight, set(),
+            "despite_error, though the error bar is narrower than the bound's room"
+        )
 
 
 if __name__ == "__main__":

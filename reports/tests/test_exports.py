@@ -25,8 +25,10 @@ class Films(WithCase):
 
     def film(self, *options: str, path: str | None = None) -> subprocess.CompletedProcess[str]:
         """Runs the script on the case."""
-        return subprocess.run([sys.executable, str(REPORTS / "make_film.py"), str(self.path), *options], text=True, check=False,
-                              capture_output=True, env=None if path is None else {"PATH": path})
+        return subprocess.run(
+            [sys.executable, str(REPORTS / "make_film.py"), str(self.path), *options], text=True,
+            check=False, capture_output=True, env=None if path is None else {"PATH": path}
+        )
 
     def test_without_ffmpeg_one_line_says_so(self) -> None:
         run = self.film(path=str(self.root))
@@ -35,13 +37,19 @@ class Films(WithCase):
 
     def test_packages_that_are_missing_are_named_in_one_line(self) -> None:
         for script in ("make_film.py", "make_report.py", "export.py"):
-            run = subprocess.run([sys.executable, "-S", str(REPORTS / script)], text=True, check=False, capture_output=True)
+            run = subprocess.run(
+                [sys.executable, "-S", str(REPORTS / script)], text=True, check=False,
+                capture_output=True
+            )
             self.assertEqual((run.returncode, len(run.stderr.splitlines())), (2, 1), run.stderr)
             self.assertIn("apt install python3-numpy python3-h5py", run.stderr)
 
     def test_what_is_typed_wrong_is_refused_in_one_line(self) -> None:
-        for options, said in ((("--size", "axb"), "WIDTHxHEIGHT"), (("--fps", "0"), "--fps"),
-                              (("--out", "film.avi"), "ends in .mp4"), (("--out", "nowhere/film.mp4"), "no folder nowhere")):
+        for options, said in (
+            (("--size", "axb"), "WIDTHxHEIGHT"), (("--fps", "0"), "--fps"),
+            (("--out", "film.avi"), "ends in .mp4"),
+            (("--out", "nowhere/film.mp4"), "no folder nowhere")
+        ):
             run = self.film(*options)
             self.assertEqual((run.returncode, len(run.stderr.splitlines())), (2, 1), run.stderr)
             self.assertIn(said, run.stderr)
@@ -50,14 +58,24 @@ class Films(WithCase):
     def test_films_have_the_size_the_length_and_the_format_that_were_asked_for(self) -> None:
         for kind, codec in (("mp4", "h264"), ("gif", "gif")):
             out = self.root / f"film.{kind}"
-            run = self.film("--out", str(out), "--size", "320x240", "--fps", "5", "--field", "strain")
+            run = self.film(
+                "--out", str(out), "--size", "320x240", "--fps", "5", "--field", "strain"
+            )
             self.assertEqual((run.returncode, run.stderr), (0, ""))
-            probe = subprocess.run(["ffprobe", "-v", "error", "-select_streams", "v", "-count_frames", "-of", "json", "-show_entries",
-                                    "stream=codec_name,width,height,pix_fmt,nb_read_frames", str(out)],
-                                   capture_output=True, text=True, check=True)
+            probe = subprocess.run(
+                [
+                    "ffprobe", "-v", "error", "-select_streams", "v", "-count_frames", "-of",
+                    "json", "-show_entries",
+                    "stream=codec_name,width,height,pix_fmt,nb_read_frames", str(out)
+                ],
+                capture_output=True,
+                text=True,
+                check=True,
+            )
             said = json.loads(probe.stdout)["streams"][0]
             self.assertEqual((said["codec_name"], said["width"], said["height"]), (codec, 320, 240))
-            self.assertAlmostEqual(int(said["nb_read_frames"]), 5 * 3.6, delta=1)     # 3 s, and the last frame stands
+            # 3 s, and the last frame stands
+            self.assertAlmostEqual(int(said["nb_read_frames"]), 5 * 3.6, delta=1)
             if kind == "mp4":
                 self.assertEqual(said["pix_fmt"], "yuv420p")
         self.assertFalse(list(self.root.glob("*.partial*")))
@@ -66,7 +84,10 @@ class Films(WithCase):
     def test_what_cannot_be_filmed_is_said_in_one_line(self) -> None:
         with h5py.File(self.path, "r+") as file:
             del file["frames/object_distance"]
-        for options, why in ((("--field", "phi"), "no field 'phi'; it has: speed"), (("--out", "/nowhere/film.mp4"), "nowhere")):
+        for options, why in (
+            (("--field", "phi"), "no field 'phi'; it has: speed"),
+            (("--out", "/nowhere/film.mp4"), "nowhere"),
+        ):
             run = self.film(*options)
             self.assertEqual((run.returncode, len(run.stderr.splitlines())), (2, 1), run.stderr)
             self.assertIn(why, run.stderr)
@@ -87,8 +108,15 @@ class ExportedFiles(WithCase):
 
     def exported(self, kind: str) -> Path:
         """The folder that the script has filled."""
-        run = subprocess.run([sys.executable, str(REPORTS / "export.py"), str(self.path), "--format", kind, "--out",
-                              str(self.root / kind)], text=True, check=False, capture_output=True)
+        run = subprocess.run(
+            [
+                sys.executable, str(REPORTS / "export.py"), str(self.path), "--format", kind,
+                "--out", str(self.root / kind)
+            ],
+            text=True,
+            check=False,
+            capture_output=True,
+        )
         self.assertEqual((run.returncode, run.stderr), (0, ""))
         return self.root / kind
 
@@ -121,39 +149,72 @@ class ExportedFiles(WithCase):
             for frame in range(4):
                 time, of_points, _ = read.read_data(frame)[:3]
                 self.assertEqual(time, case.frame_times[frame])
-                np.testing.assert_array_equal(of_points["velocity"], case.every_frame("velocities")[frame])
+                np.testing.assert_array_equal(
+                    of_points["velocity"], case.every_frame("velocities")[frame]
+                )
                 for name in ("speed", "strain", "angle", "phi"):
                     np.testing.assert_array_equal(of_points[name], values[name][frame])
 
-    @unittest.skipUnless(shutil.which("pvpython"), "no pvpython: the package python3-paraview has it")
+    @unittest.skipUnless(
+        shutil.which("pvpython"), "no pvpython: the package python3-paraview has it"
+    )
     def test_paraview_reads_both_kinds_of_xdmf(self) -> None:
         case = self.case()
-        with h5py.File(self.path, "r+") as file:        # what the program writes, and its numbers of 4 bytes
-            text = program_xdmf(self.path.name, file["frames/time"][:], file["frames/positions"].shape, len(case.triangles))
+        # what the program writes, and its numbers of 4 bytes
+        with h5py.File(self.path, "r+") as file:
+            text = program_xdmf(
+                self.path.name, file["frames/time"][:], file["frames/positions"].shape,
+                len(case.triangles)
+            )
         (self.root / "fold.xdmf").write_text(text, encoding="utf-8")
         for path in (self.root / "fold.xdmf", self.exported("xdmf") / "fold.xdmf"):
-            run = subprocess.run(["pvpython", "-c", ASK_PARAVIEW, str(path)], text=True, check=False, capture_output=True)
-            told = json.loads(run.stdout.splitlines()[-1]) if run.stdout.strip() else {"said": run.stderr}
+            run = subprocess.run(
+                ["pvpython", "-c", ASK_PARAVIEW, str(path)], text=True, check=False,
+                capture_output=True
+            )
+            told = (
+                json.loads(run.stdout.splitlines()[-1])
+                if run.stdout.strip()
+                else {"said": run.stderr}
+            )
             self.assertEqual(told.get("times"), case.frame_times.tolist(), told)
             for frame in range(4):
                 np.testing.assert_allclose(told["points"][frame], case.positions(frame), atol=1e-15)
-                np.testing.assert_allclose(told["velocities"][frame], case.every_frame("velocities")[frame], atol=1e-15)
+                np.testing.assert_allclose(
+                    told["velocities"][frame], case.every_frame("velocities")[frame], atol=1e-15
+                )
             self.assertEqual(told["triangles"], len(TWO))
 
     def test_a_file_that_is_no_simulation_is_refused_in_one_line(self) -> None:
         self.path.write_bytes(b"no HDF5")
-        run = subprocess.run([sys.executable, str(REPORTS / "export.py"), str(self.path), "--format", "ply", "--out", str(self.root)],
-                             text=True, check=False, capture_output=True)
+        run = subprocess.run(
+            [
+                sys.executable, str(REPORTS / "export.py"), str(self.path), "--format", "ply",
+                "--out", str(self.root)
+            ],
+            text=True,
+            check=False,
+            capture_output=True,
+        )
         self.assertEqual((run.returncode, len(run.stderr.splitlines())), (2, 1))
         self.assertIn("no HDF5 file", run.stderr)
 
 
 def program_xdmf(file: str, times: np.ndarray, shape: tuple[int, ...], triangles: int) -> str:
     """The XDMF that verification/files/trajectory_file.cpp writes: its own text, filled in."""
-    source = (REPORTS.parent / "verification" / "files" / "trajectory_file.cpp").read_text(encoding="utf-8")
-    head, frame = (source.split(f'{name} = R"(', 1)[1].split(')";', 1)[0] for name in ("xdmf_head", "xdmf_frame"))
-    filled = [frame.replace("{time:.17g}", f"{time:.17g}").format(frame=k, file=file, triangles=triangles, particles=shape[1],
-                                                                  frames=shape[0]) for k, time in enumerate(times)]
+    source = (REPORTS.parent / "verification" / "files" / "trajectory_file.cpp").read_text(
+        encoding="utf-8"
+    )
+    head, frame = (
+        source.split(f'{name} = R"(', 1)[1].split(')";', 1)[0]
+        for name in ("xdmf_head", "xdmf_frame")
+    )
+    filled = [
+        frame.replace("{time:.17g}", f"{time:.17g}").format(
+            frame=k, file=file, triangles=triangles, particles=shape[1], frames=shape[0]
+        )
+        for k, time in enumerate(times)
+    ]
     return head + "".join(filled) + "    </Grid>\n  </Domain>\n</Xdmf>\n"
 
 

@@ -16,14 +16,21 @@ from data.unreadable import Unreadable
 from pages.history import as_json, history_of, render_history
 
 
-def finding(name: str, outcome: str = "holds", measured: float | None = 1.0, bound: float = 10.0) -> dict[str, Any]:
+def finding(
+    name: str, outcome: str = "holds", measured: float | None = 1.0, bound: float = 10.0
+) -> dict[str, Any]:
     """A row of verdicts.json."""
-    return {"name": name, "kind": "check", "outcome": outcome, "measured": measured, "bound": bound, "seconds": 0.1}
+    return {
+        "name": name, "kind": "check", "outcome": outcome, "measured": measured, "bound": bound,
+        "seconds": 0.1
+    }
 
 
 def claim(name: str, ruling: str) -> dict[str, Any]:
     """A ruled claim of verdicts.json."""
-    return {"name": f"claim.{name}", "id": name, "kind": "claim", "outcome": "holds", "ruling": ruling}
+    return {
+        "name": f"claim.{name}", "id": name, "kind": "claim", "outcome": "holds", "ruling": ruling
+    }
 
 
 class HistoryTest(unittest.TestCase):
@@ -38,20 +45,28 @@ class HistoryTest(unittest.TestCase):
         """The folder of a run."""
         folder = self.path / str(day)
         folder.mkdir(exist_ok=True)
-        program = {"date": f"2026-01-{day:02}T00:00:00Z", "commit": f"{day:040x}", "version": "0.2.0", "tier": "quick",
-                   "subject": "mine <b>", "cpu": "a", "command": "foldproof verify"} | about
-        (folder / "verdicts.json").write_text(json.dumps({"schema": 1, "program": program, "findings": rows}))
+        program = {
+            "date": f"2026-01-{day:02}T00:00:00Z", "commit": f"{day:040x}", "version": "0.2.0",
+            "tier": "quick", "subject": "mine <b>", "cpu": "a", "command": "foldproof verify"
+        } | about
+        (folder / "verdicts.json").write_text(
+            json.dumps({"schema": 1, "program": program, "findings": rows})
+        )
         return folder
 
     def found(self, *runs: Path) -> list[tuple[int, str, str, str, bool]]:
         """Day, name, before, after, worse of each change."""
-        return [(int(one.run.about["date"][8:10]), one.name, one.before, one.after, one.is_regression)
-                for one in changes(in_order([row_of(run) for run in runs]))]
+        return [
+            (int(one.run.about["date"][8:10]), one.name, one.before, one.after, one.is_regression)
+            for one in changes(in_order([row_of(run) for run in runs]))
+        ]
 
     def answer(self, *words: object) -> tuple[int, str]:
         """Exit code and text of the command."""
         said = io.StringIO()
-        with mock.patch("sys.argv", ["make_history.py", *map(str, words)]), contextlib.redirect_stdout(said):
+        with mock.patch(
+            "sys.argv", ["make_history.py", *map(str, words)]
+        ), contextlib.redirect_stdout(said):
             return make_history.main(), said.getvalue()
 
     def test_the_first_run_of_each_change_is_named(self) -> None:
@@ -59,14 +74,21 @@ class HistoryTest(unittest.TestCase):
                 self.put(2, [finding("a"), finding("b"), claim("T1", "confirmed")]),
                 self.put(3, [finding("a", "inconclusive"), finding("b"), claim("T1", "refuted")]),
                 self.put(4, [finding("a", "inconclusive"), finding("aa"), claim("T1", "refuted")])]
-        self.assertEqual(self.found(*reversed(runs)), [
-            (2, "b", "fails", "holds", False), (3, "a", "holds", "inconclusive", True), (3, "T1", "confirmed", "refuted", True),
-            (4, "b", "holds", "", True), (4, "aa", "", "holds", False)])
+        self.assertEqual(
+            self.found(*reversed(runs)),
+            [
+                (2, "b", "fails", "holds", False), (3, "a", "holds", "inconclusive", True),
+                (3, "T1", "confirmed", "refuted", True), (4, "b", "holds", "", True),
+                (4, "aa", "", "holds", False)
+            ],
+        )
 
     def test_a_run_of_some_checks_is_asked_only_for_those(self) -> None:
         whole = self.put(1, [finding("a"), finding("b")])
-        self.assertEqual(self.found(whole, self.put(2, [finding("a", "fails")], command="foldproof check a")),
-                         [(2, "a", "holds", "fails", True)])
+        self.assertEqual(
+            self.found(whole, self.put(2, [finding("a", "fails")], command="foldproof check a")),
+            [(2, "a", "holds", "fails", True)],
+        )
 
     def test_tiers_and_solvers_are_not_mixed(self) -> None:
         one = self.put(1, [finding("a")])
@@ -78,14 +100,37 @@ class HistoryTest(unittest.TestCase):
         self.assertEqual(list(row_of(old).findings), ["oracle.free-falls-agree"])
 
     def test_margins_that_shrink_are_listed(self) -> None:
-        rows = [row_of(self.put(1, [finding("a", measured=1.0), finding("b", measured=1.0), finding("c", measured=1e-9)])),
-                row_of(self.put(2, [finding("a", measured=1.9), finding("b", measured=4.0), finding("c", measured=3e-9)]))]
-        self.assertEqual([(one.name, one.before, one.after) for one in margin_changes(rows)], [("b", 0.1, 0.4)])
+        rows = [
+            row_of(
+                self.put(
+                    1,
+                    [
+                        finding("a", measured=1.0), finding("b", measured=1.0),
+                        finding("c", measured=1e-9)
+                    ],
+                )
+            ),
+            row_of(
+                self.put(
+                    2,
+                    [
+                        finding("a", measured=1.9), finding("b", measured=4.0),
+                        finding("c", measured=3e-9)
+                    ],
+                )
+            ),
+        ]
+        self.assertEqual(
+            [(one.name, one.before, one.after) for one in margin_changes(rows)], [("b", 0.1, 0.4)]
+        )
 
     def test_a_log_grows_by_a_row_a_run_and_survives_a_torn_end(self) -> None:
         log = self.path / "log.jsonl"
         rows = [row_of(self.put(day, [finding("a", measured=None)])) for day in (1, 2)]
-        self.assertEqual([append_to_log(log, rows[:1]), append_to_log(log, rows[:1]), append_to_log(log, rows)], [1, 0, 1])
+        self.assertEqual(
+            [append_to_log(log, rows[:1]), append_to_log(log, rows[:1]), append_to_log(log, rows)],
+            [1, 0, 1],
+        )
         with log.open("a") as file:
             file.write('{"date": "2026-01-03')
         self.assertEqual([row.key for row in read_log(log)], [row.key for row in rows])
@@ -96,7 +141,10 @@ class HistoryTest(unittest.TestCase):
             read_log(log)
 
     def test_exit_code_and_words(self) -> None:
-        runs = [self.put(1, [finding("a")]), self.put(2, [finding("a", "fails")]), self.put(3, [finding("a", "fails")])]
+        runs = [
+            self.put(1, [finding("a")]), self.put(2, [finding("a", "fails")]),
+            self.put(3, [finding("a", "fails")])
+        ]
         code, text = self.answer(*runs[:2])
         self.assertEqual(code, 1)
         self.assertIn("WORSE 2026-01-02 00:00 0000000  a: holds -> fails", text)
@@ -106,9 +154,11 @@ class HistoryTest(unittest.TestCase):
     def test_bad_input_is_one_line(self) -> None:
         self.put(1, [])
         (self.path / "2").write_text("{")
-        for words, why in (([], "give folders of runs"), ([self.path / "1"], "no findings in it"),
-                           ([self.path / "2"], "no verdicts of foldproof"), ([self.path / "3"], "no verdicts"),
-                           (["--log", self.path / "none"], "there is no run in it yet")):
+        for words, why in (
+            ([], "give folders of runs"), ([self.path / "1"], "no findings in it"),
+            ([self.path / "2"], "no verdicts of foldproof"), ([self.path / "3"], "no verdicts"),
+            (["--log", self.path / "none"], "there is no run in it yet")
+        ):
             said = io.StringIO()
             with contextlib.redirect_stderr(said), self.assertRaises(SystemExit) as stop:
                 self.answer(*words)
@@ -117,7 +167,9 @@ class HistoryTest(unittest.TestCase):
         self.assertFalse((self.path / "none").exists())
 
     def test_the_page_escapes_and_says_what_is_worse(self) -> None:
-        history = history_of([row_of(self.put(1, [finding("a")])), row_of(self.put(2, [finding("a", "fails")]))])
+        history = history_of(
+            [row_of(self.put(1, [finding("a")])), row_of(self.put(2, [finding("a", "fails")]))]
+        )
         page = render_history(history)
         self.assertIn("mine &lt;b&gt;", page)
         self.assertIn("<strong>The newest run is worse in 1 place.</strong>", page)

@@ -1,4 +1,5 @@
-"""Tests of what the report says of the parts that scenes need, asked beside the run or recorded. Run by test_reports.py."""
+"""Tests of what the report says of the parts that scenes need, asked beside the run or recorded.
+Run by test_reports.py."""
 from __future__ import annotations
 
 import json
@@ -33,13 +34,32 @@ until = 2
 
 def told(case: str, commit: str) -> dict[str, Any]:
     """Output of `foldproof ablate` for one case."""
-    run = {"seconds": 2.0, "steps": 40, "elastic_evaluations": 80, "cg_iterations": 0, "object_queries": 0, "strain_sweeps": 0,
-           "crossing_queries": 0, "deepest": 0.0, "crossings": 0.0, "stopped": "", "failed": []}
-    part = {"name": "gravity <b>", "present": True, "need": "not needed here", "because": "it moves <nothing>", "declared": "", "as_it_should_be": False,
-            "position_difference": 3e-5, "energy_difference": None, "run": run | {"seconds": 1.0, "steps": 10}}
-    own = {"time": 1e-4, "mesh": None, "floor": 1e-6, "value": 1e-4, "without_time": "", "without_mesh": "too many triangles", "coarser_mesh": ["cloth.rings=2"]}
-    return {"schema": 1, "program": {"commit": commit}, "cases": [
-        {"case": case, "overrides": ["time.end=1", "cloth.fit=2"], "asked_end": 0.5, "end": 3.0, "wrong": "it <stops>", "size": 1.0, "own_error": own, "run": run, "parts": [part, part | {"declared": "for <show>", "as_it_should_be": True}]}]}
+    run = {
+        "seconds": 2.0, "steps": 40, "elastic_evaluations": 80, "cg_iterations": 0,
+        "object_queries": 0, "strain_sweeps": 0, "crossing_queries": 0, "deepest": 0.0,
+        "crossings": 0.0, "stopped": "", "failed": []
+    }
+    part = {
+        "name": "gravity <b>", "present": True, "need": "not needed here",
+        "because": "it moves <nothing>", "declared": "", "as_it_should_be": False,
+        "position_difference": 3e-5, "energy_difference": None,
+        "run": run | {"seconds": 1.0, "steps": 10}
+    }
+    own = {
+        "time": 1e-4, "mesh": None, "floor": 1e-6, "value": 1e-4, "without_time": "",
+        "without_mesh": "too many triangles", "coarser_mesh": ["cloth.rings=2"]
+    }
+    return {
+        "schema": 1,
+        "program": {"commit": commit},
+        "cases": [
+            {
+                "case": case, "overrides": ["time.end=1", "cloth.fit=2"], "asked_end": 0.5,
+                "end": 3.0, "wrong": "it <stops>", "size": 1.0, "own_error": own, "run": run,
+                "parts": [part, part | {"declared": "for <show>", "as_it_should_be": True}]
+            }
+        ],
+    }
 
 
 class NeedsShown(unittest.TestCase):
@@ -54,7 +74,9 @@ class NeedsShown(unittest.TestCase):
 
     def made(self) -> str:
         """The text of the folder's report."""
-        return make_report(self.root, self.root / "report.html", self.root / "figures", shipped=self.shipped).read_text(encoding="utf-8")
+        return make_report(
+            self.root, self.root / "report.html", self.root / "figures", shipped=self.shipped
+        ).read_text(encoding="utf-8")
 
     def put(self, outcomes: dict[str, Any]) -> None:
         """Beside the run."""
@@ -66,7 +88,17 @@ class NeedsShown(unittest.TestCase):
         (self.shipped / "m.obj").write_bytes(b"v 0 0 0")
         outcomes = told(case, commit)
         digest = case_digest(f"{case}.toml", lambda name: (self.shipped / name).read_bytes())
-        (self.shipped / "needs.json").write_text(json.dumps({"schema": 1, "cases": [row | {"program": outcomes["program"], "digest": digest} for row in outcomes["cases"]]}))
+        (self.shipped / "needs.json").write_text(
+            json.dumps(
+                {
+                    "schema": 1,
+                    "cases": [
+                        row | {"program": outcomes["program"], "digest": digest}
+                        for row in outcomes["cases"]
+                    ],
+                }
+            )
+        )
 
     def test_a_solver_on_trial_has_no_needs_of_shipped_cases(self) -> None:
         put_run(self.root)
@@ -82,15 +114,32 @@ class NeedsShown(unittest.TestCase):
         self.put(told("fold", "abcdef0123456789"))
         text = self.made()
         self.assertIn("fold: 1 kept for a reason, 1 not needed here", text)
-        self.assertIn("1 part is not needed, and kept for a reason that the case gives. 1 part is not needed, without a reason.", text)
-        for shown in ("gravity &lt;b&gt;", "it moves &lt;nothing&gt;", "for &lt;show&gt;", "coarser mesh: too many triangles", "With <code>--set time.end=1 --set cloth.fit=2</code>: ", "Asked of the first 0.5 of 3 s: ", "1 case was asked beside this run (commit abcdef0123)"):
+        self.assertIn(
+            (
+                "1 part is not needed, and kept for a reason that the case gives. 1 part is not"
+                " needed, without a reason."
+            ),
+            text,
+        )
+        for shown in (
+            "gravity &lt;b&gt;", "it moves &lt;nothing&gt;", "for &lt;show&gt;",
+            "coarser mesh: too many triangles",
+            "With <code>--set time.end=1 --set cloth.fit=2</code>: ",
+            "Asked of the first 0.5 of 3 s: ",
+            "1 case was asked beside this run (commit abcdef0123)"
+        ):
             self.assertIn(shown, text)
-        self.assertRegex(text, r'Its parts: <a href="#needs-of-fold">1 kept for a reason, 1 not needed here</a>')
+        self.assertRegex(
+            text, r'Its parts: <a href="#needs-of-fold">1 kept for a reason, 1 not needed here</a>'
+        )
         for absent in ("Not known which", "ecorded, of commit", "needs.json"):
             self.assertNotIn(absent, text)
         section = re.search(r'<section id="needs">.*?</section>', text, re.DOTALL)[0]
         self.assertEqual(section.count("verdict fails"), 2)
-        self.assertEqual(re.findall(r'aria-label="([a-z ]+)">(.)</span>', section), [("not needed here", "\u2715"), ("kept for a reason", "\u25d0")])
+        self.assertEqual(
+            re.findall(r'aria-label="([a-z ]+)">(.)</span>', section),
+            [("not needed here", "\u2715"), ("kept for a reason", "\u25d0")],
+        )
         self.assertIn("it &lt;stops&gt;", section)
         self.put(told("bag", "abcdef0123456789"))
         self.assertIn("Not known which of its parts it needs", self.made())
@@ -99,9 +148,21 @@ class NeedsShown(unittest.TestCase):
         put_run(self.root)
         self.record("fold", "fedcba9876543210")
         text = self.made()
-        self.assertIn("Of 1 case the answers are those recorded in <code>cases/needs.json</code>, found by earlier programs (commit fedcba9876)", text)
+        self.assertIn(
+            (
+                "Of 1 case the answers are those recorded in <code>cases/needs.json</code>, found"
+                " by earlier programs (commit fedcba9876)"
+            ),
+            text,
+        )
         self.assertIn("Recorded, of commit fedcba9876", text)
-        self.assertIn("</a>, asked with <code>--set time.end=1 --set cloth.fit=2</code>, asked of its first 0.5 of 3 s, as recorded.", text)
+        self.assertIn(
+            (
+                "</a>, asked with <code>--set time.end=1 --set cloth.fit=2</code>, asked of its"
+                " first 0.5 of 3 s, as recorded."
+            ),
+            text,
+        )
         self.assertNotIn("has changed since", text)
         (self.shipped / "m.obj").write_bytes(b"v 0 0 1")
         text = self.made()
@@ -113,18 +174,27 @@ class NeedsShown(unittest.TestCase):
         self.record("fold", "fedcba9876543210")
         self.put(told("fold", "abcdef0123456789"))
         found = load_needs(self.root / "ablation.json", self.shipped)
-        self.assertEqual([(case.commit, case.recorded) for case in found.cases], [("abcdef0123456789", False)])
+        self.assertEqual(
+            [(case.commit, case.recorded) for case in found.cases], [("abcdef0123456789", False)]
+        )
         self.put(told("bag", "abcdef0123456789"))
         found = load_needs(self.root / "ablation.json", self.shipped)
-        self.assertEqual([(case.name, case.recorded) for case in found.cases], [("bag", False), ("fold", True)])
+        self.assertEqual(
+            [(case.name, case.recorded) for case in found.cases], [("bag", False), ("fold", True)]
+        )
 
     def test_a_file_of_another_make_is_refused_by_its_name(self) -> None:
         put_run(self.root)
-        for name, texts in {"ablation.json": ('{"cases": [{}]}', "[]", "{"), "coverage.json": ("{}", "3"), "variants.json": ("{}",), "mutation.json": ("{}", "[1]"),
-                            "faults.json": ('{"faults": [3]}', "{}"), "verdicts.json": ('{"findings": [{}]}',)}.items():
+        for name, texts in {
+            "ablation.json": ('{"cases": [{}]}', "[]", "{"), "coverage.json": ("{}", "3"),
+            "variants.json": ("{}",), "mutation.json": ("{}", "[1]"),
+            "faults.json": ('{"faults": [3]}', "{}"), "verdicts.json": ('{"findings": [{}]}',)
+        }.items():
             for text in texts:
                 (self.root / name).write_text(text)
-                with self.subTest(file=name, text=text), self.assertRaisesRegex(Unreadable, re.escape(str(self.root / name))):
+                with self.subTest(file=name, text=text), self.assertRaisesRegex(
+                    Unreadable, re.escape(str(self.root / name))
+                ):
                     self.made()
             (self.root / name).unlink()
         self.record("fold", "fedcba9876543210")
@@ -147,9 +217,15 @@ class Digests(unittest.TestCase):
 
     def test_words_do_not_count_and_numbers_do(self) -> None:
         same = self.digest(CASE)
-        for old, new in ((b'"a"', b'"other"'), (b'"b"', b'"other"'), (b"until = 2", b"until = 3"), (b"[cloth]", b"[cloth]  # of wool")):
+        for old, new in (
+            (b'"a"', b'"other"'), (b'"b"', b'"other"'), (b"until = 2", b"until = 3"),
+            (b"[cloth]", b"[cloth]  # of wool")
+        ):
             self.assertEqual(self.digest(CASE.replace(old, new)), same)
-        for old, new in ((b"at_least = 1", b"at_least = 2"), (b"it_stands", b"it_falls"), (b"[cloth]", b"[cloth]\nfit = 1.5")):
+        for old, new in (
+            (b"at_least = 1", b"at_least = 2"), (b"it_stands", b"it_falls"),
+            (b"[cloth]", b"[cloth]\nfit = 1.5")
+        ):
             self.assertNotEqual(self.digest(CASE.replace(old, new)), same)
         self.assertNotEqual(self.digest(CASE, b"v 0 0 1"), same)
         with self.assertRaisesRegex(ValueError, "breathing"):
@@ -159,15 +235,24 @@ class Digests(unittest.TestCase):
 class Record(unittest.TestCase):
     """Records of the shipped cases."""
 
-    def test_each_shipped_case_was_asked_as_it_is_and_has_what_it_needs_and_nothing_else(self) -> None:
+    def test_each_shipped_case_was_asked_as_it_is_and_has_what_it_needs_and_nothing_else(
+        self,
+    ) -> None:
         found = load_needs(Path("none"), SHIPPED_CASES)
         self.assertEqual({case.name for case in found.cases}, set(case_files(SHIPPED_CASES)))
         for case in found.cases:
-            ask = f"build/foldproof ablate cases/{case_files(SHIPPED_CASES)[case.name]} --out DIR; scripts/record_needs DIR/ablation.json"
+            ask = (
+                f"build/foldproof ablate cases/{case_files(SHIPPED_CASES)[case.name]} --out DIR;"
+                " scripts/record_needs DIR/ablation.json"
+            )
             with self.subTest(case=case.name):
-                self.assertFalse(case.changed, f"the case is another scene than the one that was asked; {ask}")
+                self.assertFalse(
+                    case.changed, f"the case is another scene than the one that was asked; {ask}"
+                )
                 self.assertEqual(case.wrong, "")
-                self.assertEqual([typed for typed in case.overrides if not typed.startswith("ablation.")], [])
+                self.assertEqual(
+                    [typed for typed in case.overrides if not typed.startswith("ablation.")], []
+                )
                 self.assertEqual([part.name for part in case.parts if not part.fits], [], ask)
                 self.assertTrue(case.parts)
 
@@ -177,9 +262,20 @@ class Record(unittest.TestCase):
             case = tomllib.loads((SHIPPED_CASES / files[row["case"]]).read_text())
             said = case.get("ablation", {})
             with self.subTest(case=row["case"]):
-                self.assertEqual({part["name"]: part["declared"] for part in row["parts"] if part["declared"]},
-                                 {part: why for part, why in said.items() if part not in ("until", "coarser_mesh", "finer mesh")})
+                self.assertEqual(
+                    {part["name"]: part["declared"] for part in row["parts"] if part["declared"]},
+                    {
+                        part: why
+                        for part, why in said.items()
+                        if part not in ("until", "coarser_mesh", "finer mesh")
+                    },
+                )
                 asked = said.get("coarser_mesh", [])
-                self.assertEqual(row["own_error"].get("coarser_mesh") or [], [asked] if isinstance(asked, str) else asked)
+                self.assertEqual(
+                    row["own_error"].get("coarser_mesh") or [],
+                    [asked] if isinstance(asked, str) else asked,
+                )
                 self.assertEqual(row["end"], case["time"]["end"])
-                self.assertGreaterEqual(row["asked_end"], min(said.get("until", row["end"]), row["end"]))
+                self.assertGreaterEqual(
+                    row["asked_end"], min(said.get("until", row["end"]), row["end"])
+                )

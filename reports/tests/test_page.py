@@ -1,5 +1,5 @@
-"""Tests of the page as a reader meets it: order, links, contrast, filter, phone, paper. Those that need a browser are
-skipped, with a word, where there is none."""
+"""Tests of the page as a reader meets it: order, links, contrast, filter, phone, paper. Those that
+need a browser are skipped, with a word, where there is none."""
 from __future__ import annotations
 
 import os
@@ -22,9 +22,13 @@ from pages.ledger import by_paper, claim_views
 from tests.made_up_run import NAMES, put_run
 
 REPORTS = Path(__file__).resolve().parents[1]
-SECTIONS = ("claims", "checks", "studies", "cases", "case-findings", "faults", "hard", "speed", "provenance")
+SECTIONS = (
+    "claims", "checks", "studies", "cases", "case-findings", "faults", "hard", "speed", "provenance"
+)
 LEAST_CONTRAST = 4.5                # of text, WCAG 2.1 level AA
-TEXT_COLOURS = ("ink", "soft", "holds", "fails", "inconclusive", "none", "link", "plot-ink", "plot-muted")
+TEXT_COLOURS = (
+    "ink", "soft", "holds", "fails", "inconclusive", "none", "link", "plot-ink", "plot-muted"
+)
 
 
 class Outline(HTMLParser):
@@ -43,7 +47,12 @@ class Outline(HTMLParser):
         self.tags.append(tag)
         if re.fullmatch("h[1-6]", tag):
             self.levels.append(int(tag[1]))
-        if tag == "img" and not said.get("alt") or tag == "svg" and not (said.get("aria-label") or "aria-hidden" in said):
+        if (
+            tag == "img"
+            and not said.get("alt")
+            or tag == "svg"
+            and not (said.get("aria-label") or "aria-hidden" in said)
+        ):
             self.wordless.append(str(said)[:80])
         if tag == "th" and "scope" not in said:
             self.unscoped += 1
@@ -70,18 +79,31 @@ class Order(MadeUpPage):
         self.assertEqual(places, sorted(places))
 
     def test_a_claim_says_where_the_paper_makes_it_where_the_file_knows(self) -> None:
-        self.assertIn("The paper, section 3, paragraph 4: &ldquo;Sums add up &hellip;&rdquo;", self.text)
+        self.assertIn(
+            "The paper, section 3, paragraph 4: &ldquo;Sums add up &hellip;&rdquo;", self.text
+        )
         self.assertIn("Printed: <code>a - b</code>. Restored: <code>a + b</code>.", self.text)
-        self.assertEqual(self.text.count('<p class="cited">'), 2)  # none of T17, from an older program
+        # none of T17, from an older program
+        self.assertEqual(self.text.count('<p class="cited">'), 2)
 
     def test_what_was_not_asked_shows_its_reason_and_no_numbers(self) -> None:
-        row = re.search(r'<span class="claim">(?:(?!<span class="claim">).)*?written for another mesh</span></span>', self.text, re.DOTALL)
+        row = re.search(
+            (
+                r'<span class="claim">(?:(?!<span class="claim">).)*?written for another'
+                r' mesh</span></span>'
+            ),
+            self.text,
+            re.DOTALL,
+        )
         self.assertIsNotNone(row)
         self.assertNotIn("NaN", row.group())
 
     def test_the_first_screen_counts_and_answers(self) -> None:
         opening = self.text[:self.text.index("<main")]
-        for word in ("Claims", "Checks", "Studies", "Cases", "What of the paper holds?", "Which integrator should I use?"):
+        for word in (
+            "Claims", "Checks", "Studies", "Cases", "What of the paper holds?",
+            "Which integrator should I use?"
+        ):
             self.assertIn(word, opening)
         refuted = opening[opening.index("Refuted"):]
         self.assertLess(refuted.index('href="#T17"'), refuted.index("</ul>"))
@@ -90,8 +112,10 @@ class Order(MadeUpPage):
     def test_a_finding_leads_to_its_reason_faults_case_and_command(self) -> None:
         row = self.text[self.text.index(f'id="{NAMES[6]}"'):]
         row = row[:row.index("</details>")]
-        for part in ("200 roundings", 'href="#fault-flipped-sign"', 'href="#case-fold"', "cases/fold.toml",
-                     f"build/foldproof check '{NAMES[6]}'", "Evidence"):
+        for part in (
+            "200 roundings", 'href="#fault-flipped-sign"', 'href="#case-fold"', "cases/fold.toml",
+            f"build/foldproof check '{NAMES[6]}'", "Evidence"
+        ):
             self.assertIn(part, row)
 
     def test_a_validation_has_a_section_of_its_own(self) -> None:
@@ -100,7 +124,9 @@ class Order(MadeUpPage):
             put_run(folder)
             with h5py.File(folder / "run.h5", "r+") as file:
                 file[f"findings/{NAMES[3]}"].attrs["kind"] = "validation"
-            text = make_report(folder, folder / "report.html", folder / "figures").read_text(encoding="utf-8")
+            text = make_report(folder, folder / "report.html", folder / "figures").read_text(
+                encoding="utf-8"
+            )
         section = text[text.index('<section id="validation">'):]
         self.assertIn(f"Claim of {NAMES[3]}.", section[:section.index('<section id="faults"')])
         self.assertIn('id="not-validated"', section)
@@ -130,30 +156,57 @@ class Papers(unittest.TestCase):
     """Claims of several papers."""
 
     def test_claims_stand_under_their_paper(self) -> None:
-        claims = [Claim(name=name, section="3", statement="s", ruling="undecided", recorded="undecided", condition="", why="w",
-                        decided_by=[], paper=paper, paper_title="Title (1999)", missing="m")
-                  for name, paper in (("T1", "ABC99"), ("X1", "XYZ00"), ("T2", "ABC99"))]
+        claims = [
+            Claim(
+                name=name, section="3", statement="s", ruling="undecided", recorded="undecided",
+                condition="", why="w", decided_by=[], paper=paper, paper_title="Title (1999)",
+                missing="m"
+            )
+            for name, paper in (("T1", "ABC99"), ("X1", "XYZ00"), ("T2", "ABC99"))
+        ]
         grouped = by_paper(claim_views(claims, []))
-        self.assertEqual([(heading, [view.claim.name for view in views]) for heading, views in grouped],
-                         [("ABC99: Title (1999)", ["T1", "T2"]), ("XYZ00: Title (1999)", ["X1"])])
+        self.assertEqual(
+            [(heading, [view.claim.name for view in views]) for heading, views in grouped],
+            [("ABC99: Title (1999)", ["T1", "T2"]), ("XYZ00: Title (1999)", ["X1"])],
+        )
 
 
 class Answers(unittest.TestCase):
     def test_the_cheapest_method_is_that_of_the_table(self) -> None:
         texts = {"scene": ["a", "a", "a", "b"], "by": ["work", "work", "seconds", "work"],
                  "cheapest method": ["RK4", "C", "A", "B"], "next best": ["A", "B", "B", "A"]}
-        numbers = {"error wanted": ([1.0, 0.1, 1.0, 1.0], "%"), "it costs this many times as much": ([1.5, 2.0, 9.0, np.nan], "1"),
-                   "C costs this many times as much": ([3.0, 1.0, 9.0, 4.0], "1")}
-        columns = [Column(name, "", np.array(values, dtype=object)) for name, values in texts.items()]
-        columns += [Column(name, unit, np.array(values)) for name, (values, unit) in numbers.items()]
+        numbers = {
+            "error wanted": ([1.0, 0.1, 1.0, 1.0], "%"),
+            "it costs this many times as much": ([1.5, 2.0, 9.0, np.nan], "1"),
+            "C costs this many times as much": ([3.0, 1.0, 9.0, 4.0], "1")
+        }
+        columns = [
+            Column(name, "", np.array(values, dtype=object)) for name, values in texts.items()
+        ]
+        columns += [
+            Column(name, unit, np.array(values)) for name, (values, unit) in numbers.items()
+        ]
         study = Study("work", "", "", "", 0.0, [], [Table("other", []), Table("cheapest", columns)])
         found = cheapest_of([study])
         self.assertEqual((found.by, found.errors, found.unit), ("work", [1.0, 0.1], "%"))
-        self.assertEqual(found.rows, [("a", [Choice("RK4", [("A", 1.5), ("C", 3.0)], [], "A by seconds"), Choice("C", [("B", 2.0)])]),
-                                      ("b", [Choice("B", [("C", 4.0)]), None])])
+        self.assertEqual(
+            found.rows,
+            [
+                (
+                    "a",
+                    [
+                        Choice("RK4", [("A", 1.5), ("C", 3.0)], [], "A by seconds"),
+                        Choice("C", [("B", 2.0)]),
+                    ],
+                ),
+                ("b", [Choice("B", [("C", 4.0)]), None]),
+            ],
+        )
         columns.append(Column("alike", "", np.array(["A, B", "", "", ""], dtype=object)))
         tied = cheapest_of([Study("work", "", "", "", 0.0, [], [Table("cheapest", columns)])])
-        self.assertEqual(tied.rows[0][1], [Choice("RK4", [("C", 3.0)], ["A", "B"]), Choice("C", [("B", 2.0)])])
+        self.assertEqual(
+            tied.rows[0][1], [Choice("RK4", [("C", 3.0)], ["A", "B"]), Choice("C", [("B", 2.0)])]
+        )
         self.assertIsNone(cheapest_of([Study("none", "", "", "", 0.0, [], [])]))
 
 
@@ -163,7 +216,10 @@ class Contrast(unittest.TestCase):
     def palettes(self) -> dict[str, dict[str, str]]:
         """Light and dark: the variables that are colours."""
         text = (REPORTS / "pages" / "style.css").read_text(encoding="utf-8")
-        light, dark = (dict(re.findall(r"--([\w-]+): (#[0-9a-f]{6})", block)) for block in re.findall(r":root \{(.*?)\}", text, re.S)[:2])
+        light, dark = (
+            dict(re.findall(r"--([\w-]+): (#[0-9a-f]{6})", block))
+            for block in re.findall(r":root \{(.*?)\}", text, re.S)[:2]
+        )
         return {"light": light, "dark": dark}
 
     def test_text_is_legible(self) -> None:
@@ -171,7 +227,9 @@ class Contrast(unittest.TestCase):
             for behind in ("paper", "panel"):
                 for colour in TEXT_COLOURS:
                     with self.subTest(palette=name, behind=behind, colour=colour):
-                        self.assertGreaterEqual(contrast(palette[colour], palette[behind]), LEAST_CONTRAST)
+                        self.assertGreaterEqual(
+                            contrast(palette[colour], palette[behind]), LEAST_CONTRAST
+                        )
 
     def test_both_palettes_have_the_same_names(self) -> None:
         light, dark = self.palettes().values()
@@ -210,26 +268,38 @@ class InABrowser(MadeUpPage):
 
     def tearDown(self) -> None:
         self.assertEqual(self.browser.complaints, [])
-        self.assertEqual({address.partition("#")[0] for address in self.browser.requests} - {"about:blank"}, {self.page.as_uri()})
+        self.assertEqual(
+            {address.partition("#")[0] for address in self.browser.requests} - {"about:blank"},
+            {self.page.as_uri()},
+        )
 
     def shown(self) -> list[str]:
         """Ids of the entries that are shown."""
-        return self.browser.evaluate("""[...document.querySelectorAll(".claim-row, .finding, .fault")]
-            .filter(entry => !entry.closest("[hidden]")).map(entry => entry.id)""")
+        return self.browser.evaluate(
+            """[...document.querySelectorAll(".claim-row, .finding, .fault")]
+            .filter(entry => !entry.closest("[hidden]")).map(entry => entry.id)"""
+        )
 
     def choose(self, **chosen: str) -> None:
         """Sets controls as a reader would."""
         for name, value in chosen.items():
-            self.browser.evaluate(f"document.querySelector('.filter').elements.{name}.value = {value!r}")
-        self.browser.evaluate("""(document.querySelector('.filter').dispatchEvent(new Event('input')),
-            new Promise(done => setTimeout(done, 300)))""")
+            self.browser.evaluate(
+                f"document.querySelector('.filter').elements.{name}.value = {value!r}"
+            )
+        self.browser.evaluate(
+            """(document.querySelector('.filter').dispatchEvent(new Event('input')),
+            new Promise(done => setTimeout(done, 300)))"""
+        )
 
     def test_the_filter_shows_what_matches_and_says_how_much(self) -> None:
         self.browser.open(self.page)
         everything = self.shown()
         self.choose(verdict="fails")
         self.assertEqual(self.shown(), [NAMES[1]])
-        self.assertRegex(self.browser.evaluate("document.querySelector('[aria-live=polite]').textContent"), r"^1 of \d+ match$")
+        self.assertRegex(
+            self.browser.evaluate("document.querySelector('[aria-live=polite]').textContent"),
+            r"^1 of \d+ match$",
+        )
         self.assertTrue(self.browser.evaluate("document.getElementById('studies').hidden"))
         self.choose(verdict="", subject="bending")
         self.assertEqual(set(self.shown()), {"T1", NAMES[0], NAMES[1], "fault-flipped-sign"})
@@ -252,18 +322,29 @@ class InABrowser(MadeUpPage):
 
     def test_an_anchor_opens_its_row_whatever_was_chosen(self) -> None:
         self.browser.open(self.page, "#?verdict=refuted")
-        self.browser.evaluate(f"(location.hash = '{NAMES[0]}', new Promise(done => setTimeout(done, 300)))")
+        self.browser.evaluate(
+            f"(location.hash = '{NAMES[0]}', new Promise(done => setTimeout(done, 300)))"
+        )
         self.assertIn(NAMES[0], self.shown())
         self.browser.open(self.page, f"#{NAMES[0]}")
         row = f"document.getElementById('{NAMES[0]}')"
-        self.assertTrue(self.browser.evaluate(f"{row}.open && {row}.parentElement.closest('details').open"))
+        self.assertTrue(
+            self.browser.evaluate(f"{row}.open && {row}.parentElement.closest('details').open")
+        )
         self.assertTrue(self.browser.evaluate(f"{row}.checkVisibility()"))
 
     def test_two_clicks_lead_from_a_claim_to_the_evidence(self) -> None:
         self.browser.open(self.page)
         self.browser.evaluate("document.querySelector('#T1 > summary').click()")
-        self.browser.evaluate("(document.querySelector('#T1 .deciding a').click(), new Promise(done => setTimeout(done, 300)))")
-        self.assertTrue(self.browser.evaluate(f"document.querySelector('[id=\"{NAMES[0]}\"] table').checkVisibility()"))
+        self.browser.evaluate(
+            "(document.querySelector('#T1 .deciding a').click(), new Promise(done =>"
+            " setTimeout(done, 300)))"
+        )
+        self.assertTrue(
+            self.browser.evaluate(
+                f"document.querySelector('[id=\"{NAMES[0]}\"] table').checkVisibility()"
+            )
+        )
 
     def test_a_slash_leads_to_the_search(self) -> None:
         self.browser.open(self.page)
@@ -274,14 +355,23 @@ class InABrowser(MadeUpPage):
     def test_without_scripts_the_page_is_whole_and_has_no_controls(self) -> None:
         self.browser.open(self.page, script=False)
         self.assertTrue(self.browser.evaluate("document.querySelector('.filter').hidden"))
-        self.assertEqual(self.browser.evaluate("document.querySelectorAll('.group[hidden], .finding[hidden]').length"), 0)
+        self.assertEqual(
+            self.browser.evaluate(
+                "document.querySelectorAll('.group[hidden], .finding[hidden]').length"
+            ),
+            0,
+        )
 
     def test_nothing_is_wider_than_a_phone(self) -> None:
         for width in (390, 1400):
             for dark in (False, True):
                 self.browser.open(self.page, width=width, dark=dark)
-                self.browser.evaluate("document.querySelectorAll('details').forEach(part => { part.open = true; })")
-                self.assertEqual(self.browser.evaluate("document.documentElement.scrollWidth"), width)
+                self.browser.evaluate(
+                    "document.querySelectorAll('details').forEach(part => { part.open = true; })"
+                )
+                self.assertEqual(
+                    self.browser.evaluate("document.documentElement.scrollWidth"), width
+                )
 
     def test_dark_and_light_differ(self) -> None:
         colours = []
@@ -297,8 +387,10 @@ class OnPaper(unittest.TestCase):
     def printed(self, root: Path, **environment: str) -> subprocess.CompletedProcess[str]:
         """Runs the command on a made-up run."""
         put_run(root)
-        return subprocess.run([sys.executable, str(REPORTS / "make_report.py"), str(root), "--pdf"],
-                              capture_output=True, text=True, check=False, env=os.environ | environment)
+        return subprocess.run(
+            [sys.executable, str(REPORTS / "make_report.py"), str(root), "--pdf"],
+            capture_output=True, text=True, check=False, env=os.environ | environment
+        )
 
     def test_a_pdf_has_pages_and_an_outline_and_is_the_same_each_time(self) -> None:
         try:

@@ -1,4 +1,5 @@
-"""Tests of numbers, labels, tables and maps by themselves; run with reports/tests/test_reports.py."""
+"""Tests of numbers, labels, tables and maps by themselves; run with
+reports/tests/test_reports.py."""
 from __future__ import annotations
 
 import tempfile
@@ -20,8 +21,11 @@ class Pieces(unittest.TestCase):
     """Numbers, labels and pictures by themselves."""
 
     def test_numbers(self) -> None:
-        written = {1.234e-14: "1.23×10⁻¹⁴", -0.5: "−0.5", 12345.0: "12\u202f345", 0.0: "0", 0.10421: "0.104",
-                   float("nan"): "NaN", float("-inf"): "−∞", 1e-9: "1×10⁻⁹", 2.5e9: "2.5×10⁹"}
+        written = {
+            1.234e-14: "1.23×10⁻¹⁴", -0.5: "−0.5", 12345.0: "12\u202f345", 0.0: "0",
+            0.10421: "0.104", float("nan"): "NaN", float("-inf"): "−∞", 1e-9: "1×10⁻⁹",
+            2.5e9: "2.5×10⁹"
+        }
         for value, text in written.items():
             self.assertEqual(number_text(value), text)
         self.assertEqual(unit_text("kg m^2/s"), "kg m²/s")
@@ -34,7 +38,9 @@ class Pieces(unittest.TestCase):
         self.assertNotIn("&lt;", seconds_html(0.05))
 
     def test_cells_of_a_map_lie_around_their_points(self) -> None:
-        self.assertTrue(np.allclose(edges_of(np.array([1.0, 2.0, 4.0]), "linear"), [0.5, 1.5, 3.0, 5.0]))
+        self.assertTrue(
+            np.allclose(edges_of(np.array([1.0, 2.0, 4.0]), "linear"), [0.5, 1.5, 3.0, 5.0])
+        )
         self.assertTrue(np.allclose(edges_of(np.array([1.0, 100.0]), "log"), [0.1, 10.0, 1000.0]))
 
     def test_a_map_with_all_its_values_needs_no_note(self) -> None:
@@ -66,7 +72,9 @@ class Pieces(unittest.TestCase):
 class ContactMaps(unittest.TestCase):
     def test_a_tube_is_unrolled_and_a_flat_sheet_keeps_its_shape(self) -> None:
         angles, heights = np.meshgrid(np.linspace(-np.pi, np.pi, 25)[:-1], np.linspace(0.0, 0.5, 5))
-        tube = np.column_stack([0.2 * np.cos(angles.ravel()), heights.ravel(), 0.2 * np.sin(angles.ravel())])
+        tube = np.column_stack(
+            [0.2 * np.cos(angles.ravel()), heights.ravel(), 0.2 * np.sin(angles.ravel())]
+        )
         flat = flatten_to_plane(tube)
         np.testing.assert_allclose(np.ptp(flat, axis=0), [0.2 * 2 * np.pi * 23 / 24, 0.5])
         sheet = np.column_stack([angles.ravel(), heights.ravel(), np.full(angles.size, 0.3)])

@@ -25,7 +25,9 @@ from data.unreadable import Unreadable  # noqa: E402
 from make_report import make_report, read_folder  # noqa: E402
 from pages.page import Anchors  # noqa: E402
 from pages.trust import kinds_of, tolerances_of  # noqa: E402
-from tests.made_up_run import HOSTILE, NAMES, TEXT, put, put_case, put_finding, put_run, put_study  # noqa: E402
+from tests.made_up_run import (
+    HOSTILE, NAMES, TEXT, put, put_case, put_finding, put_run, put_study
+)  # noqa: E402
 
 
 class Seen(HTMLParser):
@@ -58,7 +60,9 @@ class WholeReport(unittest.TestCase):
         root = Path(cls.folder.name)
         put_run(root)
         cls.figures = root / "figures"
-        cls.text = make_report(root, root / "report.html", cls.figures, for_papers=True).read_text(encoding="utf-8")
+        cls.text = make_report(root, root / "report.html", cls.figures, for_papers=True).read_text(
+            encoding="utf-8"
+        )
         cls.seen = Seen(cls.text)
 
     @classmethod
@@ -71,7 +75,9 @@ class WholeReport(unittest.TestCase):
         self.assertNotRegex(self.text, r"url\((?!#)")
         self.assertNotIn("@import", self.text)
         self.assertFalse({"link", "iframe", "object"} & set(self.seen.tags))
-        self.assertEqual(re.findall("<script[^>]*>", self.text), ["<script>"] * self.text.count("<script"))
+        self.assertEqual(
+            re.findall("<script[^>]*>", self.text), ["<script>"] * self.text.count("<script")
+        )
 
     def test_hostile_text_is_escaped(self) -> None:
         self.assertNotIn("<script>alert", self.text)
@@ -86,7 +92,10 @@ class WholeReport(unittest.TestCase):
         for path in figures:
             text = path.read_text(encoding="utf-8")
             self.assertIsNone(re.search(no_text, text), path.name)
-            tags = {element.tag.rpartition("}")[2] for element in ElementTree.fromstring(text.encode("utf-8")).iter()}
+            tags = {
+                element.tag.rpartition("}")[2]
+                for element in ElementTree.fromstring(text.encode("utf-8")).iter()
+            }
             self.assertFalse({"script", "img", "b", "i"} & tags, path.name)
 
     def test_bytes_that_are_no_text_are_shown_as_such(self) -> None:
@@ -110,10 +119,19 @@ class WholeReport(unittest.TestCase):
 
     def test_inline_figures_are_a_third_smaller_than_their_files(self) -> None:
         plots = re.findall(r'<svg class="plot".*?</svg>', self.text, re.S)
-        drawn = [path for path in self.figures.glob("*.svg") if not path.stem.endswith(("-pictures", "-field"))]
+        drawn = [
+            path
+            for path in self.figures.glob("*.svg")
+            if not path.stem.endswith(("-pictures", "-field"))
+        ]
         self.assertEqual(len(plots), len(drawn))
-        without_images = [len(re.sub(r'"data:[^"]*"', "", text))
-                          for text in ("".join(plots), "".join(path.read_text(encoding="utf-8") for path in drawn))]
+        without_images = [
+            len(re.sub(r'"data:[^"]*"', "", text))
+            for text in (
+                "".join(plots),
+                "".join(path.read_text(encoding="utf-8") for path in drawn),
+            )
+        ]
         self.assertLess(without_images[0], 2 / 3 * without_images[1])
 
     def test_every_finding_has_its_own_anchor(self) -> None:
@@ -145,8 +163,13 @@ class WholeReport(unittest.TestCase):
         self.assertIn("rules otherwise than recorded", self.text[self.text.index('id="T17"'):])
 
     def test_studies_for_the_choice_of_an_integrator_come_first(self) -> None:
-        places = [self.text.index(text) for text in ('id="studies"', 'id="integrators"', 'id="study-stability-oscillator"',
-                                                     'id="study-time-order"')]
+        places = [
+            self.text.index(text)
+            for text in (
+                'id="studies"', 'id="integrators"', 'id="study-stability-oscillator"',
+                'id="study-time-order"'
+            )
+        ]
         self.assertEqual(places, sorted(places))
 
     def test_points_of_a_map_without_a_value_are_counted(self) -> None:
@@ -168,13 +191,18 @@ class WholeReport(unittest.TestCase):
         self.assertIn("gone.h5 could not be read", self.text)
 
     def test_figures_are_written(self) -> None:
-        for name in ("time-order-x", "stability-oscillator-radius", "fold-pictures", "fold-energies", "fold-momenta", "fold-solves"):
+        for name in (
+            "time-order-x", "stability-oscillator-radius", "fold-pictures", "fold-energies",
+            "fold-momenta", "fold-solves"
+        ):
             for kind in ("svg", "pdf", "png"):
                 self.assertGreater((self.figures / f"{name}.{kind}").stat().st_size, 500, name)
 
     def test_same_input_gives_the_same_page(self) -> None:
         root = Path(self.folder.name)
-        again = make_report(root, root / "again.html", root / "again", for_papers=True).read_text(encoding="utf-8")
+        again = make_report(root, root / "again.html", root / "again", for_papers=True).read_text(
+            encoding="utf-8"
+        )
         self.assertEqual(again, self.text)
 
 
@@ -212,7 +240,9 @@ class PartsMissing(unittest.TestCase):
     def test_a_case_file_of_another_run_is_named(self) -> None:
         put_run(self.root)
         self.assertIn("Not of this run", self.made())
-        with h5py.File(self.root / "run.h5") as file, h5py.File(self.root / "fold.h5", "r+") as case:
+        with h5py.File(self.root / "run.h5") as file, h5py.File(
+            self.root / "fold.h5", "r+"
+        ) as case:
             put(case, command=file.attrs["command"], commit=file.attrs["commit"])
         self.assertNotIn("Not of this run", self.made())
 
@@ -228,7 +258,10 @@ class PartsMissing(unittest.TestCase):
     def test_a_run_that_never_ended_is_not_taken_for_the_one_before(self) -> None:
         put_run(self.root)
         self.assertNotIn("did not come to its end", self.made())
-        findings = [{"name": "a", "outcome": "did not run"}, {"name": "b", "outcome": "did not run"}]
+        findings = [
+            {"name": "a", "outcome": "did not run"},
+            {"name": "b", "outcome": "did not run"},
+        ]
         told = {"program": {"date": HOSTILE}, "findings": findings}
         (self.root / "verdicts.json").write_text(json.dumps(told))
         self.assertIn("did not come to its end: 2 checks, studies and cases", self.made())
@@ -249,8 +282,13 @@ class PartsMissing(unittest.TestCase):
     def test_variants_are_shown_with_their_false_alarms(self) -> None:
         put_run(self.root)
         self.assertNotIn('id="variants"', self.made())
-        runs = [{"variant": "clang", "options": ["check"], "findings": 7, "false_alarms": []},
-                {"variant": "seeds", "options": ["check", "--seed", "3"], "findings": 5, "false_alarms": [{"name": HOSTILE}]}]
+        runs = [
+            {"variant": "clang", "options": ["check"], "findings": 7, "false_alarms": []},
+            {
+                "variant": "seeds", "options": ["check", "--seed", "3"], "findings": 5,
+                "false_alarms": [{"name": HOSTILE}]
+            },
+        ]
         (self.root / "variants.json").write_text(json.dumps({"commit": "abc", "runs": runs}))
         text = self.made()
         self.assertIn("2 runs with 12 findings (commit abc), 1 of which did not hold", text)
@@ -261,12 +299,21 @@ class PartsMissing(unittest.TestCase):
         for name in ("fold", "other"):
             put_case(self.root, name)
         with h5py.File(self.root / "fold.h5", "a") as file:
-            put_finding(file, 0, "case.fold.keeps-its-place", "check", outcome="fails", measured=2.0, bound=1.0, why_bound="a <reason>")
+            put_finding(
+                file, 0, "case.fold.keeps-its-place", "check", outcome="fails", measured=2.0,
+                bound=1.0, why_bound="a <reason>"
+            )
             put(file, commit="another")
         text = self.made()
         self.assertIn("simulations, and what was expected of them", text)
         self.assertIn("a &lt;reason&gt;", text)
-        self.assertRegex(text, r"<dt>Reproduce</dt><dd><code class=\"command\">build/foldproof run cases/fold.toml</code>")
+        self.assertRegex(
+            text,
+            (
+                r"<dt>Reproduce</dt><dd><code class=\"command\">build/foldproof run"
+                r" cases/fold.toml</code>"
+            ),
+        )
         provenance = re.search(r'<section id="provenance">.*?</section>', text, re.DOTALL)[0]
         self.assertNotIn("abcdef", provenance)          # of one simulation, not of both
         Seen(text)
@@ -276,7 +323,9 @@ class PartsMissing(unittest.TestCase):
             put_run(Path(folder))
             findings = load_run(Path(folder) / "run.h5").findings
         ranked = tolerances_of(findings).ranked
-        self.assertEqual([entry.used for entry in ranked], sorted((entry.used for entry in ranked), reverse=True))
+        self.assertEqual(
+            [entry.used for entry in ranked], sorted((entry.used for entry in ranked), reverse=True)
+        )
         self.assertTrue(all(entry.finding.outcome != "measured" for entry in ranked))
         self.assertNotIn(NAMES[1], [entry.finding.name for entry in ranked])  # NaN has no margin
 
@@ -284,10 +333,22 @@ class PartsMissing(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             root = Path(folder)
             with h5py.File(root / "run.h5", "w") as file:
-                put_finding(file, 0, "case.a.runs-to-its-end", "check", scope="generic", certainty="counted", basis="reasoned")
-                put_finding(file, 1, "b.c", "check", scope="specific", certainty="computed", basis="empirical", why_bound="empirical: seen")
-                put_finding(file, 2, "d.e", "bench", outcome="measured", scope="specific", certainty="timed once", basis="empirical")
-                put_finding(file, 3, "f.g", "check", scope="specific", certainty="computed", basis="reasoned")
+                put_finding(
+                    file, 0, "case.a.runs-to-its-end", "check", scope="generic",
+                    certainty="counted", basis="reasoned"
+                )
+                put_finding(
+                    file, 1, "b.c", "check", scope="specific", certainty="computed",
+                    basis="empirical", why_bound="empirical: seen"
+                )
+                put_finding(
+                    file, 2, "d.e", "bench", outcome="measured", scope="specific",
+                    certainty="timed once", basis="empirical"
+                )
+                put_finding(
+                    file, 3, "f.g", "check", scope="specific", certainty="computed",
+                    basis="reasoned"
+                )
             kinds = kinds_of(load_run(root / "run.h5").findings)
         self.assertEqual(kinds.judged, 3)
         self.assertEqual(kinds.scopes, [("specific", 2), ("generic", 1)])
@@ -297,14 +358,24 @@ class PartsMissing(unittest.TestCase):
 
     def put_outcomes(self) -> None:
         """Outcomes as scripts/faults and scripts/mutate write them."""
-        said = [dict(name=NAMES[0], outcome="fails", measured=3.0, bound=0.5, margin=6.0),
-                dict(name=NAMES[1], outcome="holds", measured=0.1, bound=0.5, margin=0.2),
-                dict(name=f"a test {HOSTILE}", outcome="fails", measured=None, bound=None, margin=None)]
+        said = [
+            dict(name=NAMES[0], outcome="fails", measured=3.0, bound=0.5, margin=6.0),
+            dict(name=NAMES[1], outcome="holds", measured=0.1, bound=0.5, margin=0.2),
+            dict(name=f"a test {HOSTILE}", outcome="fails", measured=None, bound=None, margin=None)
+        ]
         rows = [dict(name="flipped-sign", outcome="SURVIVED", seconds=1, checks=said)]
         (self.root / "faults.json").write_text(json.dumps({"faults": rows}))
-        counts = dict(mutants=9, not_compiled=1, same_code=2, killed=5, by={"check": 4, "clock": 1}, survived=1, equivalent=0, score=5 / 6)
-        mutant = dict(file="a.cpp", line=7, kind="operator", before=HOSTILE, after="a - b", outcome="SURVIVED", by="", what="", seconds=1)
-        (self.root / "mutation.json").write_text(json.dumps({"seed": 3, "files": [{"file": "a.cpp"} | counts], "mutants": [mutant]}))
+        counts = dict(
+            mutants=9, not_compiled=1, same_code=2, killed=5, by={"check": 4, "clock": 1},
+            survived=1, equivalent=0, score=5 / 6
+        )
+        mutant = dict(
+            file="a.cpp", line=7, kind="operator", before=HOSTILE, after="a - b",
+            outcome="SURVIVED", by="", what="", seconds=1
+        )
+        (self.root / "mutation.json").write_text(
+            json.dumps({"seed": 3, "files": [{"file": "a.cpp"} | counts], "mutants": [mutant]})
+        )
 
     def test_the_kill_matrix_shows_what_failed_and_by_how_much(self) -> None:
         put_run(self.root)
@@ -313,7 +384,9 @@ class PartsMissing(unittest.TestCase):
         text = self.made()
         self.assertNotIn("<script>alert", text)
         matrix = text[text.index('<section id="kill-matrix"'):]
-        self.assertRegex(matrix, r'<td class="num missed" title="[^"]*fails, [^"]*holds">1<small>[^/]*6[^/]*</')
+        self.assertRegex(
+            matrix, r'<td class="num missed" title="[^"]*fails, [^"]*holds">1<small>[^/]*6[^/]*</'
+        )
         self.assertRegex(matrix, r'<td class="num" title="a test [^"]*: fails">1</td>')
 
     def test_the_mutation_score_is_shown_where_it_is_known(self) -> None:
@@ -334,7 +407,9 @@ class PartsMissing(unittest.TestCase):
         with h5py.File(self.root / "converge.h5", "w") as file:
             put_study(file)
             file.move("studies/time-order", "studies/converge.strip.C.in-time")
-            file["studies/converge.strip.C.in-time"].attrs["claim"] = "The step puts positions off by 3 mm."
+            file["studies/converge.strip.C.in-time"].attrs[
+                "claim"
+            ] = "The step puts positions off by 3 mm."
             figure = file["studies/converge.strip.C.in-time/figures/x"]
             for curve in figure["curves"].values():
                 if "marks" in curve:
@@ -351,7 +426,9 @@ class PartsMissing(unittest.TestCase):
         put_run(self.root)
         with h5py.File(self.root / "run.h5", "r+") as file:
             put(file["cases/gone"], file="../../../etc/passwd")
-        self.assertEqual({case.path.parent for case in load_run(self.root / "run.h5").cases}, {self.root})
+        self.assertEqual(
+            {case.path.parent for case in load_run(self.root / "run.h5").cases}, {self.root}
+        )
 
     def test_damaged_files_are_refused_or_named_on_the_page(self) -> None:
         put_run(self.root)
@@ -369,9 +446,11 @@ class PartsMissing(unittest.TestCase):
         put_run(self.root)
         page = self.root / "report.html"
         page.write_text("as it was")
-        limit = subprocess.run([sys.executable, str(REPORTS / "make_report.py"), str(self.root)],
-                               capture_output=True, text=True, check=False,
-                               preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (20000, 20000)))
+        limit = subprocess.run(
+            [sys.executable, str(REPORTS / "make_report.py"), str(self.root)], capture_output=True,
+            text=True, check=False,
+            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (20000, 20000))
+        )
         self.assertEqual(limit.returncode, 2)
         self.assertEqual(len(limit.stderr.strip().splitlines()), 1, limit.stderr)
         self.assertIn("File too large", limit.stderr)
@@ -390,9 +469,22 @@ class PartsMissing(unittest.TestCase):
         self.assertEqual(run.faults[0].caught_by, [NAMES[0], NAMES[2], "gone.check"])
 
 
-def load_tests(loader: unittest.TestLoader, tests: unittest.TestSuite, _: str | None) -> unittest.TestSuite:
-    """This file's tests, and those of the page, of runs compared, of what scenes need, of the pieces, of the page of verdict, and of what other programs get."""
-    tests.addTests(loader.loadTestsFromNames([f"tests.test_{name}" for name in ("page", "compare", "history", "needs", "errors", "pieces", "results", "summary", "site")]))
+def load_tests(
+    loader: unittest.TestLoader, tests: unittest.TestSuite, _: str | None
+) -> unittest.TestSuite:
+    """This file's tests, and those of the page, of runs compared, of what scenes need, of the
+    pieces, of the page of verdict, and of what other programs get."""
+    tests.addTests(
+        loader.loadTestsFromNames(
+            [
+                f"tests.test_{name}"
+                for name in (
+                    "page", "compare", "history", "needs", "errors", "pieces", "results", "summary",
+                    "site"
+                )
+            ]
+        )
+    )
     return tests
 
 

@@ -1,4 +1,5 @@
-"""Tests of what other programs get: a run in numpy, the schema of verdicts.json. Run by test_reports.py."""
+"""Tests of what other programs get: a run in numpy, the schema of
+verdicts.json. Run by test_reports.py."""
 from __future__ import annotations
 
 import copy
@@ -22,7 +23,9 @@ import numpy as np  # noqa: E402
 
 from data.results import Column, load_case, load_run  # noqa: E402
 from data.unreadable import Unreadable  # noqa: E402
-from foldproof_results import columns_of_study, evidence_of, load_results, load_trajectory  # noqa: E402
+from foldproof_results import (
+    columns_of_study, evidence_of, load_results, load_trajectory
+)  # noqa: E402
 from tests.made_up_run import NAMES, made_up_verdicts, put_run  # noqa: E402
 
 REPORTS = Path(__file__).resolve().parents[1]
@@ -56,9 +59,14 @@ class ResultsInNumpy(unittest.TestCase):
         self.assertEqual(list(evidence_of(run.findings[NAMES[0]])), ["angle", "mesh"])
         columns = columns_of_study(run.studies["time-order"])["x"]
         curve = read.studies[0].figures[0].curves[1]
-        self.assertEqual([name.rpartition(": ")[2] for name in columns], ["x", "y", "order", "x", "y", "order", "mark"])
+        self.assertEqual(
+            [name.rpartition(": ")[2] for name in columns],
+            ["x", "y", "order", "x", "y", "order", "mark"],
+        )
         np.testing.assert_array_equal(columns[f"{curve.label}: y"].values, curve.y)
-        self.assertEqual({column.unit for name, column in columns.items() if name.endswith(": y")}, {"m"})
+        self.assertEqual(
+            {column.unit for name, column in columns.items() if name.endswith(": y")}, {"m"}
+        )
 
     def test_two_columns_of_one_name_are_both_there(self) -> None:
         finding = load_results(self.root / "results").findings[NAMES[0]]
@@ -120,22 +128,31 @@ class VerdictsSchema(unittest.TestCase):
         self.assertEqual([error.message for error in self.validator.iter_errors(self.verdicts)], [])
 
     def test_the_example_of_the_readme_validates_and_tells(self) -> None:
-        blocks = re.findall(r"```python\n(.*?)```", (REPORTS / "DATA.md").read_text(encoding="utf-8"), re.S)
+        blocks = re.findall(
+            r"```python\n(.*?)```", (REPORTS / "DATA.md").read_text(encoding="utf-8"), re.S
+        )
         example = next(block for block in blocks if "jsonschema" in block)
         with tempfile.TemporaryDirectory() as folder:
             os.symlink(REPORTS, Path(folder) / "reports")
             (Path(folder) / "results").mkdir()
             (Path(folder) / "results" / "verdicts.json").write_text(json.dumps(self.verdicts))
-            told = subprocess.run([sys.executable, "-c", example], cwd=folder, capture_output=True, text=True, check=True)
+            told = subprocess.run(
+                [sys.executable, "-c", example], cwd=folder, capture_output=True, text=True,
+                check=True
+            )
         self.assertEqual(told.stdout, "['b', 'c', 'd', 'e', 'f', 'claim.T2']\n")
 
     def test_a_broken_file_is_not(self) -> None:
         a, b, claim = 0, 1, 6  # of made_up_verdicts
-        broken = [("findings", a, "outcome", "hold"), ("findings", a, "measured", None), ("findings", a, "unit", 1),
-                  ("findings", a, "measured", "3.2e-15"), ("findings", b, "seconds", -1), ("findings", a, "faults", "x"),
-                  ("findings", a, "kind", "claim"), ("findings", claim, "kind", "check"), ("findings", a, "stray", ""),
-                  ("findings", claim, "ruling", "true"), ("findings", claim, "decided_by", []), ("schema", 2),
-                  ("program", "seed", -1), ("program", "name", "other"), ("program", "date", "yesterday"), ("findings", {})]
+        broken = [
+            ("findings", a, "outcome", "hold"), ("findings", a, "measured", None),
+            ("findings", a, "unit", 1), ("findings", a, "measured", "3.2e-15"),
+            ("findings", b, "seconds", -1), ("findings", a, "faults", "x"),
+            ("findings", a, "kind", "claim"), ("findings", claim, "kind", "check"),
+            ("findings", a, "stray", ""), ("findings", claim, "ruling", "true"),
+            ("findings", claim, "decided_by", []), ("schema", 2), ("program", "seed", -1),
+            ("program", "name", "other"), ("program", "date", "yesterday"), ("findings", {})
+        ]
         for *places, key, value in broken:
             with self.subTest(places=places, key=key, value=value):
                 verdicts = copy.deepcopy(self.verdicts)
@@ -158,12 +175,20 @@ class VerdictsSchema(unittest.TestCase):
             place = places.pop()
             for key, inner in place.get("properties", {}).items():
                 self.assertIn("description", inner, key)
-            places += [value for key, value in place.items() if isinstance(value, dict) and key not in ("if", "then")]
+            places += [
+                value
+                for key, value in place.items()
+                if isinstance(value, dict) and key not in ("if", "then")
+            ]
 
     def test_the_program_writes_what_the_schema_describes(self) -> None:
-        text = (REPORTS.parent / "verification" / "files" / "verdicts_file.cpp").read_text(encoding="utf-8")
+        text = (REPORTS.parent / "verification" / "files" / "verdicts_file.cpp").read_text(
+            encoding="utf-8"
+        )
         written = set(re.findall(r'\{"(\w+)",', text))
         parts = self.schema["$defs"]
         decider = parts["claim"]["properties"]["decided_by"]["items"]
-        described = set(self.schema["properties"]).union(*(part["properties"] for part in (*parts.values(), decider)))
+        described = set(self.schema["properties"]).union(
+            *(part["properties"] for part in (*parts.values(), decider))
+        )
         self.assertEqual(written, described)

@@ -1,5 +1,5 @@
-"""Tests of the report as a folder of pages, of methods' looks and of numbers as they are said; run with
-reports/tests/test_reports.py."""
+"""Tests of the report as a folder of pages, of methods' looks and of numbers as they are said; run
+with reports/tests/test_reports.py."""
 from __future__ import annotations
 
 import re
@@ -33,11 +33,16 @@ class Site(unittest.TestCase):
         (root / "report").mkdir()
         (root / "report" / "old.html").write_text("of an earlier report")
         cls.index = make_site(root, root / "figures")
-        cls.pages = {page.name: page.read_text(encoding="utf-8") for page in cls.index.parent.glob("*.html")}
+        cls.pages = {
+            page.name: page.read_text(encoding="utf-8") for page in cls.index.parent.glob("*.html")
+        }
 
     def test_every_topic_study_and_case_has_a_page(self) -> None:
         self.assertEqual(self.index.name, "index.html")
-        for name in ("claims", "checks", "studies", "study-time-order", "cases", "case-fold", "faults", "provenance"):
+        for name in (
+            "claims", "checks", "studies", "study-time-order", "cases", "case-fold", "faults",
+            "provenance"
+        ):
             self.assertIn(f"{name}.html", self.pages)
             self.assertIn(f'href="{name}.html"', self.pages["index.html"])
         self.assertNotIn("old.html", self.pages)
@@ -48,14 +53,18 @@ class Site(unittest.TestCase):
         for name, text in self.pages.items():
             for file, anchor in re.findall(r'<a [^>]*?href="([^"#]*)#?([^"]*)"', text):
                 self.assertIn(file or name, self.pages)
-                self.assertTrue(not anchor or anchor in ids[file or name], f"{name}: {file}#{anchor}")
+                self.assertTrue(
+                    not anchor or anchor in ids[file or name], f"{name}: {file}#{anchor}"
+                )
 
     def test_a_page_is_whole_and_small(self) -> None:
         for name, text in self.pages.items():
             self.assertLessEqual(len(text.encode("utf-8")), MOST_BYTES, name)
             self.assertNotRegex(text, r"<!--(page|end)")
             for tag in ("html", "body", "main", "h1", "section", "details"):
-                self.assertEqual(len(re.findall(rf"<{tag}\b", text)), text.count(f"</{tag}>"), f"{name}: {tag}")
+                self.assertEqual(
+                    len(re.findall(rf"<{tag}\b", text)), text.count(f"</{tag}>"), f"{name}: {tag}"
+                )
             self.assertEqual(text.count("<h1"), 1, name)
             self.assertEqual(re.findall(r'(?:src|href)="(?:https?:)?//', text), [])
 
@@ -63,19 +72,29 @@ class Site(unittest.TestCase):
 class Looks(unittest.TestCase):
     def test_methods_differ_by_colour_and_by_marker(self) -> None:
         x = np.array([1.0, 2.0, 3.0])
-        curves = [Curve(name, x, x ** (k + 1), float("nan"), None, float("nan"), None) for k, name in enumerate(METHODS)]
+        curves = [
+            Curve(name, x, x ** (k + 1), float("nan"), None, float("nan"), None)
+            for k, name in enumerate(METHODS)
+        ]
         pens = choose_pens(curves)
         self.assertEqual(len({pen.colour for pen in pens}), len(METHODS))
         self.assertEqual(len({pen.marker for pen in pens}), len(METHODS))
-        alone = choose_pens([replace(curves[4], label="RK2, grows"), replace(curves[1], label="scheme B")])
-        self.assertEqual([(pen.colour, pen.marker) for pen in alone], [(COLOURS[4], MARKERS[4]), (COLOURS[1], MARKERS[1])])
+        alone = choose_pens(
+            [replace(curves[4], label="RK2, grows"), replace(curves[1], label="scheme B")]
+        )
+        self.assertEqual(
+            [(pen.colour, pen.marker) for pen in alone],
+            [(COLOURS[4], MARKERS[4]), (COLOURS[1], MARKERS[1])],
+        )
 
     def test_curves_stand_out_from_the_paper(self) -> None:
         text = (REPORTS / "pages" / "style.css").read_text(encoding="utf-8")
         for block in re.findall(r":root \{(.*?)\}", text, re.S)[:2]:
             palette = dict(re.findall(r"--([\w-]+): (#[0-9a-f]{6})", block))
             for k in range(len(COLOURS)):
-                self.assertGreaterEqual(contrast(palette[f"plot-{k}"], palette["paper"]), LEAST_CONTRAST, k)
+                self.assertGreaterEqual(
+                    contrast(palette[f"plot-{k}"], palette["paper"]), LEAST_CONTRAST, k
+                )
 
 
 class Said(unittest.TestCase):

@@ -1,4 +1,5 @@
-"""Tests of the page of verdict: its words, its numbers, its sheet; run with reports/tests/test_reports.py."""
+"""Tests of the page of verdict: its words, its numbers, its sheet; run with
+reports/tests/test_reports.py."""
 from __future__ import annotations
 
 import ast
@@ -21,14 +22,20 @@ from tests.made_up_run import HOSTILE, TEXT, made_up_verdicts, put, put_claim, p
 
 REPORTS = Path(__file__).resolve().parents[1]
 MOST_WORDS = 450
-SUPPORTS = ("stability-sheet.limit-does-not-depend-on-damping.both.A", "variable-step-stability.alternating-steps-resonate.A",
-            "mesh-error.usual-step-error-is-below-a-tenth-of-it", "bending-rigidity.depends-on-pattern",
-            "case.drop.never-crosses-itself", "case.drop.stays-outside", "pointwise-contact.a-thin-pin-passes-through")
+SUPPORTS = (
+    "stability-sheet.limit-does-not-depend-on-damping.both.A",
+    "variable-step-stability.alternating-steps-resonate.A",
+    "mesh-error.usual-step-error-is-below-a-tenth-of-it", "bending-rigidity.depends-on-pattern",
+    "case.drop.never-crosses-itself", "case.drop.stays-outside",
+    "pointwise-contact.a-thin-pin-passes-through"
+)
 
 
 def put_table(file: h5py.File, study: str, **columns: list) -> None:
     """Adds a study with one table; blanks of the names are written as underscores."""
-    put(file.require_group(f"studies/{study}"), order=20, claim="", source="", about="", seconds=1.0)
+    put(
+        file.require_group(f"studies/{study}"), order=20, claim="", source="", about="", seconds=1.0
+    )
     table = file.create_group(f"studies/{study}/tables/0")
     put(table, order=0, title=study)
     for order, (name, values) in enumerate(columns.items()):
@@ -39,21 +46,35 @@ def put_table(file: h5py.File, study: str, **columns: list) -> None:
 
 
 def put_priced_run(folder: Path, scale: float = 1.0) -> None:
-    """A made-up run with all that conclusions are drawn from; its numbers are multiplied by `scale`."""
+    """A made-up run with all that conclusions are drawn from; its
+    numbers are multiplied by `scale`."""
     put_run(folder)
     with h5py.File(folder / "run.h5", "a") as file:
-        put(file, subject="foldproof reference", subject_version="9.8.7", tier="quick", date="2031-02-03T04:05:06Z")
+        put(
+            file, subject="foldproof reference", subject_version="9.8.7", tier="quick",
+            date="2031-02-03T04:05:06Z"
+        )
         for order, name in enumerate(SUPPORTS, start=30):
-            put_finding(file, order, name, "check", measured=0.0137 * scale, bound=0.0171 * scale, unit="m")
-        put_table(file, "work-precision", scene=["a", "b"], error_wanted=[1.7 * scale] * 2, by=["work"] * 2,
-                  cheapest_method=["RK4", "B"], next_best=["A", "A"],
-                  it_costs_this_many_times_as_much=[1.31 * scale, 1.42 * scale],
-                  C_costs_this_many_times_as_much=[2.53 * scale, 3.64 * scale])
-        put_table(file, "stability-sheet", width_of_a_cell=[0.3 * scale, 0.123 * scale], schemes_A_and_B=[5.0, 17.9 * scale],
-                  forward_Euler=[60.0, 812.0 * scale])
-        put_table(file, "mesh-error", cells_along_a_side=[5.0, 19.0], error_of_the_mesh=[9.0, 0.457 * scale],
-                  error_of_the_step=[1.0, 0.00291 * scale])
-        put_table(file, "bending-rigidity", least=[0.219 * scale, 0.3], greatest=[0.4, 2.77 * scale])
+            put_finding(
+                file, order, name, "check", measured=0.0137 * scale, bound=0.0171 * scale, unit="m"
+            )
+        put_table(
+            file, "work-precision", scene=["a", "b"], error_wanted=[1.7 * scale] * 2,
+            by=["work"] * 2, cheapest_method=["RK4", "B"], next_best=["A", "A"],
+            it_costs_this_many_times_as_much=[1.31 * scale, 1.42 * scale],
+            C_costs_this_many_times_as_much=[2.53 * scale, 3.64 * scale]
+        )
+        put_table(
+            file, "stability-sheet", width_of_a_cell=[0.3 * scale, 0.123 * scale],
+            schemes_A_and_B=[5.0, 17.9 * scale], forward_Euler=[60.0, 812.0 * scale]
+        )
+        put_table(
+            file, "mesh-error", cells_along_a_side=[5.0, 19.0],
+            error_of_the_mesh=[9.0, 0.457 * scale], error_of_the_step=[1.0, 0.00291 * scale]
+        )
+        put_table(
+            file, "bending-rigidity", least=[0.219 * scale, 0.3], greatest=[0.4, 2.77 * scale]
+        )
         put_table(file, "crossing-queries", asked=[7013.0, 11.0], missed=[0.0, 3.0])
 
 
@@ -78,8 +99,15 @@ class OnePage(unittest.TestCase):
                 self.root = Path(folder)
                 put_priced_run(self.root, scale)
                 for text in self.made():
-                    for number in (1.7, 2.53, 3.64, 1.31, 1.42, 0.123, 17.9, 812.0, 0.457, 0.00291, 0.219, 2.77, 0.0137):
-                        shown = f"{number * scale:.3g}".rstrip("0") if number * scale < 100 else f"{number * scale:.0f}"
+                    for number in (
+                        1.7, 2.53, 3.64, 1.31, 1.42, 0.123, 17.9, 812.0, 0.457, 0.00291, 0.219,
+                        2.77, 0.0137
+                    ):
+                        shown = (
+                            f"{number * scale:.3g}".rstrip("0")
+                            if number * scale < 100
+                            else f"{number * scale:.0f}"
+                        )
                         self.assertIn(shown[:4], text)
                     for shown in ("7024", "19", "9.8.7"):
                         self.assertIn(shown, text)
@@ -87,10 +115,20 @@ class OnePage(unittest.TestCase):
     def test_words_between_the_numbers_hold_no_digit(self) -> None:
         for name in ("conclusions", "summary"):
             tree = ast.parse((REPORTS / "pages" / f"{name}.py").read_text(encoding="utf-8"))
-            sources = {id(one) for call in ast.walk(tree) if isinstance(call, ast.Call) and isinstance(call.func, ast.Name)
-                       and call.func.id in ("Number", "_count") for one in ast.walk(call)}
+            sources = {
+                id(one)
+                for call in ast.walk(tree)
+                if isinstance(call, ast.Call)
+                and isinstance(call.func, ast.Name)
+                and call.func.id in ("Number", "_count")
+                for one in ast.walk(call)
+            }
             for one in ast.walk(tree):
-                if isinstance(one, ast.Constant) and isinstance(one.value, str) and id(one) not in sources:
+                if (
+                    isinstance(one, ast.Constant)
+                    and isinstance(one.value, str)
+                    and id(one) not in sources
+                ):
                     self.assertNotRegex(one.value, r"\d", f"{name}.py:{one.lineno}")
 
     def test_it_is_read_in_two_minutes(self) -> None:
@@ -100,7 +138,9 @@ class OnePage(unittest.TestCase):
                 put_claim(file, number, f"X{number}", "refuted", [])
                 put(file[f"claims/X{number}"], statement="word " * 60)
         for text in self.made():
-            self.assertLessEqual(sum(bool(re.search(r"\w", word)) for word in text.split()), MOST_WORDS)
+            self.assertLessEqual(
+                sum(bool(re.search(r"\w", word)) for word in text.split()), MOST_WORDS
+            )
             self.assertIn("X2", text)
 
     def test_a_conclusion_falls_with_its_finding(self) -> None:
@@ -132,7 +172,10 @@ class OnePage(unittest.TestCase):
         for program in (now["program"], before["program"]):
             program["command"] = "build/foldproof verify"
         markdown = self.made(self.root / "before")[1]
-        self.assertIn("Since 2026-11-21 06:51 0123456: 1 worse, 0 new or changed otherwise; worse: `b`", markdown)
+        self.assertIn(
+            "Since 2026-11-21 06:51 0123456: 1 worse, 0 new or changed otherwise; worse: `b`",
+            markdown,
+        )
         before["program"]["tier"] = "full"
         (self.root / "before" / "verdicts.json").write_text(json.dumps(before))
         self.assertIn("not comparable", self.made(self.root / "before")[1])
@@ -163,7 +206,10 @@ class OnePage(unittest.TestCase):
             self.assertIn("single simulations", text)
 
     def test_pieces_are_escaped(self) -> None:
-        pieces = ["a < b ", Number(1e-7, "m^2", ""), " ", Quoted("<i>*x*", ""), " ", Quoted("a`b", "", is_name=True)]
+        pieces = [
+            "a < b ", Number(1e-7, "m^2", ""), " ", Quoted("<i>*x*", ""), " ",
+            Quoted("a`b", "", is_name=True)
+        ]
         self.assertIn("&lt;i&gt;", html_of(pieces))
         self.assertEqual(markdown_of(pieces), r"a < b 1×10⁻⁷ m² \<i\>\*x\* `a b`")
 
@@ -182,8 +228,10 @@ class OneSheet(unittest.TestCase):
     def test_without_a_browser_the_rest_is_written_and_a_line_says_so(self) -> None:
         with tempfile.TemporaryDirectory() as folder:
             put_priced_run(Path(folder))
-            done = subprocess.run([sys.executable, str(REPORTS / "make_report.py"), folder, "--summary"],
-                                  capture_output=True, text=True, check=False, env=os.environ | {"PATH": folder})
+            done = subprocess.run(
+                [sys.executable, str(REPORTS / "make_report.py"), folder, "--summary"],
+                capture_output=True, text=True, check=False, env=os.environ | {"PATH": folder}
+            )
             self.assertEqual(done.returncode, 0)
             self.assertEqual(done.stdout, f"{folder}/summary.html\n{folder}/summary.md\n")
             self.assertEqual(len(done.stderr.splitlines()), 1)

@@ -1,4 +1,5 @@
-"""Tests of where up is: a case that is turned as a whole, gravity with it, looks the same. Run by test_views.py."""
+"""Tests of where up is: a case that is turned as a whole, gravity with it, looks
+the same. Run by test_views.py."""
 from __future__ import annotations
 
 import argparse
@@ -19,14 +20,18 @@ from pictures.cloth_picture import picture_of
 from tests.made_up_case import WithCase, put_whole_case
 
 DOWN = np.array([0.0, -9.8, 0.0])
-QUARTERS = {"-z": np.array([[1, 0, 0], [0, 0, -1], [0, 1, 0]], dtype=float),      # takes y to z, and z to -y
-            "+x": np.array([[0, -1, 0], [1, 0, 0], [0, 0, 1]], dtype=float)}      # takes y to -x, and x to y
+# takes y to z, and z to -y
+QUARTERS = {"-z": np.array([[1, 0, 0], [0, 0, -1], [0, 1, 0]], dtype=float),
+            # takes y to -x, and x to y
+            "+x": np.array([[0, -1, 0], [1, 0, 0], [0, 0, 1]], dtype=float)}
 ASLANT = np.array([[1, 0, 0], [0, 0.8, -0.6], [0, 0.6, 0.8]])                     # of an incline
 
 TWO_LOOKS = """(async () => {
   const figure = document.querySelector("figure.view");
   const wait = (ms) => new Promise((done) => setTimeout(done, ms));
-  const drawn = async (count) => { for (let k = 0; k < 400 && !(figure.dataset.drawn >= count); ++k) await wait(50); };
+  const drawn = async (count) => {
+    for (let k = 0; k < 400 && !(figure.dataset.drawn >= count); ++k) await wait(50);
+  };
   const seen = async (act) => {
     const before = Number(figure.dataset.drawn);
     act();
@@ -41,7 +46,8 @@ TWO_LOOKS = """(async () => {
   await drawn(1);
   const slider = figure.querySelector("input[type=range]");
   const first = await seen(() => { slider.value = 2; slider.dispatchEvent(new Event("input")); });
-  const press = (key) => figure.querySelector("canvas").dispatchEvent(new KeyboardEvent("keydown", { key }));
+  const canvas = figure.querySelector("canvas");
+  const press = (key) => canvas.dispatchEvent(new KeyboardEvent("keydown", { key }));
   await seen(() => press("ArrowUp"));
   await seen(() => press("ArrowLeft"));
   return [first, await seen(() => press("ArrowLeft"))];
@@ -54,8 +60,10 @@ def put_turned_case(folder: Path, turn: np.ndarray) -> Path:
     path = put_whole_case(folder)
     with h5py.File(path, "r+") as file:
         del file["objects/0"]                       # its poses would have to be turned, too
-        for name in ("frames/positions", "frames/velocities", "mesh/rest_positions", "objects/1/vertices",
-                     "objects/1/positions", "objects/2/vertices"):
+        for name in (
+            "frames/positions", "frames/velocities", "mesh/rest_positions", "objects/1/vertices",
+            "objects/1/positions", "objects/2/vertices"
+        ):
             turned = file[name][:] @ turn.T
             del file[name]
             file[name] = turned
@@ -71,13 +79,17 @@ class Upright(WithCase):
         self.plain = put_turned_case(self.root / "plain", np.eye(3))
 
     def assert_alike(self, seen: np.ndarray, expected: np.ndarray) -> None:
-        """Pictures of one shape whose values all but agree; roundings move outlines by a sample here and there."""
+        """Pictures of one shape whose values all but agree; roundings move
+        outlines by a sample here and there."""
         self.assertEqual(seen.shape, expected.shape)
         self.assertGreater(len(np.unique(expected)), 20)
         self.assertLess((np.abs(seen.astype(int) - expected.astype(int)) > 8).mean(), 0.002)
 
     def test_axes_are_right_handed_and_up_is_against_gravity(self) -> None:
-        for gravity in (*(turn @ DOWN for turn in QUARTERS.values()), ASLANT @ DOWN, -DOWN, DOWN, np.array([1e-9, 9.8, 0.0])):
+        for gravity in (
+            *(turn @ DOWN for turn in QUARTERS.values()), ASLANT @ DOWN, -DOWN, DOWN,
+            np.array([1e-9, 9.8, 0.0])
+        ):
             axes = upright_axes(up_against(gravity))
             np.testing.assert_allclose(axes @ axes.T, np.eye(3), atol=1e-15)
             self.assertGreater(np.linalg.det(axes), 0.99)
@@ -100,7 +112,9 @@ class Upright(WithCase):
     def test_the_camera_stands_upright_on_a_slope(self) -> None:
         camera, sloping = (select_frames(load_case(path))[1].camera
                            for path in (self.plain, put_turned_case(self.root / "aslant", ASLANT)))
-        for axis, turned in zip((camera.right, camera.up, camera.toward), (sloping.right, sloping.up, sloping.toward)):
+        for axis, turned in zip(
+            (camera.right, camera.up, camera.toward), (sloping.right, sloping.up, sloping.toward)
+        ):
             np.testing.assert_allclose(turned, ASLANT @ axis, atol=1e-12)
 
     @unittest.skipUnless(shutil.which("chromium"), "no chromium: the package chromium has it")

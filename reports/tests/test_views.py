@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Tests of what shows cloth: pictures, fields, the view in the page, films, exported files: reports/tests/test_views.py"""
+"""Tests of what shows cloth: pictures, fields, the view in the page, films, exported files:
+reports/tests/test_views.py"""
 from __future__ import annotations
 
 import base64
@@ -59,7 +60,9 @@ class Pictures(unittest.TestCase):
         self.assertEqual(far_alone[0] > far_alone[2], BACK[0] > BACK[2])
 
     def test_cloth_that_lies_on_an_object_hides_it(self) -> None:
-        table = Scenery(2.0 * SQUARE - [0.5, 0.5, 0.0], TWO, np.zeros(4, dtype=bool), np.zeros(3), 1.0)
+        table = Scenery(
+            2.0 * SQUARE - [0.5, 0.5, 0.0], TWO, np.zeros(4, dtype=bool), np.zeros(3), 1.0
+        )
         camera = choose_camera([SQUARE], TWO, table.x)
         picture = picture_of(Cloth(SQUARE, TWO, np.zeros(4, dtype=bool)), camera, table)
         cloth, object_alone = self.seen(picture, camera, [[0.5, 0.4, 0.0], [1.4, 1.3, 0.0]])
@@ -68,7 +71,9 @@ class Pictures(unittest.TestCase):
 
     def test_particles_that_are_not_finite_leave_the_rest_drawn(self) -> None:
         x = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [np.nan, 1, 0]], dtype=float)
-        picture = picture_of(Cloth(x, TWO, np.ones(4, bool)), choose_camera([np.nan_to_num(x)], TWO))
+        picture = picture_of(
+            Cloth(x, TWO, np.ones(4, bool)), choose_camera([np.nan_to_num(x)], TWO)
+        )
         self.assertGreater((picture[:, :, 3] > 0).mean(), 0.1)
 
     def test_cloth_above_the_ground_casts_a_shadow_and_the_ground_ends_nowhere(self) -> None:
@@ -77,8 +82,12 @@ class Pictures(unittest.TestCase):
         for up in (TWO, TWO[:, ::-1]):
             scenery = Scenery(floor, up, np.ones(4, dtype=bool), np.zeros(3), 0.71)
             camera = choose_camera([cloth], TWO[:, ::-1], floor / 8)
-            picture = picture_of(Cloth(cloth, TWO[:, ::-1], np.zeros(4, dtype=bool)), camera, scenery)
-            light = np.array([-0.52, 0.74, 0.42]) @ np.stack([camera.right, camera.up, camera.toward])
+            picture = picture_of(
+                Cloth(cloth, TWO[:, ::-1], np.zeros(4, dtype=bool)), camera, scenery
+            )
+            light = np.array([-0.52, 0.74, 0.42]) @ np.stack(
+                [camera.right, camera.up, camera.toward]
+            )
             below = np.array([0.0, 0.0, 0.4]) - (0.4 / light[1]) * light
             dark, = self.seen(picture, camera, [below.tolist()])
             ground = (picture[:, :, 3] > 250) & (np.ptp(picture[:, :, :3].astype(int), axis=2) < 12)
@@ -86,7 +95,9 @@ class Pictures(unittest.TestCase):
         self.assertLess(picture[[0, 0, -1, -1], [0, -1, 0, -1], 3].max(), 30)
 
     def test_the_file_keeps_outlines_and_nearly_all_of_the_colours(self) -> None:
-        picture = picture_of(Cloth(SQUARE, TWO, np.zeros(4, dtype=bool)), choose_camera([SQUARE], TWO))
+        picture = picture_of(
+            Cloth(SQUARE, TWO, np.zeros(4, dtype=bool)), choose_camera([SQUARE], TWO)
+        )
         read = np.asarray(image.imread(BytesIO(webp_bytes(picture)), format="webp")).astype(int)
         np.testing.assert_array_equal(read[:, :, 3], picture[:, :, 3])
         inside = picture[:, :, 3] == 255
@@ -102,7 +113,9 @@ class Pictures(unittest.TestCase):
         self.assertEqual((scenery.x.shape, scenery.ground.any()), ((7, 3), False))
 
     def test_short_films_are_slowed_by_a_plain_number(self) -> None:
-        self.assertEqual([slowdown(seconds) for seconds in (3.0, 0.3, 0.012, 0.0)], [1.0, 2.0, 50.0, 1.0])
+        self.assertEqual(
+            [slowdown(seconds) for seconds in (3.0, 0.3, 0.012, 0.0)], [1.0, 2.0, 50.0, 1.0]
+        )
 
 
 class Fields(WithCase):
@@ -115,11 +128,14 @@ class Fields(WithCase):
         np.testing.assert_allclose(values["strain"][0], 0.25)      # 1 m where 0.8 m is at rest
         np.testing.assert_allclose(values["angle"][0], 0.0, atol=1e-12)
         with h5py.File(self.path, "r+") as file:
-            file["frames/positions"][1] = SQUARE * [1, 1, 0] + [[0, 0, 0], [0, 0, 0], [0, 0, 0], [0, 0, 1]]
+            file["frames/positions"][1] = SQUARE * [1, 1, 0] + [
+                [0, 0, 0], [0, 0, 0], [0, 0, 0], [0, 0, 1]
+            ]
         angle = all_values(self.case())["angle"][1]
         a, b = (np.cross(*edges) for edges in (([1, 0, 0], [0, 1, 0]), ([0, 1, 1], [-1, 0, 1])))
         between = np.arccos(a @ b / np.linalg.norm(a) / np.linalg.norm(b))
-        np.testing.assert_allclose(angle, [0.0, between, between, 0.0])   # the hinge is that of particles 1 and 2
+        # the hinge is that of particles 1 and 2
+        np.testing.assert_allclose(angle, [0.0, between, between, 0.0])
 
     def test_spectrum_counts_what_is_folded_as_far_or_farther(self) -> None:
         beyond = folded_beyond(np.array([0.0, 10.0, 10.0, 90.0, np.nan]))
@@ -136,7 +152,10 @@ class Fields(WithCase):
     def test_what_is_roundings_is_no_field(self) -> None:
         with h5py.File(self.path, "r+") as file:
             file["frames/velocities"][...] = 1e-15
-        self.assertEqual([field.name for field in fields_of(self.case(), [0, 1, 2, 3])], ["strain", "angle", "phi"])
+        self.assertEqual(
+            [field.name for field in fields_of(self.case(), [0, 1, 2, 3])],
+            ["strain", "angle", "phi"],
+        )
 
     def test_the_most_telling_field_is_smooth_and_has_many_colours(self) -> None:
         case = self.case()
@@ -150,10 +169,14 @@ class Fields(WithCase):
         self.assertEqual((field.name, row), ("speed", 0))
         self.assertIsNone(most_telling([], [0], edges_of(case.triangles)))
         flat.values = np.full((3, 100), 0.5 * flat.high)
-        self.assertEqual(most_telling([flat], [0, 1, 2], line)[1], 2)              # what moves as one is shown where it came to
+        # what moves as one is shown where it came to
+        self.assertEqual(most_telling([flat], [0, 1, 2], line)[1], 2)
 
     def test_what_is_zero_throughout_is_not_plotted(self) -> None:
-        lines = {caption.split()[0]: plot for caption, plot in plot_diagnostics(self.case(), "fold", self.root)}
+        lines = {
+            caption.split()[0]: plot
+            for caption, plot in plot_diagnostics(self.case(), "fold", self.root)
+        }
         self.assertEqual(set(lines), {"Energies", "Linear", "Conjugate"})
         with h5py.File(self.path, "r+") as file:
             for name in ("cg_iterations", "linear_momentum", "gravity_energy", "kinetic_energy"):
@@ -164,11 +187,18 @@ class Fields(WithCase):
         def captions() -> list[str]:
             return [caption for caption, _ in plot_contacts(self.case(), "fold", self.root)]
         with h5py.File(self.path, "r+") as file:
-            file["frames/object_distance"][...] = [[9.0] * 4, [9.0, 0.1, -0.1, 0.2], [9.0, 9.0, 9.0, 0.1], [9.0] * 4]
-        self.assertRegex(captions()[0], "objects at 1 s, .* 1 of 4 particles are inside, by at most 0.1 m")
+            file["frames/object_distance"][...] = [
+                [9.0] * 4, [9.0, 0.1, -0.1, 0.2], [9.0, 9.0, 9.0, 0.1], [9.0] * 4
+            ]
+        self.assertRegex(
+            captions()[0], "objects at 1 s, .* 1 of 4 particles are inside, by at most 0.1 m"
+        )
         with h5py.File(self.path, "r+") as file:
             file["frames/object_distance"][3] = [9.0, 0.1, 0.1, 0.2]
-        self.assertRegex(captions()[0], f"objects at {self.case().frame_times[3]:g} s, .* No particle is inside by more")
+        self.assertRegex(
+            captions()[0],
+            f"objects at {self.case().frame_times[3]:g} s, .* No particle is inside by more",
+        )
         with h5py.File(self.path, "r+") as file:
             file["frames/object_distance"][...] = 9.0
         self.assertEqual(captions(), [])
@@ -186,7 +216,9 @@ def unpacked(text: str) -> tuple[dict, dict[str, np.ndarray]]:
         if about["kind"] == "floats":
             arrays[about["name"]] = part.view("<f4")
             continue
-        unsigned = sum(part[k * count:(k + 1) * count].astype(np.int64) << (8 * k) for k in range(size))
+        unsigned = sum(
+            part[k * count : (k + 1) * count].astype(np.int64) << (8 * k) for k in range(size)
+        )
         arrays[about["name"]] = (unsigned >> 1) ^ -(unsigned & 1)
     assert at == len(whole)
     return header, arrays
@@ -199,8 +231,11 @@ ASK_THE_VIEW = """(async () => {
   console.warn = console.error = (text) => problems.push(String(text));
   const figure = document.querySelector("figure.view");
   const wait = (ms) => new Promise((done) => setTimeout(done, ms));
-  const drawn = async (count) => { for (let k = 0; k < 400 && !(figure.dataset.drawn >= count); ++k) await wait(50); };
-  const press = (key) => figure.querySelector("canvas").dispatchEvent(new KeyboardEvent("keydown", { key }));
+  const drawn = async (count) => {
+    for (let k = 0; k < 400 && !(figure.dataset.drawn >= count); ++k) await wait(50);
+  };
+  const press = (key) =>
+    figure.querySelector("canvas").dispatchEvent(new KeyboardEvent("keydown", { key }));
   const seen = () => {
     const copy = document.createElement("canvas"), pen = copy.getContext("2d");
     Object.assign(copy, { width: 80, height: 60 });
@@ -220,15 +255,19 @@ ASK_THE_VIEW = """(async () => {
   press(" ");
   await wait(300);
   told.drawn = Number(figure.dataset.drawn);
-  const slider = figure.querySelector("input[type=range]"), colours = figure.querySelector("select");
+  const slider = figure.querySelector("input[type=range]");
+  const colours = figure.querySelector("select");
   const first = await after(() => { slider.value = 0; slider.dispatchEvent(new Event("input")); });
   told.covered = first.filter((value, k) => k % 4 === 3 && value > 128).length;
   told.time = figure.querySelector("output").textContent;
   const turned = await after(() => press("ArrowLeft"));
   const later = await after(() => press("."));
   told.colours = colours.options.length;
-  const recoloured = await after(() => { colours.value = -1; colours.dispatchEvent(new Event("change")); });
-  Object.assign(told, { turned: differ(first, turned), moved: differ(turned, later), recoloured: differ(later, recoloured) });
+  const recoloured = await after(() => {
+    colours.value = -1; colours.dispatchEvent(new Event("change"));
+  });
+  Object.assign(told, { turned: differ(first, turned), moved: differ(turned, later),
+                        recoloured: differ(later, recoloured) });
   press("Escape");
   told.closed = !figure.querySelector("canvas") && !figure.classList.contains("running");
   return told;
@@ -250,7 +289,9 @@ class ViewInThePage(WithCase):
         x = self.case().every_frame("positions")
         first, later = np.split(arrays["positions"].reshape(4, 3, 4), [1])
         codes = np.cumsum(np.concatenate([np.cumsum(first, axis=2), later]), axis=0) % 65536
-        places = np.array(header["box"]["low"]) + np.array(header["box"]["step"]) * codes.transpose(0, 2, 1)
+        places = np.array(header["box"]["low"]) + np.array(header["box"]["step"]) * codes.transpose(
+            0, 2, 1
+        )
         self.assertAlmostEqual(np.linalg.norm(places - x, axis=2).max(), view.error, delta=1e-15)
         self.assertLess(view.error, 0.87 * np.ptp(x, axis=(0, 1)).max() / 65535)
         np.testing.assert_array_equal(np.cumsum(arrays["triangles"]).reshape(-1, 3), TWO)
@@ -258,7 +299,9 @@ class ViewInThePage(WithCase):
         self.assertEqual([part["ground"] for part in header["objects"]], [False, False, True])
         self.assertEqual([part["deforms"] for part in header["objects"]], [False, True, False])
         self.assertEqual(len(arrays["object 2 poses"]), 7)          # it never moves
-        self.assertEqual([field["name"] for field in header["fields"]], ["speed", "strain", "angle", "phi"])
+        self.assertEqual(
+            [field["name"] for field in header["fields"]], ["speed", "strain", "angle", "phi"]
+        )
 
     def test_frames_that_are_not_whole_are_left_out_and_counted(self) -> None:
         with h5py.File(self.path, "r+") as file:
@@ -272,11 +315,15 @@ class ViewInThePage(WithCase):
                 rows = np.concatenate([file[f"frames/{name}"][:]] * 8)
                 del file[f"frames/{name}"]
                 file[f"frames/{name}"] = np.arange(32.0) if name == "time" else rows
-            for k, names in enumerate((("rotation", "translation"), ("positions",), ("rotation", "translation"))):
+            for k, names in enumerate(
+                (("rotation", "translation"), ("positions",), ("rotation", "translation"))
+            ):
                 for name in names:
                     rows = np.concatenate([file[f"objects/{k}/{name}"][:]] * 8)
                     del file[f"objects/{k}/{name}"]
-                    file[f"objects/{k}/{name}"] = rows + np.random.default_rng(k).uniform(size=(32,) + (1,) * (rows.ndim - 1))
+                    file[f"objects/{k}/{name}"] = rows + np.random.default_rng(k).uniform(
+                        size=(32,) + (1,) * (rows.ndim - 1)
+                    )
         whole, _, _ = self.view()
         thinned, header, _ = self.view(len(whole.text) - 200)
         self.assertLess(thinned.frames, whole.frames)
@@ -285,12 +332,17 @@ class ViewInThePage(WithCase):
         self.assertIsNone(make_view(CaseScene(case, [0]), [0, 1], [], 500))
 
     def test_the_program_stands_once_and_data_are_no_program(self) -> None:
-        text = make_report(self.root, self.root / "report.html", self.root / "figures").read_text(encoding="utf-8")
+        text = make_report(self.root, self.root / "report.html", self.root / "figures").read_text(
+            encoding="utf-8"
+        )
         self.assertEqual(text.count("async function unpack("), 1)
         self.assertRegex(text, r"<template>[A-Za-z0-9+/=]+</template>")
         self.assertNotIn(HOSTILE[:13], text)
         for name in ("viewer_data.js", "viewer_gl.js", "viewer.js"):
-            self.assertNotRegex((REPORTS / "viewer" / name).read_text(encoding="utf-8"), r"(?i)</script|<!--|https?://|innerHTML|fetch\(")
+            self.assertNotRegex(
+                (REPORTS / "viewer" / name).read_text(encoding="utf-8"),
+                r"(?i)</script|<!--|https?://|innerHTML|fetch\(",
+            )
 
     @unittest.skipUnless(shutil.which("chromium"), "no chromium: the package chromium has it")
     def test_the_view_draws_and_plays_in_a_browser(self) -> None:
@@ -310,27 +362,36 @@ class ViewInThePage(WithCase):
         page = make_report(self.root, self.root / "report.html", self.root / "figures")
         with Browser() as browser:
             browser.open(page, still=True)
-            still = browser.evaluate("""(async () => {
+            still = browser.evaluate(
+                """(async () => {
               const figure = document.querySelector("figure.view");
               figure.scrollIntoView();
               figure.querySelector(".open-view").click();
               while (!figure.dataset.drawn) await new Promise((done) => setTimeout(done, 50));
               await new Promise((done) => setTimeout(done, 700));
-              return [figure.querySelector(".play").textContent, figure.querySelector("input").value, figure.dataset.frame];
-            })()""")
+              return [figure.querySelector(".play").textContent,
+                      figure.querySelector("input").value, figure.dataset.frame];
+            })()"""
+            )
             self.assertEqual((still[0], still[1]), ("Play", still[2]))
             browser.open(page)
-            told = browser.evaluate("""(async () => {
+            told = browser.evaluate(
+                """(async () => {
               HTMLCanvasElement.prototype.getContext = () => null;
               const figure = document.querySelector("figure.view");
               figure.querySelector(".open-view").click();
-              while (!figure.querySelector(".no-view")) await new Promise((done) => setTimeout(done, 50));
-              return [figure.querySelector(".no-view").textContent, figure.querySelector("img").offsetHeight > 50];
-            })()""")
+              while (!figure.querySelector(".no-view"))
+                await new Promise((done) => setTimeout(done, 50));
+              return [figure.querySelector(".no-view").textContent,
+                      figure.querySelector("img").offsetHeight > 50];
+            })()"""
+            )
         self.assertEqual(told, ["Only the picture: no WebGL 2", True])
 
 
-def load_tests(loader: unittest.TestLoader, tests: unittest.TestSuite, _: str | None) -> unittest.TestSuite:
+def load_tests(
+    loader: unittest.TestLoader, tests: unittest.TestSuite, _: str | None
+) -> unittest.TestSuite:
     """This file's tests, those of films and exported files, and those of where up is."""
     for name in ("tests.test_exports", "tests.test_upright"):
         tests.addTests(loader.loadTestsFromName(name))

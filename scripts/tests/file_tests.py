@@ -89,13 +89,17 @@ TRIANGLES = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 4 3\n"
 
 def run(*arguments: str, limits: dict[int, int] | None = None, user: int | None = None,
         stdout: int = subprocess.PIPE) -> subprocess.CompletedProcess[str]:
-    """Runs the program under limits (of `resource`), or as another user; one that hangs raises TimeoutExpired."""
+    """Runs the program under limits (of `resource`), or as another user; one
+    that hangs raises TimeoutExpired."""
     def set_limits() -> None:
         for what, most in (limits or {}).items():
             resource.setrlimit(what, (most, most))
     as_user = {} if user is None else {"user": user, "group": user, "extra_groups": []}
-    return subprocess.run([str(PROGRAM), *arguments], stdout=stdout, stderr=subprocess.PIPE, text=True, errors="replace",
-                          timeout=CLOCK, check=False, preexec_fn=set_limits if limits else None, **as_user)
+    return subprocess.run(
+        [str(PROGRAM), *arguments], stdout=stdout, stderr=subprocess.PIPE, text=True,
+        errors="replace", timeout=CLOCK, check=False, preexec_fn=set_limits if limits else None,
+        **as_user
+    )
 
 
 def content_of(path: Path) -> dict[str, bytes]:
@@ -126,11 +130,14 @@ class FileTest(unittest.TestCase):
         (self.path / name).write_text(text)
         return str(self.path / name)
 
-    def simulate(self, case: str, *arguments: str, out: str = "out", **how: object) -> subprocess.CompletedProcess[str]:
+    def simulate(
+        self, case: str, *arguments: str, out: str = "out", **how: object
+    ) -> subprocess.CompletedProcess[str]:
         return run("simulate", case, *arguments, "--out", str(self.path / out), **how)
 
     def assert_rejected(self, done: subprocess.CompletedProcess[str], *mentions: str) -> None:
-        """The exit code is 2, and the last line of standard error is an error that mentions this."""
+        """The exit code is 2, and the last line of standard error
+        is an error that mentions this."""
         self.assertEqual(done.returncode, 2, done.stderr)
         last = done.stderr.strip().splitlines()[-1] if done.stderr.strip() else ""
         self.assertNotIn("Traceback", done.stderr)

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Tests of `foldproof ablate`: what a scene needs, its own error from finer and coarser meshes, results that stay.
+"""Tests of `foldproof ablate`: what a scene needs, its own error from finer and
+coarser meshes, results that stay.
 
 scripts/tests/test_ablate.py [AblateTest.test_...]
 """
@@ -52,7 +53,8 @@ class AblateTest(FileTest):
         done = self.ablate(str(case), "--set", "time.end=0.2")
         self.assertEqual(done.returncode, 0, done.stderr)
         read_answer, *others = self.read_answer()
-        self.assertEqual([row["case"] for row in others], ["undeclared"])    # what is not asked again stays
+        # what is not asked again stays
+        self.assertEqual([row["case"] for row in others], ["undeclared"])
         self.assertEqual(read_answer["overrides"], ["time.end=0.2"])
         need = {part["name"]: part["need"] for part in read_answer["parts"]}
         self.assertEqual(need["friction of objects"], "needed")
@@ -60,7 +62,10 @@ class AblateTest(FileTest):
         self.assertEqual(need["self-collision"], "no effect if added")
         stopped = self.ablate(str(case), "--set", "time.max_steps=3")
         self.assertEqual(stopped.returncode, 1, stopped.stderr)
-        self.assertIn("! the scene itself does not come to its end: the cap on the number of steps", stopped.stdout)
+        self.assertIn(
+            "! the scene itself does not come to its end: the cap on the number of steps",
+            stopped.stdout,
+        )
 
     def test_a_coarser_mesh_says_the_error_that_a_finer_one_says(self) -> None:
         disc = self.write("disc.toml", DISC)
@@ -71,7 +76,8 @@ class AblateTest(FileTest):
         self.assertEqual((coarser["coarser_mesh"], finer["coarser_mesh"]), (["cloth.rings=4"], []))
         self.assertRegex(done.stdout, r"finer mesh \d")
         self.assertEqual(coarser["time"], finer["time"])
-        # of an error e of second order halving shows 3 e / 4 and 2.5 times the size 3.5 e, of one of first order e / 2 and e
+        # of an error e of second order halving shows 3 e / 4 and 2.5 times the size 3.5 e, of one
+        # of first order e / 2 and e
         self.assertGreater(coarser["mesh"], finer["mesh"])
         self.assertLess(coarser["mesh"], 6 * finer["mesh"])
 
@@ -84,30 +90,57 @@ class AblateTest(FileTest):
         self.ablate(disc, "--set", "time.end=0.04", "--set", "ablation.until=7")
         short = self.read_answer()[0]
         self.assertEqual((short["asked_end"], short["end"]), (0.04, 0.04))
-        self.assertEqual([part["position_difference"] for part in begun["parts"]], [part["position_difference"] for part in short["parts"]])
+        self.assertEqual(
+            [part["position_difference"] for part in begun["parts"]],
+            [part["position_difference"] for part in short["parts"]],
+        )
 
     def test_what_cannot_be_is_refused(self) -> None:
         disc = self.write("disc.toml", DISC)
-        self.assert_rejected(self.ablate(disc, "--set", 'ablation.wind="it blows"'),
-                     "[ablation] names a part 'wind' that cannot be toggled; known: finer mesh, gravity")
-        self.assert_rejected(self.ablate(disc, "--set", 'ablation.coarser_mesh="cloth.rings=9"'),
-                     "disc.toml: [ablation] coarser_mesh: 486 triangles of 600; give one with sides at least 1.2 times as long")
-        self.assert_rejected(self.ablate(disc, "--set", 'ablation.coarser_mesh="cloth.ring=4"'), "unknown key 'ring'")
-        self.assert_rejected(self.ablate(disc, "--set", "ablation.coarser_mesh=4"), "must be a text")
+        self.assert_rejected(
+            self.ablate(disc, "--set", 'ablation.wind="it blows"'),
+            "[ablation] names a part 'wind' that cannot be toggled; known: finer mesh, gravity",
+        )
+        self.assert_rejected(
+            self.ablate(disc, "--set", 'ablation.coarser_mesh="cloth.rings=9"'),
+            (
+                "disc.toml: [ablation] coarser_mesh: 486 triangles of 600; give one with sides at"
+                " least 1.2 times as long"
+            ),
+        )
+        self.assert_rejected(
+            self.ablate(disc, "--set", 'ablation.coarser_mesh="cloth.ring=4"'), "unknown key 'ring'"
+        )
+        self.assert_rejected(
+            self.ablate(disc, "--set", "ablation.coarser_mesh=4"), "must be a text"
+        )
         self.assert_rejected(self.ablate(disc, "--set", "ablation.until=0"), "must be > 0 s")
-        self.assert_rejected(self.ablate(disc, "--set", 'ablation.coarser_mesh=["cloth.rings=4", "cloth.radius=0.2"]'), "give a mesh of the same surface")
+        self.assert_rejected(
+            self.ablate(
+                disc, "--set", 'ablation.coarser_mesh=["cloth.rings=4", "cloth.radius=0.2"]'
+            ),
+            "give a mesh of the same surface",
+        )
         for reaching in ("cloth.mesh=/etc/passwd", "cloth.rings", "cloth.rings="):
-            self.assert_rejected(self.ablate(disc, "--set", f'ablation.coarser_mesh="{reaching}"'), "is not table.key=number")
+            self.assert_rejected(
+                self.ablate(disc, "--set", f'ablation.coarser_mesh="{reaching}"'),
+                "is not table.key=number",
+            )
         (self.path / "out" / "ablation.json").mkdir(parents=True)
         self.assert_rejected(self.ablate(disc), "ablation.json")
-        self.assert_rejected(self.ablate(disc, "--set", 'ablation.finer mesh="a trial"'), "does without a finer mesh, and names a coarser one")
+        self.assert_rejected(
+            self.ablate(disc, "--set", 'ablation.finer mesh="a trial"'),
+            "does without a finer mesh, and names a coarser one",
+        )
 
     def test_a_run_that_is_killed_leaves_the_cases_that_it_was_through_with(self) -> None:
         soon = self.write("soon.toml", DISC.replace("end = 0.1", "end = 0.02"))
         late = self.write("late.toml", DISC.replace("end = 0.1", "end = 1000"))
         found = self.path / "out" / "ablation.json"
-        running = subprocess.Popen([str(PROGRAM), "ablate", soon, late, "--threads", "2", "--out", str(found.parent)],
-                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        running = subprocess.Popen(
+            [str(PROGRAM), "ablate", soon, late, "--threads", "2", "--out", str(found.parent)],
+            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+        )
         end = time.monotonic() + CLOCK
         try:
             while not found.is_file() and running.poll() is None and time.monotonic() < end:

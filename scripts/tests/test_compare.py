@@ -23,7 +23,12 @@ class Compare(FileTest):
         with h5py.File(self.run_file) as file:
             self.times = file["frames/time"][:]
         for form in ("ply", "obj"):
-            self.assertEqual(run("export", self.run_file, "--format", form, "--out", str(self.path / form)).returncode, 0)
+            self.assertEqual(
+                run(
+                    "export", self.run_file, "--format", form, "--out", str(self.path / form)
+                ).returncode,
+                0,
+            )
 
     def compare(self, *words: str) -> dict:
         done = run("compare", self.run_file, *words, "--json")
@@ -77,12 +82,15 @@ class Compare(FileTest):
         obj = str(self.path / "obj")
         few = self.write("few.txt", "0\n")
         words = self.write("words.txt", "0\nsoon\n")
-        for typed, said in (((str(empty),), "holds no frame"), ((str(two), "--rate", "5"), "2 sequences"),
-                            ((str(self.path / "none"),), "there is no such folder"),
-                            ((obj, "--times", few), "1 times for"), ((obj, "--times", words), "words.txt:2"),
-                            ((obj, "--rate", "30", "--start", "1e6"), "no frame lies in the run's time"),
-                            ((obj, "--rate", "0"), "above 0"), ((obj, "--rate", "5", "--times", few), "give one of them"),
-                            ((obj, "--start", "1"), "--rate")):
+        for typed, said in (
+            ((str(empty),), "holds no frame"), ((str(two), "--rate", "5"), "2 sequences"),
+            ((str(self.path / "none"),), "there is no such folder"),
+            ((obj, "--times", few), "1 times for"), ((obj, "--times", words), "words.txt:2"),
+            ((obj, "--rate", "30", "--start", "1e6"), "no frame lies in the run's time"),
+            ((obj, "--rate", "0"), "above 0"),
+            ((obj, "--rate", "5", "--times", few), "give one of them"),
+            ((obj, "--start", "1"), "--rate")
+        ):
             self.assert_rejected(run("compare", self.run_file, *typed), said)
         broken = self.path / "broken"
         shutil.copytree(self.path / "ply", broken)

@@ -14,7 +14,10 @@ ROOT = Path(__file__).resolve().parents[2]
 
 
 def finding(name: str, **of_it: Any) -> dict[str, Any]:
-    return {"name": name, "kind": "check", "outcome": "holds", "measured": 0.25, "seconds": 0.5, "faults": ["a", "b"]} | of_it
+    return {
+        "name": name, "kind": "check", "outcome": "holds", "measured": 0.25, "seconds": 0.5,
+        "faults": ["a", "b"]
+    } | of_it
 
 
 class Compared(unittest.TestCase):
@@ -25,18 +28,25 @@ class Compared(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = Path(folder.name)
 
-    def compare(self, before: list[dict], after: list[dict], renames: str = "", *options: str) -> tuple[int, str]:
+    def compare(
+        self, before: list[dict], after: list[dict], renames: str = "", *options: str
+    ) -> tuple[int, str]:
         """Exit code, and all that it printed."""
         words = [sys.executable, str(ROOT / "scripts/compare_verdicts"), *options]
         for name, rows in (("before.json", before), ("after.json", after)):
             (self.folder / name).write_text(json.dumps({"findings": rows}))
             words.append(str(self.folder / name))
         (self.folder / "renames.toml").write_text(renames)
-        done = subprocess.run([*words, "--renames", str(self.folder / "renames.toml")], capture_output=True, text=True, check=False)
+        done = subprocess.run(
+            [*words, "--renames", str(self.folder / "renames.toml")], capture_output=True,
+            text=True, check=False
+        )
         return done.returncode, done.stdout + done.stderr
 
     def test_times_and_the_order_of_faults_do_not_count(self) -> None:
-        self.assertEqual(self.compare([finding("x.y")], [finding("x.y", seconds=9.0, faults=["b", "a"])])[0], 0)
+        self.assertEqual(
+            self.compare([finding("x.y")], [finding("x.y", seconds=9.0, faults=["b", "a"])])[0], 0
+        )
 
     def test_the_last_bit_of_a_number_counts(self) -> None:
         code, printed = self.compare([finding("x.y")], [finding("x.y", measured=0.25 + 2**-54)])
@@ -44,18 +54,28 @@ class Compared(unittest.TestCase):
         self.assertIn("x.y: measured was 0.25", printed)
 
     def test_what_is_gone_or_new_counts(self) -> None:
-        code, printed = self.compare([finding("x.y"), finding("old.one")], [finding("x.y"), finding("new.one")])
+        code, printed = self.compare(
+            [finding("x.y"), finding("old.one")], [finding("x.y"), finding("new.one")]
+        )
         self.assertEqual(code, 1)
         self.assertIn("old.one: is gone", printed)
         self.assertIn("new.one: is new", printed)
 
     def test_names_and_words_are_read_through_the_table(self) -> None:
         table = '[findings]\n"old.one" = "new.one"\n[texts]\n"told" = "reported"\n'
-        self.assertEqual(self.compare([finding("old.one", note="is told")], [finding("new.one", note="is reported")], table)[0], 0)
+        self.assertEqual(
+            self.compare(
+                [finding("old.one", note="is told")], [finding("new.one", note="is reported")],
+                table
+            )[0],
+            0,
+        )
 
     def test_faults_are_read_through_the_table_and_keys_are_for_readers(self) -> None:
         table = '[faults]\n"a" = "z"\n[keys]\n"expect.a" = "expect.b"\n'
-        self.assertEqual(self.compare([finding("x.y")], [finding("x.y", faults=["b", "z"])], table)[0], 0)
+        self.assertEqual(
+            self.compare([finding("x.y")], [finding("x.y", faults=["b", "z"])], table)[0], 0
+        )
         self.assertEqual(self.compare([finding("x.y")], [finding("x.y")], table)[0], 1)
         self.assertEqual(self.compare([finding("x.y")], [finding("x.y")], "[names]\n")[0], 2)
 
@@ -63,7 +83,9 @@ class Compared(unittest.TestCase):
         worded = finding("x.y", claim="Other words.", note="none")
         self.assertEqual(self.compare([finding("x.y")], [worded])[0], 1)
         self.assertEqual(self.compare([finding("x.y")], [worded], "", "--numbers")[0], 0)
-        self.assertEqual(self.compare([finding("x.y")], [worded | {"measured": 0.5}], "", "--numbers")[0], 1)
+        self.assertEqual(
+            self.compare([finding("x.y")], [worded | {"measured": 0.5}], "", "--numbers")[0], 1
+        )
 
     def test_of_what_the_clock_measures_the_outcome_counts_alone(self) -> None:
         name = "solver.cached-terms-save-time"

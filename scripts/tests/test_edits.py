@@ -47,8 +47,16 @@ class EditsTest(unittest.TestCase):
         original = code_of(KERNEL)
         for change in changes_of(KERNEL):
             edited = code_of(apply(KERNEL, change))
-            head = next(k for k, (a, b) in enumerate(zip([*original, ""], [*edited, None])) if a != b)
-            tail = next(k for k, (a, b) in enumerate(zip([*original[head:][::-1], ""], [*edited[head:][::-1], None])) if a != b)
+            head = next(
+                k for k, (a, b) in enumerate(zip([*original, ""], [*edited, None])) if a != b
+            )
+            tail = next(
+                k
+                for k, (a, b) in enumerate(
+                    zip([*original[head:][::-1], ""], [*edited[head:][::-1], None])
+                )
+                if a != b
+            )
             gone = original[head:len(original) - tail]
             if change.kind == "removal":
                 self.assertIn(";", code_of(change.before)[-1:], change)
@@ -72,15 +80,23 @@ double f(const Points& x, int n, double a, double b) {
 }
 """
         made = {(change.kind, change.before, change.after) for change in changes_of(text)}
-        expected = [("sign", "-", ""), ("number", "0", "1"), ("operator", "<", "<="), ("bound", "n", "n - 1"),
-                    ("sign", "++", "--"), ("operator", ">", "<"), ("number", "0.5", "0.6"), ("operator", "&&", "||"),
-                    ("sign", "!", ""), ("name", "continue", "break"), ("operator", "+=", "-="), ("name", "min", "max"),
-                    ("name", "a", "b"), ("number", "1e-9", "1e-06"), ("operator", "*", "/"), ("name", "x1", "x2"),
-                    ("operator", "-", "+"), ("removal", "record(sum);", ";"), ("removal", "continue;", ";"),
-                    ("removal", "if (x[i] > 0.5 && !skipped(i)) continue;", ";")]
+        expected = [
+            ("sign", "-", ""), ("number", "0", "1"), ("operator", "<", "<="),
+            ("bound", "n", "n - 1"), ("sign", "++", "--"), ("operator", ">", "<"),
+            ("number", "0.5", "0.6"), ("operator", "&&", "||"), ("sign", "!", ""),
+            ("name", "continue", "break"), ("operator", "+=", "-="), ("name", "min", "max"),
+            ("name", "a", "b"), ("number", "1e-9", "1e-06"), ("operator", "*", "/"),
+            ("name", "x1", "x2"), ("operator", "-", "+"), ("removal", "record(sum);", ";"),
+            ("removal", "continue;", ";"),
+            ("removal", "if (x[i] > 0.5 && !skipped(i)) continue;", ";")
+        ]
         for slip in expected:
             self.assertIn(slip, made)
-        declared = [change for change in changes_of(text) if place_of(text, change)[0] == 2 and change.kind != "removal"]
+        declared = [
+            change
+            for change in changes_of(text)
+            if place_of(text, change)[0] == 2 and change.kind != "removal"
+        ]
         self.assertEqual(declared, [])
 
     def test_memory_that_is_asked_for_is_no_slip(self) -> None:

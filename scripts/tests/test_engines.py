@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Tests of the adapters of other engines, of those that are installed: `scripts/engines bullet` installs one."""
+"""Tests of the adapters of other engines, of those that are installed:
+`scripts/engines bullet` installs one."""
 from __future__ import annotations
 
 import json
@@ -26,7 +27,11 @@ class Bullet(unittest.TestCase):
             raise AssertionError(built.stderr)
 
     def judged(self, name: str, *options: str) -> dict:
-        return json.loads(run("build/foldproof", "judge", "--solver", f"build/engines/{name}", "--json", *options).stdout)
+        return json.loads(
+            run(
+                "build/foldproof", "judge", "--solver", f"build/engines/{name}", "--json", *options
+            ).stdout
+        )
 
     def require(self, judged: dict, failing: set[str]) -> None:
         """The smoke laws hold, 60 % of the suite applies, and what fails is what was recorded."""
@@ -35,8 +40,12 @@ class Bullet(unittest.TestCase):
         self.assertEqual(smoke, {"holds"})
         applicable = [outcome for outcome in outcomes.values() if outcome in ("holds", "fails")]
         self.assertGreaterEqual(len(applicable), 0.6 * len(outcomes))
-        if run("dpkg-query", "-W", "-f", "${Version}", "libbullet-dev").stdout.startswith(f"{RECORDED}+"):
-            self.assertEqual({name for name, outcome in outcomes.items() if outcome == "fails"}, failing)
+        if run("dpkg-query", "-W", "-f", "${Version}", "libbullet-dev").stdout.startswith(
+            f"{RECORDED}+"
+        ):
+            self.assertEqual(
+                {name for name, outcome in outcomes.items() if outcome == "fails"}, failing
+            )
 
     def test_the_adapters_keep_to_the_protocol(self) -> None:
         for name in ("bullet_deformable", "bullet_position_based"):

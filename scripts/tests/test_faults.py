@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Tests of scripts/faults: which faults --resume skips and which it runs again; where a fault stands, and what it edits."""
+"""Tests of scripts/faults: which faults --resume skips and which it runs again; where a fault
+stands, and what it edits."""
 from __future__ import annotations
 
 import sys
@@ -14,8 +15,12 @@ from occurrences import occurrences, replaced  # noqa: E402
 
 
 FAULTS = script("faults")
-SLIP = FAULTS.Fault("slip", "reference/forces/springs.cpp", "+", "-", "sums add up", ("sums.add-up",), ("a test",))
-HIDDEN = FAULTS.Fault("hidden", "reference/forces/springs.cpp", "a", "b", "none", equivalent="no one can see it")
+SLIP = FAULTS.Fault(
+    "slip", "reference/forces/springs.cpp", "+", "-", "sums add up", ("sums.add-up",), ("a test",)
+)
+HIDDEN = FAULTS.Fault(
+    "hidden", "reference/forces/springs.cpp", "a", "b", "none", equivalent="no one can see it"
+)
 ROW = {"name": "sums.add-up", "outcome": "fails", "measured": 3.5, "bound": 0.25, "margin": 14.0}
 
 
@@ -50,11 +55,16 @@ class Resume(unittest.TestCase):
 
     def test_a_row_with_any_other_key_runs_again(self) -> None:
         self.remember(SLIP, "caught")
-        others = [SLIP._replace(**{key: "another"}) for key in ("name", "file", "find", "replace", "law", "equivalent")]
+        others = [
+            SLIP._replace(**{key: "another"})
+            for key in ("name", "file", "find", "replace", "law", "equivalent")
+        ]
         others += [SLIP._replace(**{key: ("another",)}) for key in ("caught_by", "caught_by_tests")]
         others += [SLIP._replace(**{key: True}) for key in ("fast", "loops", "crash")]
         self.assertEqual(len(others), len(FAULTS.Fault._fields))
-        self.assertEqual(len({FAULTS.key_of_row(fault) for fault in [SLIP, *others]}), len(others) + 1)
+        self.assertEqual(
+            len({FAULTS.key_of_row(fault) for fault in [SLIP, *others]}), len(others) + 1
+        )
         self.assertEqual(FAULTS.recall(others, self.known), [])
 
     def test_an_unfinished_line_loses_only_its_own_fault(self) -> None:
@@ -72,9 +82,12 @@ class Resume(unittest.TestCase):
 
 class Rooms(unittest.TestCase):
     def test_the_room_of_a_file_is_its_folder_or_its_name_where_it_has_none(self) -> None:
-        for file, room in (("reference/forces/springs.cpp", "forces"), ("verification/verdict.cpp", "verdict"),
-                           ("verification/checks/forces/spring_checks.cpp", "checks"), ("reference/types.h", "types"),
-                           ("convergence/order.cpp", "convergence"), ("scripts/program/jobs.cpp", "program")):
+        for file, room in (
+            ("reference/forces/springs.cpp", "forces"), ("verification/verdict.cpp", "verdict"),
+            ("verification/checks/forces/spring_checks.cpp", "checks"),
+            ("reference/types.h", "types"), ("convergence/order.cpp", "convergence"),
+            ("scripts/program/jobs.cpp", "program")
+        ):
             self.assertEqual(FAULTS.room_of(file), room)
 
 

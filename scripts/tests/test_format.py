@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 import unittest
+from pathlib import Path
 
 sys.dont_write_bytecode = True
 
@@ -11,6 +12,7 @@ from script_module import script  # noqa: E402
 from comments import filled, put_back, shortened, trailing_comments  # noqa: E402
 
 FORMAT = script("format")
+ROOT = Path(__file__).resolve().parents[2]
 
 KEPT = r"""
 //      x1
@@ -111,6 +113,24 @@ class Literals(unittest.TestCase):
     def test_lines_that_nothing_shortens_are_named_but_those_of_raw_texts(self) -> None:
         word = "a" * 101
         self.assertEqual(FORMAT.too_long(f'short\n// {word}\nR"(\n{word}\n)";\n'), [2])
+
+
+def sources() -> list[Path]:
+    """The scripts in Python, and the files of CMake."""
+    folders = ("cases", "convergence", "reference", "reports", "scripts", "verification")
+    files = [path for folder in folders for path in (ROOT / folder).rglob("*") if path.is_file()]
+    return [path for path in [ROOT / "CMakeLists.txt", *files]
+            if path.suffix in (".py", ".cmake") or path.name == "CMakeLists.txt"
+            or (not path.suffix and path.read_bytes().startswith(b"#!/usr/bin/python3"))]
+
+
+class Widths(unittest.TestCase):
+    def test_lines_of_python_and_cmake_end_at_100(self) -> None:
+        files = sources()
+        self.assertGreater(len(files), 100)
+        for path in files:
+            for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+                self.assertLessEqual(len(line), 100, f"{path.relative_to(ROOT)}:{number}")
 
 
 if __name__ == "__main__":

@@ -18,12 +18,14 @@ import h5py
 
 sys.dont_write_bytecode = True
 
-from file_tests import CLOCK, LED_CASE, PROGRAM, ROOT, SEED, SMALL_CASE, TRIANGLES, FileTest, content_of, run  # noqa: E402
+from file_tests import (
+    CLOCK, LED_CASE, PROGRAM, ROOT, SEED, SMALL_CASE, TRIANGLES, FileTest, content_of, run
+)  # noqa: E402
 
 
 def damage(content: bytes, chance: random.Random) -> bytes:
-    """The bytes cut off somewhere, or with some flipped, zeroed or turned into the largest number; structures, which lie at
-    the start of an HDF5 file, are hit as often as data."""
+    """The bytes cut off somewhere, or with some flipped, zeroed or turned into the largest number;
+    structures, which lie at the start of an HDF5 file, are hit as often as data."""
     if chance.random() < 0.25:
         return content[:chance.randrange(len(content))]
     result = bytearray(content)
@@ -39,7 +41,8 @@ def damage(content: bytes, chance: random.Random) -> bytes:
 
 
 class DamagedFiles(FileTest):
-    """HDF5 files with flipped bytes or cut short: an error or an answer, never a crash or a hang."""
+    """HDF5 files with flipped bytes or cut short: an error or an
+    answer, never a crash or a hang."""
 
     TRIALS = 100
 
@@ -56,37 +59,64 @@ class DamagedFiles(FileTest):
         for number in range(count):
             target.write_bytes(damage(content, chance))
             for command in commands:
-                assert_rejected += self.judge(run(*command, limits={resource.RLIMIT_CORE: 0}), number) == 2
+                assert_rejected += (
+                    self.judge(run(*command, limits={resource.RLIMIT_CORE: 0}), number) == 2
+                )
                 runs += 1
-        print(f"\n{source.name}: {count} damages, {runs} commands, {assert_rejected} refused, the others answered", flush=True)
+        print(
+            (
+                f"\n{source.name}: {count} damages, {runs} commands, {assert_rejected} refused, the"
+                " others answered"
+            ),
+            flush=True,
+        )
 
     def test_stored_runs(self) -> None:
         self.assertEqual(self.simulate(self.write("small.toml", SMALL_CASE)).returncode, 0)
         hurt = self.path / "hurt.h5"
-        project = ["project", str(hurt), "--map", "plain", "--tau", "0.01", "--out", str(self.path / "projected")]
-        self.trials(self.path / "out/small.h5", hurt, [["crossings", str(hurt)], project], self.TRIALS)
+        project = [
+            "project", str(hurt), "--map", "plain", "--tau", "0.01", "--out",
+            str(self.path / "projected")
+        ]
+        self.trials(
+            self.path / "out/small.h5", hurt, [["crossings", str(hurt)], project], self.TRIALS
+        )
 
     def test_frames_that_are_compared(self) -> None:
         self.assertEqual(self.simulate(self.write("small.toml", SMALL_CASE)).returncode, 0)
         stored, frames = str(self.path / "out/small.h5"), self.path / "frames"
-        self.assertEqual(run("export", stored, "--format", "ply", "--out", str(self.path / "whole")).returncode, 0)
+        self.assertEqual(
+            run("export", stored, "--format", "ply", "--out", str(self.path / "whole")).returncode,
+            0,
+        )
         frames.mkdir()
         self.trials(self.path / "whole/small.0001.ply", frames / "small.0001.ply",
                     [["compare", stored, str(frames)]], self.TRIALS)
 
     def test_runs_and_cases_in_reports(self) -> None:
-        self.assertEqual(self.simulate(self.write("small.toml", SMALL_CASE), out="first").returncode, 0)
-        self.assertEqual(run("check", "bending.forces-sum-to-zero", "--out", str(self.path / "first")).returncode, 0)
+        self.assertEqual(
+            self.simulate(self.write("small.toml", SMALL_CASE), out="first").returncode, 0
+        )
+        self.assertEqual(
+            run(
+                "check", "bending.forces-sum-to-zero", "--out", str(self.path / "first")
+            ).returncode,
+            0,
+        )
         for name in ("run.h5", "small.h5"):
             out = self.path / f"of {name}"
             out.mkdir()
-            self.trials(self.path / "first" / name, out / name, [["report", str(out)]], self.TRIALS // 20)
+            self.trials(
+                self.path / "first" / name, out / name, [["report", str(out)]], self.TRIALS // 20
+            )
 
     def test_level_sets_that_are_kept(self) -> None:
         shutil.copy(ROOT / "cases/statue.obj", self.path)
         case = self.write("draped.toml", (ROOT / "cases/drape_statue.toml").read_text())
-        command = ["simulate", case, "--set", "time.end=0.001", "--set", "object.cells=10", "--cache", str(self.path / "kept"),
-                   "--out", str(self.path / "out")]
+        command = [
+            "simulate", case, "--set", "time.end=0.001", "--set", "object.cells=10", "--cache",
+            str(self.path / "kept"), "--out", str(self.path / "out")
+        ]
         self.assertIn(run(*command).returncode, (0, 1))
         kept = next((self.path / "kept").iterdir())
         whole = content_of(self.path / "out/draped.h5")
@@ -96,8 +126,10 @@ class DamagedFiles(FileTest):
 
     def test_checkpoints(self) -> None:
         case = self.write("led.toml", LED_CASE)
-        process = subprocess.Popen([str(PROGRAM), "simulate", case, "--out", str(self.path / "out")],
-                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        process = subprocess.Popen(
+            [str(PROGRAM), "simulate", case, "--out", str(self.path / "out")],
+            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+        )
         while process.poll() is None and not (self.path / "out/led.checkpoints/000020.h5").exists():
             time.sleep(0.002)
         process.kill()
@@ -124,7 +156,10 @@ class Limits(FileTest):
         done = run(*arguments, limits={resource.RLIMIT_AS: self.MOST, resource.RLIMIT_CORE: 0})
         end = os.times()
         self.assert_rejected(done, *mentions)
-        self.assertLess(end.children_user + end.children_system - start.children_user - start.children_system, 20)
+        self.assertLess(
+            end.children_user + end.children_system - start.children_user - start.children_system,
+            20,
+        )
 
     def long_file(self, name: str, line: bytes, lines: int, first: bytes = b"") -> str:
         with open(self.path / name, "wb") as file:
@@ -140,34 +175,55 @@ class Limits(FileTest):
         self.assert_rejected_soon("simulate", case, mentions=("wide.toml:1", "65536 bytes"))
 
     def test_a_case_nested_without_end(self) -> None:
-        for name, text in (("dots", "a" + ".a" * 30000 + " = 1\n"), ("lists", "a = " + "[" * 60000 + "\n"),
-                           ("tables", "a = " + "{b = " * 12000 + "\n"), ("headers", "[a" + ".a" * 30000 + "]\n"),
-                           ("quoted", "x = [ \"\"\"\n\"\"\", {" + '",".' * 12000 + "a = 1, b = \"\" } ]\n"),
-                           ("digits", "1.1" + " . 1.1" * 9000 + " = 1\n"),
-                           ("deepest", "[a" + ".a" * 2000 + "]\nb" + ".b" * 2000 + " = 1\nx\n")):
+        for name, text in (
+            ("dots", "a" + ".a" * 30000 + " = 1\n"), ("lists", "a = " + "[" * 60000 + "\n"),
+            ("tables", "a = " + "{b = " * 12000 + "\n"), ("headers", "[a" + ".a" * 30000 + "]\n"),
+            ("quoted", "x = [ \"\"\"\n\"\"\", {" + '",".' * 12000 + "a = 1, b = \"\" } ]\n"),
+            ("digits", "1.1" + " . 1.1" * 9000 + " = 1\n"),
+            ("deepest", "[a" + ".a" * 2000 + "]\nb" + ".b" * 2000 + " = 1\nx\n")
+        ):
             with self.subTest(name):
-                self.assert_rejected_soon("simulate", self.write(f"{name}.toml", text), mentions=(f"{name}.toml",))
+                self.assert_rejected_soon(
+                    "simulate", self.write(f"{name}.toml", text), mentions=(f"{name}.toml",)
+                )
 
     def test_a_mesh_of_ten_million_faces(self) -> None:
         mesh = self.long_file("faces.obj", b"f 1 2 3\n", 10_000_000, b"v 0 0 0\nv 1 0 0\nv 0 1 0\n")
-        self.assert_rejected_soon("inspect", mesh, mentions=("faces.obj:4000004", "more than 4000000 triangles"))
+        self.assert_rejected_soon(
+            "inspect", mesh, mentions=("faces.obj:4000004", "more than 4000000 triangles")
+        )
         self.assert_rejected_soon("crossings", mesh, mentions=("faces.obj:4000004",))
         vertices = self.long_file("vertices.obj", b"v 0 0 0\n", 3_000_000)
-        self.assert_rejected_soon("inspect", vertices, mentions=("vertices.obj:2000001", "more than 2000000 vertices"))
+        self.assert_rejected_soon(
+            "inspect", vertices, mentions=("vertices.obj:2000001", "more than 2000000 vertices")
+        )
         fan = self.write("fan.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf " + "1 2 3 \\\n" * 1_500_000)
-        self.assert_rejected_soon("inspect", fan, mentions=("fan.obj", "more than 4000000 triangles"))
+        self.assert_rejected_soon(
+            "inspect", fan, mentions=("fan.obj", "more than 4000000 triangles")
+        )
 
     def test_groups_without_end(self) -> None:
         names = " ".join(f"g{k}" for k in range(40))
-        self.assert_rejected_soon("inspect", self.write("groups.obj", f"g {names}\n{TRIANGLES}"), mentions=("groups.obj:1", "16 names of groups"))
+        self.assert_rejected_soon(
+            "inspect", self.write("groups.obj", f"g {names}\n{TRIANGLES}"),
+            mentions=("groups.obj:1", "16 names of groups")
+        )
 
     def test_lines_without_end(self) -> None:
         for name in ("endless.obj", "endless.csv"):
             self.long_file(name, b"1.0 " * 10, 2_500_000, b"\n")
-        self.assert_rejected_soon("inspect", str(self.path / "endless.obj"), mentions=("endless.obj:2", "65536 bytes"))
+        self.assert_rejected_soon(
+            "inspect", str(self.path / "endless.obj"), mentions=("endless.obj:2", "65536 bytes")
+        )
         for kind in (("bending",), ("crossings", "--kind", "edge-edge")):
-            self.assert_rejected_soon("evaluate", *kind, str(self.path / "endless.csv"), mentions=("endless.csv:2", "65536 bytes"))
-        self.assert_rejected_soon("inspect", self.long_file("big.obj", b"# " + b"x" * 998 + b"\n", 300_000), mentions=("big.obj", "268435456 bytes"))
+            self.assert_rejected_soon(
+                "evaluate", *kind, str(self.path / "endless.csv"),
+                mentions=("endless.csv:2", "65536 bytes")
+            )
+        self.assert_rejected_soon(
+            "inspect", self.long_file("big.obj", b"# " + b"x" * 998 + b"\n", 300_000),
+            mentions=("big.obj", "268435456 bytes")
+        )
 
     def test_what_is_no_file(self) -> None:
         os.mkfifo(self.path / "pipe.obj")
@@ -175,24 +231,37 @@ class Limits(FileTest):
             self.assert_rejected_soon("inspect", name, mentions=(name,))
             self.assert_rejected_soon("evaluate", "bending", name, mentions=(name,))
             self.assert_rejected_soon("simulate", name, mentions=(name,))
-            self.assert_rejected_soon("simulate", str(ROOT / "cases/any_mesh.toml"), "--set", f"cloth.mesh={name}", mentions=(name,))
+            self.assert_rejected_soon(
+                "simulate", str(ROOT / "cases/any_mesh.toml"), "--set", f"cloth.mesh={name}",
+                mentions=(name,)
+            )
 
     def test_rows_without_end(self) -> None:
         row = b"1,2,3,4,5,6,7,8,9,1,2,3,1,2,3,1,2,3,1,2,3,1,2,3,1,2,3\n"
         table = self.long_file("rows.csv", row, 1_010_000)
-        self.assert_rejected_soon("evaluate", "bending", table, mentions=("rows.csv:1000001", "1000000 rows"))
+        self.assert_rejected_soon(
+            "evaluate", "bending", table, mentions=("rows.csv:1000001", "1000000 rows")
+        )
 
 
 class Names(FileTest):
     """Names lead nowhere but where they seem to, and say nothing but themselves."""
 
     def test_names_of_cases_are_plain(self) -> None:
-        for name in ("two words", "caf\u00e9", ".hidden", "-option", "dots..twice", "new\nline", "tab\there", "<b>", "quo'te", "x" * 101):
+        for name in (
+            "two words", "caf\u00e9", ".hidden", "-option", "dots..twice", "new\nline", "tab\there",
+            "<b>", "quo'te", "x" * 101
+        ):
             with self.subTest(name=name):
-                self.assert_rejected(self.simulate(self.write(f"{name}.toml", SMALL_CASE)), "a case is named after its file")
+                self.assert_rejected(
+                    self.simulate(self.write(f"{name}.toml", SMALL_CASE)),
+                    "a case is named after its file",
+                )
         self.assertFalse((self.path / "out").exists() and list((self.path / "out").iterdir()))
         for name in ("a", "x" * 100, "Case_1.2-b"):
-            self.assertEqual(self.simulate(self.write(f"{name}.toml", SMALL_CASE)).returncode, 0, name)
+            self.assertEqual(
+                self.simulate(self.write(f"{name}.toml", SMALL_CASE)).returncode, 0, name
+            )
 
     def test_a_stored_name_leads_nowhere(self) -> None:
         self.assertEqual(self.simulate(self.write("small.toml", SMALL_CASE)).returncode, 0)
@@ -200,10 +269,16 @@ class Names(FileTest):
         for name in ("../../escaped", "/tmp/escaped", "", "..", "a/../../b"):
             with h5py.File(stored, "r+") as file:
                 file.attrs["case_name"] = name
-            done = run("project", str(stored), "--map", "plain", "--tau", "0.01", "--out", str(self.path / "projected"))
+            done = run(
+                "project", str(stored), "--map", "plain", "--tau", "0.01", "--out",
+                str(self.path / "projected")
+            )
             if done.returncode == 2:
                 continue
-            self.assertEqual({path.parent for path in self.path.rglob("*_projected.h5")}, {self.path / "projected"})
+            self.assertEqual(
+                {path.parent for path in self.path.rglob("*_projected.h5")},
+                {self.path / "projected"},
+            )
         self.assertFalse(list(self.path.parent.glob("escaped*")))
 
     def case_with_mesh(self, mesh: str) -> str:
@@ -219,11 +294,24 @@ class Names(FileTest):
         (self.path / "case/up").symlink_to("..")
         for mesh in ("beside.obj", "sub/below.obj", "inner.obj", "./beside.obj"):
             self.assertEqual(self.simulate(self.case_with_mesh(mesh)).returncode, 0, mesh)
-        for mesh in (outside, "../outside.obj", "sub/../beside.obj", "outer.obj", "up/outside.obj", "/etc/passwd", ".."):
+        for mesh in (
+            outside, "../outside.obj", "sub/../beside.obj", "outer.obj", "up/outside.obj",
+            "/etc/passwd", ".."
+        ):
             with self.subTest(mesh=mesh):
-                self.assert_rejected(self.simulate(self.case_with_mesh(mesh)), "own.toml:2", "case file's folder", "--set")
-        self.assert_rejected(self.simulate(self.case_with_mesh("none.obj")), "there is no mesh file")
-        self.assertEqual(self.simulate(self.case_with_mesh("beside.obj"), "--set", f"cloth.mesh={outside}").returncode, 0)
+                self.assert_rejected(
+                    self.simulate(self.case_with_mesh(mesh)), "own.toml:2", "case file's folder",
+                    "--set"
+                )
+        self.assert_rejected(
+            self.simulate(self.case_with_mesh("none.obj")), "there is no mesh file"
+        )
+        self.assertEqual(
+            self.simulate(
+                self.case_with_mesh("beside.obj"), "--set", f"cloth.mesh={outside}"
+            ).returncode,
+            0,
+        )
 
     def test_animations_too(self) -> None:
         shutil.copy(ROOT / "cases/statue.obj", self.path / "outside.obj")
@@ -232,11 +320,15 @@ class Names(FileTest):
         (self.path / "case/linked/0.obj").symlink_to(self.path / "outside.obj")
         for frames in ("../frames", str(self.path / "frames"), "linked"):
             text = SMALL_CASE + f'[[object]]\nframes = "{frames}"\n'
-            self.assert_rejected(self.simulate(self.write("case/own.toml", text)), "case file's folder")
+            self.assert_rejected(
+                self.simulate(self.write("case/own.toml", text)), "case file's folder"
+            )
 
     def test_what_is_printed_and_written_is_valid_whatever_the_names(self) -> None:
         out = os.fsencode(self.path) + b"/out \xff\xfe<&\"'>\x01"
-        command = [str(PROGRAM).encode(), b"check", b"bending.forces-sum-to-zero", b"--json", b"--out", out]
+        command = [
+            str(PROGRAM).encode(), b"check", b"bending.forces-sum-to-zero", b"--json", b"--out", out
+        ]
         done = subprocess.run(command, capture_output=True, timeout=CLOCK, check=False)
         self.assertEqual(done.returncode, 0, done.stderr)
         printed = done.stdout.decode("utf-8")  # strictly
@@ -246,19 +338,29 @@ class Names(FileTest):
         ElementTree.parse(out + b"/junit.xml")
         case = self.write("small.toml", SMALL_CASE)
         scene = out + b"/scene"
-        command = [str(PROGRAM).encode(), b"simulate", os.fsencode(case), b"--json", b"--out", scene]
+        command = [
+            str(PROGRAM).encode(), b"simulate", os.fsencode(case), b"--json", b"--out", scene
+        ]
         done = subprocess.run(command, capture_output=True, timeout=CLOCK, check=False)
         self.assertEqual(done.returncode, 0, done.stderr)
         json.loads(done.stdout.decode("utf-8"))
         ElementTree.parse(scene + b"/small.xdmf")
         self.page_of(out)
         page = self.page_of(scene)
-        self.assertTrue("Small &lt;script&gt;alert(1)&lt;/script&gt; &amp; &#39;one&#39;" in page, "the title is not on the page")
-        self.assertTrue("<script>alert" not in page and "<b>\ufffdball" not in page, "a name of the case is code on the page")
+        self.assertTrue(
+            "Small &lt;script&gt;alert(1)&lt;/script&gt; &amp; &#39;one&#39;" in page,
+            "the title is not on the page",
+        )
+        self.assertTrue(
+            "<script>alert" not in page and "<b>\ufffdball" not in page,
+            "a name of the case is code on the page",
+        )
 
     def page_of(self, out: bytes) -> str:
         """The page made of a folder, which holds no control character."""
-        done = subprocess.run([str(PROGRAM).encode(), b"report", out], capture_output=True, timeout=CLOCK, check=False)
+        done = subprocess.run(
+            [str(PROGRAM).encode(), b"report", out], capture_output=True, timeout=CLOCK, check=False
+        )
         self.assertEqual(done.returncode, 0, done.stderr)
         page = Path(os.fsdecode(out + b"/report.html")).read_bytes().decode("utf-8")
         self.assertIsNone(re.search("[\x00-\x08\x0b\x0c\x0e-\x1f]", page))

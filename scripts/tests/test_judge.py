@@ -1,6 +1,7 @@
 #!/usr/bin/python3
-"""Tests of `foldproof judge` and `foldproof subject --check` as an adapter's author meets them, and of the protocol's
-page: its transcript and all that the program really sends are what the schema describes."""
+"""Tests of `foldproof judge` and `foldproof subject --check` as an adapter's author meets them, and
+of the protocol's page: its transcript and all that the program really sends
+are what the schema describes."""
 from __future__ import annotations
 
 import json
@@ -26,7 +27,8 @@ TOY = f"{PYTHON} '{SUBJECTS}/adapters/toy_solver.py'"
 SCHEMA = json.loads((SUBJECTS / "protocol.schema.json").read_text(encoding="utf-8"))
 BYTES = {"f8": 8, "f4": 4, "i4": 4}
 
-# An adapter that writes down every header that comes or goes, and states its settings as its mapping.
+# An adapter that writes down every header that comes or goes, and states its settings as its
+# mapping.
 LOGGING = """
 import json, sys
 sys.path.insert(0, {adapters!r})
@@ -91,7 +93,9 @@ class Judge(unittest.TestCase):
     def logging_solver(self) -> tuple[str, Path]:
         """A command, and the file of its headers."""
         log, program = self.path / "log", self.path / "logging.py"
-        program.write_text(LOGGING.format(adapters=str(SUBJECTS / "adapters"), log=str(log)), encoding="utf-8")
+        program.write_text(
+            LOGGING.format(adapters=str(SUBJECTS / "adapters"), log=str(log)), encoding="utf-8"
+        )
         return f"{PYTHON} '{program}'", log
 
     def test_the_toy_meets_every_law_and_its_results_are_written(self) -> None:
@@ -100,18 +104,29 @@ class Judge(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assertRegex(done.stdout, r"\d\d hold, 0 fail, 0 inconclusive, 0 not applicable")
         self.assertIn("mapping of stretch: a spring per edge", done.stdout)
-        self.assertEqual({path.name for path in out.iterdir()}, {"run.h5", "verdicts.json", "junit.xml"})
+        self.assertEqual(
+            {path.name for path in out.iterdir()}, {"run.h5", "verdicts.json", "junit.xml"}
+        )
         with h5py.File(out / "run.h5") as file:
-            self.assertEqual((file.attrs["subject"], file.attrs["subject_version"]), ("my toy", "1.0"))
+            self.assertEqual(
+                (file.attrs["subject"], file.attrs["subject_version"]), ("my toy", "1.0")
+            )
         verdicts = json.loads((out / "verdicts.json").read_text(encoding="utf-8"))
         self.assertEqual({row["outcome"] for row in verdicts["findings"]}, {"holds"})
 
     def test_a_wrong_solver_fails_by_the_name_of_the_law(self) -> None:
         done = run("judge", "--solver", bad("wrong", "gravity_scaled"), "--json")
         self.assertEqual(done.returncode, 1)
-        failed = [row["name"] for row in json.loads(done.stdout)["findings"] if row["outcome"] == "fails"]
-        self.assertEqual(failed, ["gravity.speed-grows-by-g-t", "gravity.fall-is-as-exact-as-the-order-claims",
-                                  "forces.weight-is-mass-times-g"])
+        failed = [
+            row["name"] for row in json.loads(done.stdout)["findings"] if row["outcome"] == "fails"
+        ]
+        self.assertEqual(
+            failed,
+            [
+                "gravity.speed-grows-by-g-t", "gravity.fall-is-as-exact-as-the-order-claims",
+                "forces.weight-is-mass-times-g"
+            ],
+        )
 
     def test_a_solver_that_never_starts_is_a_failure_and_no_crash(self) -> None:
         done = run("judge", "--solver", "/nowhere/solver")
@@ -122,14 +137,21 @@ class Judge(unittest.TestCase):
     def test_a_crash_is_told_with_signal_and_last_words(self) -> None:
         done = run("judge", "--solver", bad("broken", "crash"))
         self.assertEqual(done.returncode, 1)
-        self.assertIn("crashed with signal 11 (Segmentation fault) (during 'advance'); its last words: "
-                      "about to touch address 0", done.stdout)
+        self.assertIn(
+            (
+                "crashed with signal 11 (Segmentation fault) (during 'advance'); its last words: "
+                "about to touch address 0"
+            ),
+            done.stdout,
+        )
 
     def test_bad_input_is_one_line_and_exit_code_2(self) -> None:
-        for words, told in ((["judge"], "--solver"), (["judge", "--solver", ""], "--solver"),
-                            (["judge", "--solver", TOY, "--settings", "iterations"], "write KEY=VALUE"),
-                            (["judge", "--solver", TOY, "--settings", "=3"], "write KEY=VALUE"),
-                            (["judge", "--solver", TOY, "--seconds", "0"], "--seconds"), (["subject"], "--check")):
+        for words, told in (
+            (["judge"], "--solver"), (["judge", "--solver", ""], "--solver"),
+            (["judge", "--solver", TOY, "--settings", "iterations"], "write KEY=VALUE"),
+            (["judge", "--solver", TOY, "--settings", "=3"], "write KEY=VALUE"),
+            (["judge", "--solver", TOY, "--seconds", "0"], "--seconds"), (["subject"], "--check")
+        ):
             done = run(*words)
             self.assertEqual((done.returncode, done.stdout), (2, ""), words)
             self.assertIn(told, done.stderr)
@@ -143,7 +165,9 @@ class Judge(unittest.TestCase):
         done = run("subject", "--check", bad("broken", "wrong_shape"))
         self.assertEqual(done.returncode, 1)
         *_, breach, end = done.stdout.splitlines()
-        self.assertRegex(breach, r"^BROKEN +advance returns the state .*shape \[52,2\] instead of \[52,3\]")
+        self.assertRegex(
+            breach, r"^BROKEN +advance returns the state .*shape \[52,2\] instead of \[52,3\]"
+        )
         self.assertEqual(end, "the adapter does not keep to the protocol")
 
     def test_settings_reach_the_solver(self) -> None:
@@ -158,8 +182,13 @@ class Judge(unittest.TestCase):
             self.assertEqual(run(*words, command).returncode, 0)
         rows = [json.loads(line) for line in log.read_text(encoding="utf-8").splitlines()]
         operations = {header["op"] for side, header in rows if side == ">"}
-        self.assertLessEqual({"start", "run", "prepare", "advance", "get_state", "step", "forces", "damping", "energy",
-                              "stop"}, operations)
+        self.assertLessEqual(
+            {
+                "start", "run", "prepare", "advance", "get_state", "step", "forces", "damping",
+                "energy", "stop"
+            },
+            operations,
+        )
         for side, header in rows:
             validator("request" if side == ">" else "answer").validate(header)
 
@@ -172,22 +201,31 @@ class Judge(unittest.TestCase):
 
     def test_the_schema_rejects_other_headers(self) -> None:
         request, declaration = transcript()[4][1], transcript()[1][1]
-        spoiled = [("request", {**request, "op": "prepare"}), ("request", {**request, "dt": 0}),
-                   ("request", {**request, "id": "3"}), ("request", {**request, "speed": 1}),
-                   ("answer", {"declined": "no id"}), ("answer", {"id": 3, "arrays": [{"name": "x", "type": "f2", "shape": [3]}]}),
-                   ("declaration", {**declaration, "level": "L4"}), ("declaration", {**declaration, "solve_tolerance": 1})]
+        spoiled = [
+            ("request", {**request, "op": "prepare"}), ("request", {**request, "dt": 0}),
+            ("request", {**request, "id": "3"}), ("request", {**request, "speed": 1}),
+            ("answer", {"declined": "no id"}),
+            ("answer", {"id": 3, "arrays": [{"name": "x", "type": "f2", "shape": [3]}]}),
+            ("declaration", {**declaration, "level": "L4"}),
+            ("declaration", {**declaration, "solve_tolerance": 1})
+        ]
         for kind, header in spoiled:
             self.assertFalse(validator(kind).is_valid(header), header)
 
     def test_the_toy_answers_as_in_the_transcript(self) -> None:
         (read_requests, write_requests), (read_answers, write_answers) = os.pipe(), os.pipe()
-        environment = {**os.environ, "FOLDPROOF_IN": str(read_requests), "FOLDPROOF_OUT": str(write_answers)}
-        toy = subprocess.Popen(["/usr/bin/python3", "-W", "ignore", str(SUBJECTS / "adapters/toy_solver.py")], env=environment,
-                               pass_fds=(read_requests, write_answers))
+        environment = {
+            **os.environ, "FOLDPROOF_IN": str(read_requests), "FOLDPROOF_OUT": str(write_answers)
+        }
+        toy = subprocess.Popen(
+            ["/usr/bin/python3", "-W", "ignore", str(SUBJECTS / "adapters/toy_solver.py")],
+            env=environment, pass_fds=(read_requests, write_answers)
+        )
         os.close(read_requests), os.close(write_answers)
         with os.fdopen(write_requests, "wb") as requests, os.fdopen(read_answers, "rb") as answers:
             for side, header in transcript():
-                if side == ">":  # arrays of zeros: the headers of the answers are those of any numbers
+                # arrays of zeros: the headers of the answers are those of any numbers
+                if side == ">":
                     requests.write(json.dumps(header).encode() + b"\n" + bytes(bytes_due(header)))
                     requests.flush()
                     continue

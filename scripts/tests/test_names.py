@@ -1,9 +1,10 @@
 #!/usr/bin/python3
-"""Cross-references between files: every name in faults, claims, needs and equivalent mutants exists.
+"""Cross-references between files: every name in faults, claims, needs
+and equivalent mutants exists.
 
-Runs in seconds; nothing is compiled or simulated for it.
-Findings of studies are known here by their study; whether the study produces them is tested where studies run (`foldproof
-study`, `foldproof verify`).
+Runs in seconds; nothing is compiled or simulated for it. Findings of studies are known here by
+their study; whether the study produces them is tested where studies run (`foldproof study`,
+`foldproof verify`).
 """
 from __future__ import annotations
 
@@ -37,21 +38,32 @@ class Names(unittest.TestCase):
     @classmethod
     def setUpClass(cls) -> None:
         cls.listed = json.loads(output_of(str(PROGRAM), "list", "--json"))
-        cls.tests = set(subprocess.run([TESTS, "--list-test-names-only"], capture_output=True, text=True, check=False).stdout.splitlines())
+        cls.tests = set(
+            subprocess.run(
+                [TESTS, "--list-test-names-only"], capture_output=True, text=True, check=False
+            ).stdout.splitlines()
+        )
         for file in (*sorted((ROOT / "scripts/tests").glob("test_*.py")), *PYTHON_TESTS.values()):
-            cls.tests |= set(re.findall(r"^    def (test_\w+)\(", file.read_text(encoding="utf-8"), re.M))
+            cls.tests |= set(
+                re.findall(r"^    def (test_\w+)\(", file.read_text(encoding="utf-8"), re.M)
+            )
 
     def exists(self, finding: str) -> bool:
         studies = [row["name"] for row in self.listed["studies"]]
-        return (finding in {row["name"] for row in self.listed["checks"]} or finding in self.listed["case_findings"]
-                or any(finding == study or finding.startswith(study + ".") for study in studies))
+        return (
+            finding in {row["name"] for row in self.listed["checks"]}
+            or finding in self.listed["case_findings"]
+            or any(finding == study or finding.startswith(study + ".") for study in studies)
+        )
 
     def test_faults_are_sound_and_name_what_exists(self) -> None:
         faults = FAULTS.read_faults()  # throws where `find` does not occur exactly once
         self.assertGreater(len(faults), 600)
         for fault in faults:
             for name in fault.caught_by:
-                self.assertTrue(self.exists(name), f"fault {fault.name}: there is no finding '{name}'")
+                self.assertTrue(
+                    self.exists(name), f"fault {fault.name}: there is no finding '{name}'"
+                )
             for name in fault.caught_by_tests:
                 self.assertIn(name, self.tests, f"fault {fault.name}")
 
@@ -60,10 +72,12 @@ class Names(unittest.TestCase):
         room = FAULTS.room_of(sound.file)
         self.assertIsNone(FAULTS.wrong_row(sound, room))
         self.assertIn(f"belongs in {room}.toml", FAULTS.wrong_row(sound, "another") or "")
-        for wrong, words in ((sound._replace(find="no such text in any file"), "occurs 0 times"),
-                             (sound._replace(find=";"), "must occur exactly once"),
-                             (sound._replace(file="reference/nowhere.cpp"), "is not a .cpp or .h file"),
-                             (sound._replace(caught_by=(), caught_by_tests=()), "who catches it")):
+        for wrong, words in (
+            (sound._replace(find="no such text in any file"), "occurs 0 times"),
+            (sound._replace(find=";"), "must occur exactly once"),
+            (sound._replace(file="reference/nowhere.cpp"), "is not a .cpp or .h file"),
+            (sound._replace(caught_by=(), caught_by_tests=()), "who catches it")
+        ):
             self.assertIn(words, FAULTS.wrong_row(wrong, room) or "")
         self.assertFalse(self.exists("bending.forces-sum-to-nothing"))
 
@@ -72,7 +86,9 @@ class Names(unittest.TestCase):
         self.assertGreaterEqual(len(claims), 56)  # of the first paper
         for claim in claims:
             for finding in claim["findings"]:
-                self.assertTrue(self.exists(finding), f"claim {claim['id']}: there is no finding '{finding}'")
+                self.assertTrue(
+                    self.exists(finding), f"claim {claim['id']}: there is no finding '{finding}'"
+                )
 
     def test_equivalent_mutants_are_edits_of_lines_that_exist(self) -> None:
         path = next((ROOT / "verification").rglob("equivalent_mutants.toml"))
@@ -80,14 +96,19 @@ class Names(unittest.TestCase):
             text = (ROOT / row["file"]).read_text(encoding="utf-8")
             lines = [line.strip() for line in text.splitlines()]
             self.assertIn(row["line"], lines, row["file"])
-            self.assertTrue(self.can_become(text, row["line"], row["becomes"]), f"{row['file']}: {row['line']}")
+            self.assertTrue(
+                self.can_become(text, row["line"], row["becomes"]), f"{row['file']}: {row['line']}"
+            )
 
     @staticmethod
     def can_become(text: str, line: str, becomes: str) -> bool:
         """True if one of the edits of the text changes the line in this way."""
         for change in changes_of(text):
             number = text.count("\n", 0, change.at)
-            if text.splitlines()[number].strip() == line and apply(text, change).splitlines()[number].strip() == becomes:
+            if (
+                text.splitlines()[number].strip() == line
+                and apply(text, change).splitlines()[number].strip() == becomes
+            ):
                 return True
         return False
 
@@ -95,7 +116,10 @@ class Names(unittest.TestCase):
         needs = json.loads((ROOT / "cases/needs.json").read_text(encoding="utf-8"))["cases"]
         cases = {Path(name).name for name in self.listed["cases"]}
         self.assertLessEqual({row["case"] for row in needs}, cases)
-        parts = "\n".join(path.read_text(encoding="utf-8") for path in (ROOT / "convergence").rglob("scene_parts.cpp"))
+        parts = "\n".join(
+            path.read_text(encoding="utf-8")
+            for path in (ROOT / "convergence").rglob("scene_parts.cpp")
+        )
         for row in needs:
             for part in row["parts"]:
                 name = part["name"].split("'")[0]
@@ -104,22 +128,35 @@ class Names(unittest.TestCase):
     def test_renames_lead_from_names_that_are_gone_to_names_that_exist(self) -> None:
         renames = tomllib.loads((ROOT / "scripts/renames.toml").read_text(encoding="utf-8"))
         faults = {fault.name for fault in FAULTS.read_faults()}
-        current = {row["name"] for kind in ("checks", "studies") for row in self.listed[kind]} | set(self.listed["case_findings"]) | faults
+        current = (
+            {row["name"] for kind in ("checks", "studies") for row in self.listed[kind]}
+            | set(self.listed["case_findings"])
+            | faults
+        )
         self.assertGreater(len(renames["findings"]), 600)
         for old, new in (renames["findings"] | renames["faults"]).items():
             self.assertNotIn(old, current)
-            self.assertTrue(self.exists(new) or new in faults, f"'{old}' is renamed to '{new}', which does not exist")
+            self.assertTrue(
+                self.exists(new) or new in faults,
+                f"'{old}' is renamed to '{new}', which does not exist",
+            )
 
     def test_keys_of_case_files_are_renamed_to_keys_that_exist(self) -> None:
         page = (ROOT / "cases/KEYS.md").read_text(encoding="utf-8")
-        for old, new in tomllib.loads((ROOT / "scripts/renames.toml").read_text(encoding="utf-8"))["keys"].items():
+        for old, new in tomllib.loads((ROOT / "scripts/renames.toml").read_text(encoding="utf-8"))[
+            "keys"
+        ].items():
             self.assertIn(f"`{new.rpartition('.')[2]}`", page)
             self.assertNotIn(f"`{old.rpartition('.')[2]}`", page)
 
     def test_the_changelog_holds_every_rename(self) -> None:
         renames = tomllib.loads((ROOT / "scripts/renames.toml").read_text(encoding="utf-8"))
         changelog = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8").splitlines()
-        rows = [f"| `{old}` | `{new}` |" for kind in ("findings", "keys", "faults") for old, new in renames[kind].items()]
+        rows = [
+            f"| `{old}` | `{new}` |"
+            for kind in ("findings", "keys", "faults")
+            for old, new in renames[kind].items()
+        ]
         self.assertEqual([row for row in rows if row not in changelog], [])
         self.assertEqual(sum(line.startswith("| `") for line in changelog), len(rows))
 

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""The pages of the project (*.md): short enough to read, linked to what exists, and complete on the keys of cases.
+"""The pages of the project (*.md): short enough to read, linked to what exists, and
+complete on the keys of cases.
 
 Usage: scripts/tests/test_pages.py
 """
@@ -10,7 +11,9 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-PAGES = sorted(page for page in ROOT.rglob("*.md") if "build" not in page.relative_to(ROOT).parts[0])
+PAGES = sorted(
+    page for page in ROOT.rglob("*.md") if "build" not in page.relative_to(ROOT).parts[0]
+)
 FENCE = re.compile(r"^```.*?^```$", re.MULTILINE | re.DOTALL)
 LINK = re.compile(r"\]\(([^)\s]*)\)")
 
@@ -43,7 +46,9 @@ class Pages(unittest.TestCase):
                 text = page.read_text(encoding="utf-8")
                 words = 650 if page.parent == ROOT else 450
                 self.assertLessEqual(len(text.splitlines()), 60, page.relative_to(ROOT))
-                self.assertLessEqual(len(re.findall(r"\S*\w\S*", text)), words, page.relative_to(ROOT))
+                self.assertLessEqual(
+                    len(re.findall(r"\S*\w\S*", text)), words, page.relative_to(ROOT)
+                )
 
     def test_links_lead_to_files_and_headings_that_exist(self) -> None:
         for page in PAGES:
@@ -72,19 +77,30 @@ class Keys(unittest.TestCase):
         self.text = (ROOT / "cases/KEYS.md").read_text(encoding="utf-8")
 
     def test_every_key_that_is_read_is_documented(self) -> None:
-        asked = re.compile(r'(?:has|number|number_or|integer|integer_or|flag_or|text|text_or|vector|vector_or|vectors|'
-                           r'integers|texts|table|tables)\("(\w+)"|(?:choice<[^>]*>*|_or|positive|count|path_of)\('
-                           r'\*?\w+, "(\w+)"')
+        asked = re.compile(
+            r'(?:has|number|number_or|integer|integer_or|flag_or|text|text_or|'
+            r'vector|vector_or|vectors|'
+            r'integers|texts|table|tables)\("(\w+)"|(?:choice<[^>]*>*|_or|positive|count|path_of)\('
+            r'\*?\w+, "(\w+)"'
+        )
         keys = {a or b for path in (ROOT / "reference/scene").glob("read_*.cpp")
                 for a, b in asked.findall(path.read_text(encoding="utf-8"))}
-        for path in ("reference/scene/key_values.cpp", "reference/scene/read_cloth_mesh.cpp", "verification/cases/measurement.cpp"):
+        for path in (
+            "reference/scene/key_values.cpp", "reference/scene/read_cloth_mesh.cpp",
+            "verification/cases/measurement.cpp"
+        ):
             keys |= {a or b for a, b in asked.findall((ROOT / path).read_text(encoding="utf-8"))}
         self.assertGreater(len(keys), 90)
         self.assertEqual({key for key in keys if not re.search(rf"\b{key}\b", self.text)}, set())
 
     def test_every_quantity_is_documented(self) -> None:
-        keys = {key for path in (ROOT / "verification/cases").glob("*.cpp")
-                for key in re.findall(r'^ +\{"(\w+)", "', path.read_text(encoding="utf-8"), re.MULTILINE)}
+        keys = {
+            key
+            for path in (ROOT / "verification/cases").glob("*.cpp")
+            for key in re.findall(
+                r'^ +\{"(\w+)", "', path.read_text(encoding="utf-8"), re.MULTILINE
+            )
+        }
         self.assertGreater(len(keys), 35)
         self.assertEqual({key for key in keys if f"`{key}`" not in self.text}, set())
 
@@ -94,7 +110,8 @@ class Cases(unittest.TestCase):
 
     def test_every_shipped_case_is_listed(self) -> None:
         text = (ROOT / "cases/CASES.md").read_text(encoding="utf-8")
-        cases = {path.stem for path in (ROOT / "cases").rglob("*.toml")} - {"fabrics"}  # data of cases
+        # data of cases
+        cases = {path.stem for path in (ROOT / "cases").rglob("*.toml")} - {"fabrics"}
         self.assertEqual({case for case in cases if f"`{case}`" not in text}, set())
 
 

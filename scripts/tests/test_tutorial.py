@@ -1,7 +1,9 @@
 #!/usr/bin/python3
-"""Runs the commands of reports/TUTORIAL.md from top to bottom, and compares their output with the page.
+"""Runs the commands of reports/TUTORIAL.md from top to bottom, and
+compares their output with the page.
 
-Usage: scripts/tests/test_tutorial.py [--update]     --update prints the output of each command instead of comparing
+Usage: scripts/tests/test_tutorial.py [--update]
+--update prints the output of each command instead of comparing it
 Exit code: 0 if all outputs match; 1 otherwise.
 """
 
@@ -38,8 +40,14 @@ def commands_of(block: str, line: int) -> list[Command]:
 
 def answer(command: str, folder: Path) -> str:
     """Its output without progress lines, and its exit code if not 0."""
-    done = subprocess.run(["bash", "-c", command], cwd=folder, capture_output=True, text=True, check=False)
-    lines = [row.rstrip() for row in (done.stderr + done.stdout).splitlines() if not PROGRESS.fullmatch(row)]
+    done = subprocess.run(
+        ["bash", "-c", command], cwd=folder, capture_output=True, text=True, check=False
+    )
+    lines = [
+        row.rstrip()
+        for row in (done.stderr + done.stdout).splitlines()
+        if not PROGRESS.fullmatch(row)
+    ]
     if done.returncode:
         lines.append(f"[{done.returncode}]")
     return "".join(row + "\n" for row in lines)
@@ -60,7 +68,9 @@ def main() -> int:
         for block in BLOCK.finditer(text):
             kind, content = block.groups()
             if kind == "toml":  # its first line is a comment that names the file
-                (folder / content.splitlines()[0].removeprefix("# ")).write_text(content, encoding="utf-8")
+                (folder / content.splitlines()[0].removeprefix("# ")).write_text(
+                    content, encoding="utf-8"
+                )
             if kind != "console":
                 continue
             for command in commands_of(content, text.count("\n", 0, block.start()) + 2):
@@ -76,7 +86,10 @@ def is_as_it_stands(command: Command, said: str) -> bool:
         return True
     if doctest.OutputChecker().check_output(command.expected, said, doctest.ELLIPSIS):
         return True
-    print(f"{TUTORIAL.name}:{command.line}: $ {command.text}\n--- stands there\n{command.expected}--- is printed\n{said}---")
+    print(
+        f"{TUTORIAL.name}:{command.line}: $ {command.text}\n--- stands there\n{command.expected}---"
+        f" is printed\n{said}---"
+    )
     return False
 
 

@@ -1,6 +1,8 @@
-"""Forces. Each gives its elastic part f(x), and its damping as a matrix and a known part: D(x) v + g.
+"""Forces. Each gives its elastic part f(x), and its damping as a
+matrix and a known part: D(x) v + g.
 
-A force has `elastic(time, x)` -> N x 3 [N], and `damping(time, x)` -> D: 3N x 3N [N s/m], g: N x 3 [N].
+A force has `elastic(time, x)` -> N x 3 [N], and `damping(time, x)` -> D:
+3N x 3N [N s/m], g: N x 3 [N].
 """
 
 from dataclasses import dataclass
@@ -14,8 +16,11 @@ def nothing(count: int) -> tuple[np.ndarray, np.ndarray]:
     return np.zeros((3 * count, 3 * count)), np.zeros((count, 3))
 
 
-def dampers(count: int, particles: np.ndarray, modes: np.ndarray, factors: np.ndarray) -> np.ndarray:
-    """3N x 3N: minus the sum of factor * mode (x) mode; particles K x k, modes K x k x 3, factors K."""
+def dampers(
+    count: int, particles: np.ndarray, modes: np.ndarray, factors: np.ndarray
+) -> np.ndarray:
+    """3N x 3N: minus the sum of factor * mode (x) mode; particles K x
+    k, modes K x k x 3, factors K."""
     rows = np.zeros((len(particles), 3 * count))
     places = 3 * particles[:, :, None] + np.arange(3)
     rows[np.arange(len(particles))[:, None, None], places] = modes
@@ -65,7 +70,8 @@ class Springs:
 
 
 class Fold:
-    """The bending elements of BMF03 section 4 at positions x; arrays with one row for each hinge."""
+    """The bending elements of BMF03 section 4 at positions x;
+    arrays with one row for each hinge."""
 
     def __init__(self, x: np.ndarray, hinges: np.ndarray) -> None:
         x1, x2, x3, x4 = (x[hinges[:, corner]] for corner in range(4))

@@ -28,7 +28,9 @@ class Unsupported(Exception):
     """The case asks for something that this program does not do."""
 
 
-KNOWN = {"title", "about", "cloth", "start", "gravity", "stretch", "bending", "hold", "time", "solver"}
+KNOWN = {
+    "title", "about", "cloth", "start", "gravity", "stretch", "bending", "hold", "time", "solver"
+}
 
 
 class Model:
@@ -47,7 +49,8 @@ class Model:
             chosen = held_particles(keys, self.start.x)
             self.held[chosen] = True
             self.holds.append((chosen, Motion(keys)))
-        self.events = {time for _, motion in self.holds for time in (motion.start, motion.stop)}  # s
+        # s
+        self.events = {time for _, motion in self.holds for time in (motion.start, motion.stop)}
         self.start = self.start._replace(v=self.prescribed_velocity(self.start.v, 0.0, 0.0))
         self.forces = forces_of(case, self)
         self.filters: list = []
@@ -134,7 +137,8 @@ def override(case: dict, path: str, value: object) -> None:
 
 
 def read_case(path: Path, changes: dict[str, object] | None = None) -> Model:
-    """The model of a case file with some keys changed; Unsupported names what this program lacks."""
+    """The model of a case file with some keys changed; Unsupported
+    names what this program lacks."""
     case = tomllib.loads(path.read_text(encoding="utf-8"))
     for key, value in (changes or {}).items():
         override(case, key, value)

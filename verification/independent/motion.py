@@ -1,4 +1,5 @@
-"""Prescribed motion: X(t) = C + R(w t)(X0 - C) + velocity t + amplitude (sin(2 pi f t + p) - sin p)."""
+"""Prescribed motion: X(t) = C + R(w t)(X0 - C) + velocity t +
+amplitude (sin(2 pi f t + p) - sin p)."""
 
 import math
 
@@ -14,7 +15,9 @@ class Motion:
         def vector(key: str) -> np.ndarray:
             return np.array(keys.get(key, [0.0, 0.0, 0.0]), dtype=float)
 
-        self.velocity, self.amplitude, self.center = map(vector, ("velocity", "amplitude", "center"))
+        self.velocity, self.amplitude, self.center = map(
+            vector, ("velocity", "amplitude", "center")
+        )
         self.spin = np.radians(vector("angular_velocity"))
         self.rate = 2 * math.pi * keys.get("frequency", 0.0)
         self.phase = math.radians(keys.get("phase", 0.0))

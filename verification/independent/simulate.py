@@ -66,7 +66,8 @@ def read_run(file: Path) -> Run:
 
 
 class Agreement(NamedTuple):
-    """How far two simulations of one case are apart. Infinite where frames or particles are not as many."""
+    """How far two simulations of one case are apart. Infinite where
+    frames or particles are not as many."""
     steps: int
     size: float  # largest extent of the cloth at the start [m]
     x: float  # largest distance of a particle's positions [m]
@@ -76,7 +77,8 @@ class Agreement(NamedTuple):
 
 
 def largest(ours: np.ndarray, theirs: np.ndarray) -> float:
-    """Of lengths of differences of vectors, or of differences of numbers; NaN counts as infinite."""
+    """Of lengths of differences of vectors, or of differences of
+    numbers; NaN counts as infinite."""
     if ours.shape != theirs.shape:
         return math.inf
     apart = ours - theirs
@@ -85,7 +87,9 @@ def largest(ours: np.ndarray, theirs: np.ndarray) -> float:
 
 
 def compare(done: Simulation, mass: np.ndarray, run: Run) -> Agreement:
-    x, v = np.array([frame.x for frame in done.frames]), np.array([frame.v for frame in done.frames])
+    x, v = np.array([frame.x for frame in done.frames]), np.array(
+        [frame.v for frame in done.frames]
+    )
     longest = np.diff(done.step_ends, prepend=0.0).max()
     return Agreement(len(done.step_ends), float(np.ptp(x[0], axis=0).max()), largest(x, run.x),
                      largest(v, run.v) * longest, largest(mass / run.mass, np.ones_like(mass)),

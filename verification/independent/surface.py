@@ -45,7 +45,9 @@ def surface_of(points: np.ndarray, triangles: np.ndarray) -> Surface:
     sides: dict[tuple[int, int], list[tuple[int, int, int]]] = {}
     for number, (a, b, c) in enumerate(triangles.tolist()):
         for start, end, opposite in ((a, b, c), (b, c, a), (c, a, b)):
-            sides.setdefault((min(start, end), max(start, end)), []).append((number, start, opposite))
+            sides.setdefault((min(start, end), max(start, end)), []).append(
+                (number, start, opposite)
+            )
     hinges = []
     for (low, high), both in sides.items():
         if len(both) == 2:

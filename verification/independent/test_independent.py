@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 """Tests that `foldproof simulate` and the program beside this file agree case by case.
 
-test_independent.py [--program FILE] [IndependentTest.test_...]      --program: another than build/foldproof
+test_independent.py [--program FILE] [IndependentTest.test_...]
+--program: instead of build/foldproof
 """
 
 import json
@@ -29,7 +30,11 @@ def agreement(name: str, changes: dict[str, object]) -> Agreement:
     file = FOLDER / "cases" / f"{name}.toml"
     model = read_case(file, changes)
     with tempfile.TemporaryDirectory(prefix="foldproof-independent-") as out:
-        settings = [word for key, value in changes.items() for word in ("--set", f"{key}={json.dumps(value)}")]
+        settings = [
+            word
+            for key, value in changes.items()
+            for word in ("--set", f"{key}={json.dumps(value)}")
+        ]
         command = [str(PROGRAM), "simulate", str(file), *settings, "--out", out]
         done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=CLOCK)
         if done.returncode:

@@ -1,7 +1,9 @@
-"""The solver's side of the protocol (PROTOCOL.md): derive from Solver, then call serve(). Needs numpy.
+"""The solver's side of the protocol (PROTOCOL.md): derive from Solver,
+then call serve(). Needs numpy.
 
     class Mine(Solver):
-        name, version, level, precision, scheme, order = "mine", "1.0", "L1", "f8", "symplectic Euler", 1
+        name, version, level, precision = "mine", "1.0", "L1", "f8"
+        scheme, order = "symplectic Euler", 1
         capabilities = ("set_state", "held", "masses")
         def prepare(self, scene): ...          # keeps what it needs; returns the mapping in words
         def advance(self, dt, steps): ...      # moves self.x and self.v, both (N, 3)
@@ -22,11 +24,13 @@ TYPES = {"f8": "<f8", "f4": "<f4", "i4": "<i4"}
 
 
 class Declined(Exception):
-    """Raised for what the solver does not offer; the message is the reason that the report prints."""
+    """Raised for what the solver does not offer; the message is the
+    reason that the report prints."""
 
 
 class Scene:
-    """A scene: arrays as attributes (triangles (M, 3), rest, x, v (N, 3) ...), `header` for the rest."""
+    """A scene: arrays as attributes (triangles (M, 3), rest, x, v (N,
+    3) ...), `header` for the rest."""
 
     def __init__(self, header: dict[str, Any], arrays: dict[str, np.ndarray]) -> None:
         self.header, self.arrays = header, arrays
@@ -87,16 +91,21 @@ class Pipe:
 
     def send(self, header: dict[str, Any], arrays: dict[str, np.ndarray] | None = None) -> None:
         data = {name: np.ascontiguousarray(value) for name, value in (arrays or {}).items()}
-        listed = [{"name": name, "type": value.dtype.str[1:], "shape": list(value.shape)} for name, value in data.items()]
+        listed = [
+            {"name": name, "type": value.dtype.str[1:], "shape": list(value.shape)}
+            for name, value in data.items()
+        ]
         text = json.dumps({**header, "arrays": listed}) + "\n"
         self.sink.write(text.encode() + b"".join(value.tobytes() for value in data.values()))
         self.sink.flush()
 
 
 def declaration(solver: Solver) -> dict[str, Any]:
-    return {"protocol": PROTOCOL, "name": solver.name, "version": solver.version, "level": solver.level,
-            "precision": solver.precision, "scheme": {"name": solver.scheme, "order": solver.order},
-            "capabilities": list(solver.capabilities), "solve_tolerance": solver.solve_tolerance}
+    return {
+        "protocol": PROTOCOL, "name": solver.name, "version": solver.version, "level": solver.level,
+        "precision": solver.precision, "scheme": {"name": solver.scheme, "order": solver.order},
+        "capabilities": list(solver.capabilities), "solve_tolerance": solver.solve_tolerance
+    }
 
 
 def state_of(solver: Solver) -> dict[str, np.ndarray]:
@@ -115,7 +124,9 @@ def run_frames(solver: Solver, scene: Scene) -> dict[str, np.ndarray]:
     return {name: np.stack([frame[name] for frame in frames]) for name in ("x", "v")}
 
 
-def answer(solver: Solver, header: dict[str, Any], arrays: dict[str, np.ndarray]) -> tuple[dict, dict]:
+def answer(
+    solver: Solver, header: dict[str, Any], arrays: dict[str, np.ndarray]
+) -> tuple[dict, dict]:
     operation = header["op"]
     if operation == "start":
         return declaration(solver), {}
@@ -141,11 +152,15 @@ def answer(solver: Solver, header: dict[str, Any], arrays: dict[str, np.ndarray]
 
 
 def open_pipe() -> Pipe:
-    return Pipe(os.fdopen(int(os.environ["FOLDPROOF_IN"]), "rb"), os.fdopen(int(os.environ["FOLDPROOF_OUT"]), "wb"))
+    return Pipe(
+        os.fdopen(int(os.environ["FOLDPROOF_IN"]), "rb"),
+        os.fdopen(int(os.environ["FOLDPROOF_OUT"]), "wb"),
+    )
 
 
 def serve(solver: Solver, pipe: Pipe | None = None) -> None:
-    """Answers until 'stop' or the end of the pipe. An exception is told, and the next call answered."""
+    """Answers until 'stop' or the end of the pipe. An exception is
+    told, and the next call answered."""
     pipe = pipe or open_pipe()
     while (message := pipe.receive()) is not None:
         header, arrays = message

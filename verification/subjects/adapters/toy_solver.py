@@ -21,7 +21,10 @@ class ToySolver(Solver):
         self.edges, self.k, self.length = scene.edges, scene.edge_stiffness, scene.rest_lengths
         self.held = scene.held
         self.gravity = np.array(scene.header["scene"]["gravity"])
-        return {"stretch": "a spring per edge, of the edge's own stiffness [N/m]", "damping": "none"}
+        return {
+            "stretch": "a spring per edge, of the edge's own stiffness [N/m]",
+            "damping": "none",
+        }
 
     def springs(self) -> tuple[np.ndarray, np.ndarray]:
         """Directions (E, 3) [1] and elongations (E) [m]."""

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Solvers that break the protocol or themselves, each in one way, in the third step or so: broken.py KIND
+"""Solvers that break the protocol or themselves, each in one way, in the
+third step or so: broken.py KIND
 
 The client must name the cause of each and survive it. Without a KIND it lists them.
 """
@@ -73,7 +74,9 @@ def send_raw(pipe: Pipe, data: bytes) -> None:
 
 
 def header_of(identity: int, particles: int) -> bytes:
-    entries = ", ".join(f'{{"name": "{name}", "type": "f8", "shape": [{particles}, 3]}}' for name in "xv")
+    entries = ", ".join(
+        f'{{"name": "{name}", "type": "f8", "shape": [{particles}, 3]}}' for name in "xv"
+    )
     return f'{{"id": {identity}, "arrays": [{entries}]}}\n'.encode()
 
 
@@ -104,7 +107,9 @@ def spoil(kind: str, pipe: Pipe, identity: int, n: int) -> None:
 
 SPOILED = ("truncated", "short_array", "oversized", "too_many_bytes", "wrong_shape", "invalid_json",
            "noise_on_the_pipe", "endless_header", "wrong_id")
-WRECKED = ("crash", "exit_3", "hang", "exception", "nan", "fill_memory", "fill_disk", "fork_and_exit")
+WRECKED = (
+    "crash", "exit_3", "hang", "exception", "nan", "fill_memory", "fill_disk", "fork_and_exit"
+)
 
 
 def serve_spoiled(kind: str, solver: Solver, pipe: Pipe) -> None:
@@ -130,7 +135,10 @@ def main() -> int:
     elif kind in SPOILED and pipe:
         serve_spoiled(kind, ToySolver(), pipe)
     else:
-        print("usage: broken.py KIND, below foldproof;", *WRECKED, *SPOILED, "noise_on_stdout", "silent_start")
+        print(
+            "usage: broken.py KIND, below foldproof;", *WRECKED, *SPOILED, "noise_on_stdout",
+            "silent_start"
+        )
         return 2
     return 0
 

@@ -1,8 +1,10 @@
 #!/usr/bin/python3
-"""Solvers that keep to the protocol and are wrong, each in one law of physics or one claim: wrong.py KIND
+"""Solvers that keep to the protocol and are wrong, each in one law of
+physics or one claim: wrong.py KIND
 
-The portable suite must find each by the laws that it breaks. "none" is the unspoiled toy; "backward_euler" and
-"trapezoidal" are other correct schemes, which must raise no alarm, at f8; "single" is one at f4.
+The portable suite must find each by the laws that it breaks. "none" is the unspoiled toy;
+"backward_euler" and "trapezoidal" are other correct schemes, which must raise no alarm, at f8;
+"single" is one at f4.
 """
 from __future__ import annotations
 
@@ -112,7 +114,8 @@ class KnowsItsAxes(ToySolver):
 
 
 class DependsOnNumbers(ToySolver):
-    """One particle after the other, each from what the ones before became (Gauss-Seidel, as if it were exact)."""
+    """One particle after the other, each from what the ones before became
+    (Gauss-Seidel, as if it were exact)."""
 
     def advance(self, dt: float, steps: int) -> None:
         for _ in range(steps):
@@ -172,7 +175,9 @@ class Implicit(ToySolver):
         direction, elongation = self.springs()
         length = self.length + elongation
         across = self.k * elongation / length
-        block = np.einsum("e,ei,ej->eij", self.k - across, direction, direction) + across[:, None, None] * np.eye(3)
+        block = np.einsum("e,ei,ej->eij", self.k - across, direction, direction) + across[
+            :, None, None
+        ] * np.eye(3)
         n = len(self.x)
         matrix = np.zeros((n, n, 3, 3))
         a, b = self.edges.T
@@ -189,7 +194,8 @@ class Implicit(ToySolver):
         known, new = self.forces(), v.copy()
         free = np.repeat(~np.isin(np.arange(len(x)), self.held), 3)
         matrix = np.diag(mass) - (dt * self.theta) ** 2 * self.jacobian()
-        inverse = np.linalg.inv(matrix[np.ix_(free, free)])  # at the start of the step: chord iterations
+        # at the start of the step: chord iterations
+        inverse = np.linalg.inv(matrix[np.ix_(free, free)])
         size = np.inf
         for _ in range(40):
             self.x = x + dt * (self.theta * new + (1 - self.theta) * v)
@@ -228,13 +234,26 @@ class Single(ToySolver):
 
 
 KINDS = {
-    "none": Unspoiled, "backward_euler": BackwardEuler, "trapezoidal": Trapezoidal, "single": Single,
-    "wrong_mass": WrongMass, "own_masses_ignored": OwnMassesIgnored,
-    "gravity_scaled": GravityScaled, "momentum_dropped": MomentumDropped,
-    "single_for_double": SingleForDouble, "first_order_as_second": FirstOrderAsSecond, "hidden_damping": HiddenDamping,
-    "state_not_restored": StateNotRestored, "scene_leaves_traces": SceneLeavesTraces, "random": Random,
-    "knows_its_axes": KnowsItsAxes, "depends_on_numbers": DependsOnNumbers, "held_loosely": HeldLoosely,
-    "energy_halved": EnergyHalved, "pre_stressed": PreStressed, "spin_damped": SpinDamped,
+    "none": Unspoiled,
+    "backward_euler": BackwardEuler,
+    "trapezoidal": Trapezoidal,
+    "single": Single,
+    "wrong_mass": WrongMass,
+    "own_masses_ignored": OwnMassesIgnored,
+    "gravity_scaled": GravityScaled,
+    "momentum_dropped": MomentumDropped,
+    "single_for_double": SingleForDouble,
+    "first_order_as_second": FirstOrderAsSecond,
+    "hidden_damping": HiddenDamping,
+    "state_not_restored": StateNotRestored,
+    "scene_leaves_traces": SceneLeavesTraces,
+    "random": Random,
+    "knows_its_axes": KnowsItsAxes,
+    "depends_on_numbers": DependsOnNumbers,
+    "held_loosely": HeldLoosely,
+    "energy_halved": EnergyHalved,
+    "pre_stressed": PreStressed,
+    "spin_damped": SpinDamped,
     "forces_unbalanced": ForcesUnbalanced,
 }
 
