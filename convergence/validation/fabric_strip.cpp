@@ -140,8 +140,8 @@ StudyResult run_fabric_strip(const Subject& subject, Tier tier, const Progress& 
 
 Study fabric_strip_study() {
   return {"fabric-strip",
-          "A strip cut from a simulated sheet measures in the laboratory's bending test what its "
-          "fabric measured.",
+          "A strip cut from a simulated sheet of alternating diagonals measures in the "
+          "laboratory's bending test what its fabric measured; on another pattern it may not.",
           "ASTM D1388; Peirce 1930",
           "The program gives a sheet of a measured fabric the ke for which narrow strips of that "
           "mesh have the measured rigidity. A strip of four cells' width is cut from it, clamped, "

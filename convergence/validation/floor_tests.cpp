@@ -210,8 +210,8 @@ StudyResult run_pressed_strip(const Subject& subject, Tier tier, const Progress&
 
 Study fold_tests_study() {
   return {"fold-tests",
-          "Strips folded over on a smooth floor stand as high as the elastica with the mesh's own "
-          "rigidity.",
+          "A strip folded over on a smooth floor stands as high as the elastica with the mesh's "
+          "own rigidity.",
           "Plaut 2015",
           "Both ends are held flat on the floor at one place, one on the other. The strip lies on "
           "the floor until it lifts off without a moment. On a mesh whole panels lie flat; how "
