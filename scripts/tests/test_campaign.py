@@ -32,10 +32,11 @@ GRID = """case = "hinge"
 "time.integrator" = ["A", "C"]
 """
 
+# Twelve runs of some tenths of a second each, so that a signal meets one that is not done.
 LONG = """case = "hinge"
 [set]
 "time.end" = 2
-"time.step" = 2e-5
+"time.step" = 5e-6
 [grid]
 "bending.stiffness" = { from = 1e-3, to = 2e-3, count = 12 }
 """
@@ -224,13 +225,15 @@ class CampaignTest(unittest.TestCase):
         file = self.write(LONG)
         for how in (signal.SIGINT, signal.SIGKILL, signal.SIGTERM):
             running = subprocess.Popen(
-                [PROGRAM, "campaign", "run", file, "--out", self.out],
+                [PROGRAM, "campaign", "run", file, "--out", self.out, "--threads", "2"],
                 cwd=ROOT,
                 stdout=subprocess.DEVNULL,
                 stderr=subprocess.PIPE,
                 text=True,
             )
-            time.sleep(1)
+            done = len(self.result_lines())
+            while running.poll() is None and len(self.result_lines()) == done:
+                time.sleep(0.01)
             running.send_signal(how)
             said = running.communicate()[1]
             self.assertEqual(running.returncode, -how)
@@ -244,7 +247,9 @@ class CampaignTest(unittest.TestCase):
         self.assertEqual((said["done"], said["repeated"], said["conflicts"]), (12, 0, 0))
 
     def test_a_job_whose_process_dies_three_times_has_crashed_and_the_others_run(self) -> None:
-        file = self.write(LONG.replace("count = 12", "count = 3"))
+        fewer = LONG.replace("count = 12", "count = 3")
+        endless = fewer.replace('"time.end" = 2', '"time.end" = 1e4')
+        file = self.write(endless)
         running = subprocess.Popen(
             [PROGRAM, "campaign", "run", file, "--out", self.out, "--threads", "1"],
             cwd=ROOT,
