@@ -100,8 +100,8 @@ def _paper(results: Results, is_brief: bool) -> Conclusion | None:
         for claim in refuted[:MOST_REFUTED]
     ]
     if len(refuted) > MOST_REFUTED:
-        told.append([Number(len(refuted) - MOST_REFUTED, "1", "claims that are refuted"), " more."])
-    end = ". " if is_brief else " "
+        told.append([Number(len(refuted) - MOST_REFUTED, "1", "claims that are refuted"), " more"])
+    end = ". " if is_brief or len(refuted) > MOST_REFUTED else " "
     rest = (
         ["Refuted: ", *in_words(told, *((", ", " and ") if is_brief else (" ", " "))), end]
         if refuted

@@ -209,8 +209,10 @@ TEST_CASE("served reference: masses of the scene replace those of the density") 
   CHECK((solver.advance(own.dt, 5).x - first.x).cwiseAbs().maxCoeff() > 1e-6);
 }
 
+// Hidden, since it is a clock that decides: `tests "[timing]"` runs it.
 TEST_CASE(
-    "served reference: a step of 10,000 particles loses 1 ms in the pipe to C++, 8 ms to Python") {
+    "served reference: a step of 10,000 particles loses 1 ms in the pipe to C++, 8 ms to Python",
+    "[.timing]") {
   const double cpp = transport_of_a_step({TOY_SOLVER, {}, {}});
   const double python = transport_of_a_step(
       {"exec /usr/bin/python3 " SUBJECTS_FOLDER "/adapters/toy_solver.py", {}, {}});
