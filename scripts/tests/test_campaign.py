@@ -164,6 +164,9 @@ class CampaignTest(unittest.TestCase):
         before = len(self.result_lines())
         self.campaign("run", file)
         self.assertEqual(len(self.result_lines()), before)
+        expected = '[expect.height]\nat_most = 1e9\nwhy = "test"\n'
+        file = self.write(Path(file).read_text(encoding="utf-8") + expected)
+        self.assertEqual(self.campaign("table", file).returncode, 1)
 
     def test_a_job_beyond_its_limit_is_a_result_and_the_others_run(self) -> None:
         file = self.write(
@@ -213,13 +216,14 @@ class CampaignTest(unittest.TestCase):
         self.campaign("table", file)
         self.assertEqual(len(self.rows()), 4)
 
-    def test_emitted_commands_do_the_work(self) -> None:
+    def test_emitted_commands_do_the_work_once(self) -> None:
         file = self.write(GRID)
         lines = self.campaign("emit", file, "--slice", "4").stdout.splitlines()
         self.assertEqual(len(lines), 2)
-        for line in reversed(lines):
+        for line in [*reversed(lines), *lines]:
             subprocess.run(line, shell=True, check=True, capture_output=True)
         self.assertEqual(self.status(file)["done"], 6)
+        self.assertEqual(len(self.result_lines()), 6)
 
     def test_a_campaign_that_is_killed_goes_on(self) -> None:
         file = self.write(LONG)
