@@ -23,6 +23,7 @@ PROGRAM = BUILD / "foldproof"
 TESTS = BUILD / "tests"
 # test class: its file; each takes --program FILE
 PYTHON_TESTS = {"ProgramTest": ROOT / "scripts/tests/test_program.py",
+                "CampaignTest": ROOT / "scripts/tests/test_campaign.py",
                 "IndependentTest": ROOT / "verification/independent/test_independent.py"}
 APART_FOLDER = BUILD / "faults" / "apart"
 CLOCK = 240  # s: how long a mutant may run
@@ -124,7 +125,7 @@ def key_of(plan: Plan) -> str:
     read = sorted((ROOT / "cases").rglob("*.*")) + sorted(
         (ROOT / "verification/claims").glob("*.toml")
     )
-    read += [PYTHON_TESTS["ProgramTest"]] + files_of_independent()
+    read += [PYTHON_TESTS["ProgramTest"], PYTHON_TESTS["CampaignTest"]] + files_of_independent()
     for path in objects + read:
         key.update(path.read_bytes())
     return key.hexdigest()

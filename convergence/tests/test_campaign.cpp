@@ -91,12 +91,15 @@ TEST_CASE("campaign: a Latin hypercube has one sample in each stratum of every p
       "b = { mean = 5, deviation = 2 }\n");
   REQUIRE(campaign.root.jobs == 40);
   std::set<int> strata_of_a, strata_of_b;
+  double together = 0;  // mean of (a - 15)(b - 5), of deviations 2.9 and 2: 5.8 where b follows a
   for (const auto& row : campaign.root.axes[0].rows) {
     strata_of_a.insert(int((std::stod(row[0]) - 10) * 4));
     strata_of_b.insert(int(40 * std::erfc(-(std::stod(row[1]) - 5) / 2 / std::sqrt(2.0)) / 2));
+    together += (std::stod(row[0]) - 15) * (std::stod(row[1]) - 5) / 40;
   }
   CHECK(strata_of_a.size() == 40);
   CHECK(strata_of_b.size() == 40);
+  CHECK(std::abs(together) < 5.8 / 2);  // three standard errors of independent parameters
   CHECK(normal_quantile(0.975) == Approx(1.959963984540054).epsilon(1e-13));
   CHECK(normal_quantile(1e-9) == Approx(-5.997807015007687).epsilon(1e-12));
   CHECK(normal_quantile(0.5) == 0);

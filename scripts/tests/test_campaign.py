@@ -107,6 +107,16 @@ class CampaignTest(unittest.TestCase):
                 list(table["quantity/height"]), [float(row["height [m]"]) for row in rows]
             )
 
+    def test_a_report_has_its_figures(self) -> None:
+        figure = '[[figure]]\nquantity = "height"\nover = ["bending.stiffness"]\n'
+        file = self.write(GRID + figure)
+        self.campaign("run", file)
+        done = self.campaign("report", file)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        page = Path(done.stdout.strip()).read_text(encoding="utf-8")
+        self.assertEqual(page.count("<figure"), 1)
+        self.assertIn("height [m]", page)
+
     def test_a_row_is_what_simulate_says(self) -> None:
         file = self.write(GRID)
         self.campaign("run", file)
@@ -164,6 +174,9 @@ class CampaignTest(unittest.TestCase):
         before = len(self.result_lines())
         self.campaign("run", file)
         self.assertEqual(len(self.result_lines()), before)
+        expected = '[expect.height]\nat_most = 1e9\nwhy = "test"\n'
+        file = self.write(Path(file).read_text(encoding="utf-8") + expected)
+        self.assertEqual(self.campaign("table", file).returncode, 1)
 
     def test_a_job_beyond_its_limit_is_a_result_and_the_others_run(self) -> None:
         file = self.write(
@@ -213,13 +226,14 @@ class CampaignTest(unittest.TestCase):
         self.campaign("table", file)
         self.assertEqual(len(self.rows()), 4)
 
-    def test_emitted_commands_do_the_work(self) -> None:
+    def test_emitted_commands_do_the_work_once(self) -> None:
         file = self.write(GRID)
         lines = self.campaign("emit", file, "--slice", "4").stdout.splitlines()
         self.assertEqual(len(lines), 2)
-        for line in reversed(lines):
+        for line in [*reversed(lines), *lines]:
             subprocess.run(line, shell=True, check=True, capture_output=True)
         self.assertEqual(self.status(file)["done"], 6)
+        self.assertEqual(len(self.result_lines()), 6)
 
     def test_a_campaign_that_is_killed_goes_on(self) -> None:
         file = self.write(LONG)
@@ -308,4 +322,6 @@ class CampaignTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
+    if sys.argv[1:2] == ["--program"]:
+        del sys.argv[1]  # its file is taken out above
     unittest.main()

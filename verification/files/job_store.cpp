@@ -253,6 +253,14 @@ long JobIndex::merge() {
   return added;
 }
 
+JobIndex::Reading::Reading(JobIndex& index) : index_(index) { index_.database_->run("begin"); }
+JobIndex::Reading::~Reading() {
+  try {
+    index_.database_->run("commit");
+  } catch (const std::exception&) {  // nothing was changed, so nothing is lost
+  }
+}
+
 std::optional<JobResult> JobIndex::find(const std::string& key) {
   if (!find_->bind(key).next()) return {};
   JobResult result = result_of(json::parse(find_->text(0)));

@@ -1,6 +1,9 @@
 // The store of a campaign's jobs: shards are the truth, the index only finds what they say.
+#include <sys/resource.h>
+
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <thread>
@@ -29,6 +32,27 @@ JobResult job_specimen() {
 std::string shard_path(const ScratchFolder& scratch, const std::string& name) {
   return scratch.file("store/batches/batch/shards/" + name + ".jsonl");
 }
+
+/// While it lives, no file grows beyond so many bytes.
+class SmallFiles {
+ public:
+  explicit SmallFiles(rlim_t bytes) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const struct rlimit limit = {bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+    handler_ = std::signal(SIGXFSZ, SIG_IGN);
+  }
+  ~SmallFiles() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+  SmallFiles(const SmallFiles&) = delete;
+  SmallFiles& operator=(const SmallFiles&) = delete;
+
+ private:
+  struct rlimit before_ = {};
+  void (*handler_)(int) = nullptr;
+};
 
 void append_text(const std::string& path, const std::string& text) {
   std::ofstream(path, std::ios::app) << text;
@@ -77,6 +101,7 @@ TEST_CASE("job store: a torn tail is ignored, and read when it is whole") {
   append_text(shard_path(scratch, "a"), line.substr(line.size() / 2));
   CHECK(index.merge() == 1);
   CHECK(index.contains("k2"));
+  CHECK(index.repeated() == 0);
 }
 
 TEST_CASE("job store: damaged lines between whole ones are no results") {
@@ -129,10 +154,17 @@ TEST_CASE("job store: starts without an end are counted, ends and interruptions 
   CHECK(state.open_starts == std::map<std::string, int>{{"cut off", 2}});
 }
 
-TEST_CASE("job store: an index that is damaged is made anew") {
+TEST_CASE("job store: an index that is damaged, or of another layout, is made anew") {
   const ScratchFolder scratch;
+  const std::string path = scratch.file("store/index.sqlite");
   JobShard(shard_path(scratch, "a")).end("k1", job_specimen(), {});
-  std::ofstream(scratch.file("store/index.sqlite")) << std::string(5000, 'x');
+  std::ofstream(path) << std::string(5000, 'x');
+  {
+    JobIndex index(scratch.file("store"));
+    CHECK(index.merge() == 1);
+    CHECK(index.contains("k1"));
+  }
+  SqliteFile(path).run("update layout set version = 1000");
   JobIndex index(scratch.file("store"));
   CHECK(index.merge() == 1);
   CHECK(index.contains("k1"));
@@ -167,6 +199,21 @@ TEST_CASE("shard file: a line after a torn one is whole") {
   CHECK(read(6) == 19);
   CHECK(lines == std::vector<std::string>{"whole", "torn no more"});
   CHECK_THROWS_WITH(ShardFile("/dev/full").append("x"), Catch::Contains("/dev/full"));
+}
+
+TEST_CASE("shard file: a line after one that the disk could not take is whole") {
+  const ScratchFolder scratch;
+  const std::string path = scratch.file("s.jsonl");
+  ShardFile shard(path);
+  shard.append("first");
+  {
+    const SmallFiles limit(9);  // room for three letters more
+    CHECK_THROWS_WITH(shard.append("second"), Catch::Contains("the disk is full"));
+  }
+  shard.append("third");
+  std::vector<std::string> lines;
+  read_whole_lines(path, 0, [&](const std::string& line) { lines.push_back(line); });
+  CHECK(lines == std::vector<std::string>{"first", "sec", "third"});
 }
 
 }  // namespace foldproof

@@ -55,6 +55,7 @@ CampaignTable campaign_table(OpenCampaign& of) {
   const std::map<std::string, int> starts = of.index.open_starts();
   std::vector<std::optional<JobResult>> results;
   std::set<std::string> names;
+  const JobIndex::Reading reading(of.index);
   for (size_t i = 0; i < of.campaign.root.jobs; ++i) {
     const std::vector<Assignment> set = assignments_of(of, i);
     const std::string key = of.keys.key_of(set);

@@ -131,6 +131,7 @@ Standing stand(OpenCampaign& of, std::vector<BatchJob>* missing, size_t most) {
   of.index.merge();  // after batches were asked: what ended since then is in their shards
   const std::map<std::string, int> starts = of.index.open_starts();
   std::set<std::string> asked;  // a job may be stated twice
+  const JobIndex::Reading reading(of.index);
   for (size_t i = 0; i < of.campaign.root.jobs; ++i) {
     const std::string key = of.keys.key_of(assignments_of(of, i));
     const std::optional<JobResult> result = of.index.find(key);

@@ -1,0 +1,113 @@
+"""The results of a campaign as `foldproof campaign table` stores them in campaign.json."""
+from __future__ import annotations
+
+import json
+from collections import Counter
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from data.unreadable import Unreadable, reading
+
+WITH_VALUE = ("holds", "fails")  # outcomes of runs that came to their end
+OF_EVERY_RUN = ("steps", "end_time", "cg_iterations", "exit_code")
+MOST_FIGURES = 6  # of a campaign that names none
+
+
+@dataclass(frozen=True)
+class CampaignFigure:
+    """A quantity over one to three parameters: across, up or a curve each, a panel each."""
+
+    quantity: str
+    over: tuple[str, ...]
+    title: str
+    is_logarithmic: bool
+
+
+@dataclass(frozen=True)
+class CampaignTable:
+    """A row a job; values of runs that did not come to their end are NaN."""
+
+    about: dict[str, str]  # name, title, about, run
+    figures: list[CampaignFigure]
+    findings: list[dict[str, Any]]
+    settings: dict[str, list[str]]  # a column a parameter
+    values: dict[str, np.ndarray]  # a column a quantity
+    units: dict[str, str]
+    outcomes: list[str]
+    reasons: list[str]
+    seconds: np.ndarray
+
+    def counts(self) -> dict[str, int]:
+        """How many jobs had each outcome, the commonest first."""
+        return dict(Counter(self.outcomes).most_common())
+
+    def commonest_reasons(self, most: int) -> list[tuple[str, str, int]]:
+        """Outcome, reason and count of what does not hold."""
+        said = Counter((o, r) for o, r in zip(self.outcomes, self.reasons) if o != "holds")
+        return [(*what, count) for what, count in said.most_common(most)]
+
+
+def load_campaign(folder: Path) -> CampaignTable:
+    """Reads FOLDER/campaign.json; Unreadable if there is none, or it is damaged."""
+    path = folder / "campaign.json"
+    with reading(path):
+        return _table_of(json.loads(path.read_text(encoding="utf-8")))
+
+
+def _table_of(said: dict[str, Any]) -> CampaignTable:
+    outcomes = [str(outcome) for outcome in said["outcomes"]]
+    ended = np.array([outcome in WITH_VALUE for outcome in outcomes], dtype=bool)
+    numbers = [[np.nan if value is None else value for value in row] for row in said["values"]]
+    table = np.array(numbers, dtype=float).reshape(len(outcomes), len(said["quantities"]))
+    table[~ended] = np.nan
+    settings = {
+        name: [str(row[k]) for row in said["settings"]] for k, name in enumerate(said["parameters"])
+    }
+    values = {name: table[:, k] for k, name in enumerate(said["quantities"])}
+    return CampaignTable(
+        {key: str(said[key]) for key in ("name", "title", "about", "run")},
+        [_figure_of(one) for one in said["figures"]],
+        said["findings"],
+        settings,
+        values,
+        said["units"],
+        outcomes,
+        [str(reason) for reason in said["reasons"]],
+        np.array([np.nan if s is None else s for s in said["seconds"]], dtype=float),
+    )
+
+
+def _figure_of(one: dict[str, Any]) -> CampaignFigure:
+    return CampaignFigure(one["quantity"], tuple(one["over"]), one["title"], one["logarithmic"])
+
+
+def figures_of(table: CampaignTable) -> list[CampaignFigure]:
+    """Those that the campaign names; else one for each quantity that differs between runs, over
+    the first parameters, at most three."""
+    if table.figures:
+        return table.figures
+    differ = [
+        name
+        for name, values in table.values.items()
+        if name not in OF_EVERY_RUN
+        and not name.startswith("expect.")
+        and len(np.unique(values[np.isfinite(values)])) > 1
+    ]
+    over = tuple(table.settings)[:3]
+    return [CampaignFigure(name, over, "", False) for name in differ[:MOST_FIGURES] if over]
+
+
+def require_columns(table: CampaignTable, figure: CampaignFigure) -> None:
+    """Unreadable if the campaign does not vary a parameter, or no run has the quantity."""
+    for name in figure.over:
+        if name not in table.settings:
+            raise Unreadable(
+                f"the campaign does not vary '{name}'; it varies {', '.join(table.settings)}"
+            )
+    if figure.quantity not in table.values and any(o in WITH_VALUE for o in table.outcomes):
+        raise Unreadable(
+            f"no run has the quantity '{figure.quantity}'; there are {', '.join(table.values)}"
+        )

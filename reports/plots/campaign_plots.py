@@ -1,0 +1,438 @@
+"""Figures of a campaign: a quantity over one to three parameters as maps and curves. A run that has
+no value is a mark of its outcome, never a gap that looks like nothing."""
+from __future__ import annotations
+
+from collections import defaultdict
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.colorbar import Colorbar
+from matplotlib.colors import LogNorm, Normalize
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Rectangle
+
+from data.campaign_table import WITH_VALUE, CampaignFigure, CampaignTable
+from plots.map_plots import COLOURS_OF_VALUES
+from plots.plot_style import (
+    COLOURS,
+    INK,
+    MARKERS,
+    MUTED,
+    PAPER,
+    Plot,
+    finish,
+    label_axes,
+    level_text,
+    new_figure,
+    say_in_the_middle,
+    scale_axis,
+    with_unit,
+)
+
+# of outcomes without a value; "missing" is hatched
+MARKS = {
+    "stopped": "x",
+    "refused": "s",
+    "timed out": "D",
+    "out of memory": "v",
+    "crashed": "P",
+    "missing": "1",
+}
+MOST_PANELS, MOST_CURVES, MOST_NAMED = 12, 11, 8
+SPARSE = 4  # places for each run beyond which a map becomes points
+
+
+@dataclass(frozen=True)
+class Levels:
+    """The values of a parameter in the order of a figure."""
+
+    texts: list[str]
+    numbers: np.ndarray | None  # None if one is not a number
+    scale: str = "linear"
+
+    def named(self) -> list[str]:
+        """As ticks."""
+        return self.texts if self.numbers is None else [level_text(v) for v in self.numbers]
+
+
+@dataclass(frozen=True)
+class Panel:
+    """The jobs of one small picture, by their places along the first two parameters."""
+
+    title: str
+    jobs: dict[tuple[int, int], list[int]]
+
+
+@dataclass(frozen=True)
+class Layout:
+    """What all panels of a figure share."""
+
+    figure: CampaignFigure
+    unit: str
+    x: Levels
+    y: Levels  # a single level for one parameter
+    panels: list[Panel]
+    panels_left_out: int
+
+
+def levels_of(texts: list[str]) -> Levels:
+    """Ascending numbers, or texts in the order of their first job."""
+    different = list(dict.fromkeys(texts))
+    try:
+        numbers = np.array([float(text) for text in different])
+    except ValueError:
+        return Levels(different, None)
+    order = np.argsort(numbers, kind="stable")
+    numbers = numbers[order]
+    return Levels([different[k] for k in order], numbers, _scale_of(numbers))
+
+
+def _scale_of(numbers: np.ndarray) -> str:
+    """Logarithmic where factors are more even than differences."""
+    if len(numbers) < 3 or not numbers[0] > 0 or numbers[-1] / numbers[0] < 8:
+        return "linear"
+    differences, factors = np.diff(numbers), np.diff(np.log(numbers))
+    uneven = [steps.std() / steps.mean() for steps in (differences, factors)]
+    return "log" if uneven[1] < uneven[0] else "linear"
+
+
+def layout_of(table: CampaignTable, figure: CampaignFigure) -> Layout:
+    """Sorts jobs into panels and places."""
+    columns = [table.settings[name] for name in figure.over]
+    everywhere = [""] * len(table.outcomes)
+    x, y, z = (levels_of(column) for column in (columns + [everywhere] * 2)[:3])
+    place = [{text: k for k, text in enumerate(levels.texts)} for levels in (x, y, z)]
+    jobs: list[dict[tuple[int, int], list[int]]] = [defaultdict(list) for _ in z.texts]
+    for job, (a, b, c) in enumerate(zip(*(columns + [everywhere] * 2)[:3])):
+        jobs[place[2][c]][place[0][a], place[1][b]].append(job)
+    titles = [f"{figure.over[2]} = {text}" if len(figure.over) > 2 else "" for text in z.named()]
+    panels = [Panel(title, dict(cells)) for title, cells in zip(titles, jobs)]
+    unit = table.units.get(figure.quantity, "1")
+    return Layout(figure, unit, x, y, panels[:MOST_PANELS], len(panels[MOST_PANELS:]))
+
+
+def plot_campaign_figure(
+    table: CampaignTable, figure: CampaignFigure, name: str, folder: Path
+) -> list[Plot]:
+    """A map where two parameters have enough values each, and curves where they are few enough to
+    be told apart; at least one of the two."""
+    layout = layout_of(table, figure)
+    values = table.values.get(figure.quantity, np.full(len(table.outcomes), np.nan))
+    if figure.is_logarithmic:
+        values = np.where(values > 0, values, np.nan)
+    said = figure.title or figure.quantity
+    plots = []
+    is_map = len(figure.over) > 1 and len(layout.x.texts) > 1 and len(layout.y.texts) > 2
+    if is_map or len(layout.y.texts) > MOST_CURVES:
+        canvas = _draw_panels(layout, table, values, _draw_map)
+        plots.append(finish(canvas, f"{name}-map", folder, f"{said}: map"))
+    if len(layout.y.texts) <= MOST_CURVES:
+        canvas = _draw_panels(layout, table, values, _draw_curves)
+        plots.append(finish(canvas, f"{name}-curves", folder, f"{said}: curves"))
+    return plots
+
+
+# ---- panels --------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """One panel, ready to be drawn."""
+
+    axes: Axes
+    layout: Layout
+    panel: Panel
+    values: np.ndarray
+    outcomes: list[str]
+    norm: Normalize
+
+
+def _draw_panels(layout: Layout, table: CampaignTable, values: np.ndarray, draw) -> Figure:
+    count = len(layout.panels)
+    columns = min(3, count)
+    rows = -(-count // columns)
+    wide, high = (5.2, 3.4) if count == 1 else (2.5, 2.1)
+    across, up, right, below = wide + 0.75, high + 0.95, 0.75, 0.55
+    canvas = new_figure(columns * across + right, rows * up + below)
+    width, height = canvas.get_size_inches()
+    norm = _norm(values, layout.figure.is_logarithmic)
+    for k, panel in enumerate(layout.panels):
+        left = 0.6 + (k % columns) * across
+        bottom = below + 0.5 + (rows - 1 - k // columns) * up
+        axes = canvas.add_axes((left / width, bottom / height, wide / width, high / height))
+        label_axes(axes, layout.figure.over[0], "1", "", "1")
+        draw(Drawing(axes, layout, panel, values, table.outcomes, norm))
+        axes.annotate(
+            panel.title,
+            (1.0, 1.0),
+            xycoords="axes fraction",
+            xytext=(0, 6),
+            textcoords="offset points",
+            ha="right",
+            va="bottom",
+            color=MUTED,
+        )
+    if draw is _draw_map and np.isfinite(values).any():
+        _draw_colour_bar(canvas, layout, norm, (columns * across + 0.05) / width)
+    _draw_legend(canvas, layout, table, draw is _draw_curves)
+    return canvas
+
+
+def _norm(values: np.ndarray, is_logarithmic: bool) -> Normalize:
+    known = values[np.isfinite(values)]
+    low, high = (known.min(), known.max()) if len(known) else (1.0, 2.0)
+    if low == high:
+        low, high = (low / 2, high * 2) if is_logarithmic else (low - 0.5, high + 0.5)
+    return LogNorm(low, high) if is_logarithmic else Normalize(low, high)
+
+
+def _draw_colour_bar(canvas: Figure, layout: Layout, norm: Normalize, left: float) -> None:
+    height = canvas.get_size_inches()[1]
+    axes = canvas.add_axes((left, 1.05 / height, 0.018, 1 - 1.5 / height))
+    bar = Colorbar(axes, ScalarMappable(norm, COLOURS_OF_VALUES), ticklocation="right")
+    bar.outline.set_visible(False)
+    bar.solids.set_rasterized(True)
+    scale = "log" if layout.figure.is_logarithmic else "linear"
+    scale_axis(axes, "y", scale, np.array([norm.vmin, norm.vmax]))
+    axes.set_ylim(norm.vmin, norm.vmax)
+    axes.annotate(
+        with_unit(layout.figure.quantity, layout.unit),
+        (1.0, 1.0),
+        xycoords="axes fraction",
+        xytext=(38, 14),
+        textcoords="offset points",
+        ha="right",
+        va="bottom",
+        color=INK,
+    )
+
+
+def _draw_legend(canvas: Figure, layout: Layout, table: CampaignTable, has_curves: bool) -> None:
+    jobs = [job for panel in layout.panels for cell in panel.jobs.values() for job in cell]
+    seen = {table.outcomes[job] for job in jobs}
+    keys = []
+    if has_curves and len(layout.figure.over) > 1:
+        keys = [
+            Line2D([], [], color=COLOURS[k], marker=MARKERS[k], markersize=4, label=text)
+            for k, text in enumerate(layout.y.named())
+        ]
+    if "fails" in seen:
+        keys.append(_key("o", "fails", "none"))
+    keys += [_key(mark, o, face_of(o)) for o, mark in MARKS.items() if o in seen]
+    if not keys:
+        return
+    title = layout.figure.over[1] if has_curves and len(layout.figure.over) > 1 else None
+    canvas.legend(
+        handles=keys,
+        title=title,
+        loc="lower left",
+        bbox_to_anchor=(0.01, 0.0),
+        ncol=MOST_NAMED,
+        frameon=False,
+        fontsize=7.4,
+        title_fontsize=7.4,
+        handletextpad=0.4,
+        columnspacing=1.2,
+        alignment="left",
+    )
+
+
+def _key(mark: str, label: str, face: str) -> Line2D:
+    return Line2D(
+        [],
+        [],
+        linestyle="none",
+        marker=mark,
+        markersize=5,
+        markeredgecolor=INK,
+        markerfacecolor=face,
+        label=label,
+    )
+
+
+# ---- a map ---------------------------------------------------------------------------------------
+
+
+def is_sparse(layout: Layout) -> bool:
+    """Whether jobs lie where they please, as samples do."""
+    places = len(layout.x.texts) * len(layout.y.texts)
+    return places > SPARSE * max(len(panel.jobs) for panel in layout.panels)
+
+
+def _draw_map(drawing: Drawing) -> None:
+    axes, layout = drawing.axes, drawing.layout
+    label_axes(axes, layout.figure.over[0], "1", layout.figure.over[1], "1")
+    axes.grid(False)
+    if is_sparse(layout) and layout.x.numbers is not None and layout.y.numbers is not None:
+        _draw_points(drawing)
+        return
+    cells = cells_of(layout, drawing.panel, drawing.values)
+    for (x, y), jobs in drawing.panel.jobs.items():
+        for mark, face in marks_of(drawing, jobs):
+            axes.plot(
+                x, y, mark, markersize=5, markeredgecolor=INK, markerfacecolor=face, zorder=3
+            )
+    axes.add_patch(
+        Rectangle(
+            (0, 0),
+            1,
+            1,
+            transform=axes.transAxes,
+            facecolor="none",
+            edgecolor=MUTED,
+            hatch="/////",
+            linewidth=0.0,
+            zorder=0.5,
+        )
+    )
+    for (x, y), jobs in drawing.panel.jobs.items():
+        if not np.isfinite(cells[y, x]):  # its mark stands on paper; hatched is what no job asks
+            axes.add_patch(
+                Rectangle((x - 0.5, y - 0.5), 1, 1, facecolor=PAPER, linewidth=0.0, zorder=0.7)
+            )
+    axes.pcolormesh(
+        np.arange(cells.shape[1] + 1) - 0.5,
+        np.arange(cells.shape[0] + 1) - 0.5,
+        np.ma.masked_invalid(cells),
+        cmap=COLOURS_OF_VALUES,
+        norm=drawing.norm,
+        rasterized=True,
+        zorder=1,
+    )
+    _name_places(axes, "x", layout.x)
+    _name_places(axes, "y", layout.y)
+
+
+def cells_of(layout: Layout, panel: Panel, values: np.ndarray) -> np.ndarray:
+    """The median of each place, a row for each level of the second parameter; NaN: no value."""
+    cells = np.full((len(layout.y.texts), len(layout.x.texts)), np.nan)
+    for (x, y), jobs in panel.jobs.items():
+        cells[y, x] = median_of(values[jobs])
+    return cells
+
+
+def _name_places(axes: Axes, which: str, levels: Levels) -> None:
+    """Ticks at cells, every second or third one where there are many."""
+    named = levels.named()
+    every = -(-len(named) // MOST_NAMED)
+    places = list(range(0, len(named), every))
+    (axes.set_xticks if which == "x" else axes.set_yticks)(places, [named[k] for k in places])
+    (axes.set_xlim if which == "x" else axes.set_ylim)(-0.5, len(named) - 0.5)
+
+
+def _draw_points(drawing: Drawing) -> None:
+    """Samples at their own places, coloured by their value."""
+    axes, layout = drawing.axes, drawing.layout
+    at = np.array(list(drawing.panel.jobs))
+    x, y = layout.x.numbers[at[:, 0]], layout.y.numbers[at[:, 1]]
+    for which, levels in (("x", layout.x), ("y", layout.y)):
+        scale_axis(axes, which, levels.scale, levels.numbers)
+    values = np.array([median_of(drawing.values[jobs]) for jobs in drawing.panel.jobs.values()])
+    axes.scatter(x, y, 14, values, cmap=COLOURS_OF_VALUES, norm=drawing.norm, linewidths=0)
+    for k, jobs in enumerate(drawing.panel.jobs.values()):
+        for mark, face in marks_of(drawing, jobs):
+            axes.plot(x[k], y[k], mark, markersize=5, markeredgecolor=INK, markerfacecolor=face)
+
+
+# ---- curves --------------------------------------------------------------------------------------
+
+
+def _draw_curves(drawing: Drawing) -> None:
+    axes, layout = drawing.axes, drawing.layout
+    label_axes(axes, layout.figure.over[0], "1", layout.figure.quantity, layout.unit)
+    if not np.isfinite(drawing.values).any():
+        say_in_the_middle(axes, "no run has a value")
+        return
+    places = np.arange(len(layout.x.texts)) if layout.x.numbers is None else layout.x.numbers
+    if layout.x.numbers is None:
+        _name_places(axes, "x", layout.x)
+    else:
+        scale_axis(axes, "x", layout.x.scale, places)
+    scale = "log" if layout.figure.is_logarithmic else "linear"
+    scale_axis(axes, "y", scale, np.array([drawing.norm.vmin, drawing.norm.vmax]))
+    for k in range(len(layout.y.texts)):
+        _draw_curve(drawing, k, places)
+    low, high = drawing.norm.vmin, drawing.norm.vmax
+    share = 0.08  # of room above and below, where runs without a value are marked
+    if scale == "log":
+        axes.set_ylim(low * (low / high) ** share, high * (high / low) ** share)
+    else:
+        axes.set_ylim(low - share * (high - low), high + share * (high - low))
+
+
+def _draw_curve(drawing: Drawing, k: int, places: np.ndarray) -> None:
+    axes, colour = drawing.axes, COLOURS[k]
+    cells = sorted((x, jobs) for (x, y), jobs in drawing.panel.jobs.items() if y == k)
+    medians = [(places[x], median_of(drawing.values[jobs])) for x, jobs in cells]
+    known = [(x, value) for x, value in medians if np.isfinite(value)]
+    joined = "none" if len(places) > 40 else "solid"  # samples are not joined
+    axes.plot(
+        [x for x, _ in known],
+        [value for _, value in known],
+        linestyle=joined,
+        color=colour,
+        marker=MARKERS[k],
+        markersize=max(2.5, 6.5 - k),  # curves that lie on each other are all seen
+        linewidth=max(0.8, 2.4 - 0.4 * k),
+    )
+    for x, jobs in cells:
+        for mark, face in marks_of(drawing, jobs):
+            value = median_of(drawing.values[jobs])
+            is_known = np.isfinite(value)
+            axes.plot(
+                places[x],
+                value if is_known else 0.03 + 0.02 * (k % 2),
+                mark,
+                markersize=7 if face == "none" else 5,
+                markeredgecolor=INK if face == "none" else colour,
+                markerfacecolor=face,
+                transform=axes.transData if is_known else axes.get_xaxis_transform(),
+                scaley=False,
+                zorder=4,
+            )
+
+
+# ---- both ----------------------------------------------------------------------------------------
+
+
+def median_of(values: np.ndarray) -> float:
+    """Of those that are known; NaN if none is."""
+    known = values[np.isfinite(values)]
+    return float(np.median(known)) if len(known) else float("nan")
+
+
+def marks_of(drawing: Drawing, jobs: list[int]) -> list[tuple[str, str]]:
+    """Marker and face of what the runs of a place came to, beside values that hold."""
+    outcomes = {drawing.outcomes[job] for job in jobs}
+    marks = [("o", "none")] if "fails" in outcomes else []
+    return marks + [
+        (mark, face_of(outcome))
+        for outcome, mark in MARKS.items()
+        if outcome in outcomes
+    ]
+
+
+def face_of(outcome: str) -> str:
+    """The colour inside a mark: refused runs never began, and are hollow."""
+    return PAPER if outcome == "refused" else MUTED
+
+
+def figure_notes(table: CampaignTable, figure: CampaignFigure) -> list[str]:
+    """What a reader of the figure needs to know."""
+    layout = layout_of(table, figure)
+    notes = []
+    most = max(len(jobs) for panel in layout.panels for jobs in panel.jobs.values())
+    if most > 1:
+        notes.append(f"Each place is the median of its runs, at most {most}.")
+    without = [o for o in table.outcomes if o not in WITH_VALUE]
+    if without:
+        notes.append(f"{len(without)} of {len(table.outcomes)} runs have no value; marks say why.")
+    if "fails" in table.outcomes:
+        notes.append("A ring is around runs that fail one of their case's expectations.")
+    if layout.panels_left_out:
+        notes.append(f"{layout.panels_left_out} more values of {figure.over[2]} are not drawn.")
+    return notes
