@@ -570,6 +570,11 @@ void add_judge(CLI::App& app, Options& options) {
   judge->add_option("--name", options.name, "Name in the report (default: the solver's own)")
       ->type_name("NAME")
       ->check(some_text("a name"));
+  judge
+      ->add_option("--baseline", options.baseline,
+                   "A kept verdicts.json of `judge`: fail only where the solver got worse since")
+      ->type_name("FILE")
+      ->check(some_text("a file"));
   add_solver_options(judge, options);
   add_out_if_typed(judge, options,
                    "Also write run.h5, verdicts.json and junit.xml into this folder");

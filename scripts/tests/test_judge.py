@@ -154,12 +154,66 @@ class Judge(unittest.TestCase):
             done.stdout,
         )
 
+    def keep_baseline(self, solver: str) -> Path:
+        """The verdicts.json of a solver, kept."""
+        out = self.path / "kept"
+        run("judge", "--solver", solver, "--out", str(out))
+        return out / "verdicts.json"
+
+    def test_known_failures_of_the_baseline_do_not_fail(self) -> None:
+        wrong = bad("wrong", "gravity_scaled")
+        kept = str(self.keep_baseline(wrong))
+        done = run("judge", "--solver", wrong, "--baseline", kept)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertIn("3 fail", done.stdout)
+        self.assertEqual(
+            done.stdout.splitlines()[-1], "against the baseline: 0 worse, 0 better"
+        )
+        done = run("judge", "--solver", TOY, "--baseline", kept)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertIn("better: gravity.speed-grows-by-g-t: holds; was: fails", done.stdout)
+        self.assertTrue(done.stdout.endswith("against the baseline: 0 worse, 3 better\n"))
+
+    def test_what_got_worse_fails_by_name(self) -> None:
+        kept = str(self.keep_baseline(TOY))
+        wrong = bad("wrong", "gravity_scaled")
+        done = run("judge", "--solver", wrong, "--baseline", kept, "--json")
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual(len(json.loads(done.stdout)["findings"]), 23)
+        self.assertRegex(done.stderr, r"worse: gravity.speed-grows-by-g-t: fails, measured/bound")
+        self.assertTrue(done.stderr.endswith("against the baseline: 3 worse, 0 better\n"))
+        done = run("judge", "--solver", "/nowhere/solver", "--baseline", kept)
+        self.assertEqual(done.returncode, 1)
+        self.assertTrue(done.stdout.endswith("against the baseline: 23 worse, 0 better\n"))
+
+    def test_the_job_of_the_page_judges_against_its_baseline(self) -> None:
+        """The commands of CI.md, in a repository as it describes."""
+        page = (SUBJECTS / "CI.md").read_text(encoding="utf-8")
+        job = re.search(r"```yaml\n(.*?)```", page, re.S).group(1)
+        self.assertLessEqual(len(job.splitlines()), 10)
+        keep = re.search(r"^foldproof judge .*$", page, re.M).group()
+        judge = re.search(r"run: (foldproof judge .*)$", job, re.M).group(1)
+        adapter = self.path / "adapter"
+        for program in (TOY, bad("wrong", "gravity_scaled")):
+            adapter.write_text(f"#!/bin/sh\n{program}\n", encoding="utf-8")
+            adapter.chmod(0o755)
+            command = judge if program != TOY else f"{keep} && {judge}"
+            done = subprocess.run(
+                command, shell=True, cwd=self.path, capture_output=True, text=True, check=False,
+                env={**os.environ, "PATH": f"{PROGRAM.parent}:{os.environ['PATH']}"},
+            )
+            self.assertEqual(done.returncode, int(program != TOY), done.stdout + done.stderr)
+        self.assertIn("against the baseline: 3 worse", done.stdout)
+        self.assertTrue((self.path / "judged" / "junit.xml").is_file())
+
     def test_bad_input_is_one_line_and_exit_code_2(self) -> None:
         for words, told in (
             (["judge"], "--solver"), (["judge", "--solver", ""], "--solver"),
             (["judge", "--solver", TOY, "--settings", "iterations"], "write KEY=VALUE"),
             (["judge", "--solver", TOY, "--settings", "=3"], "write KEY=VALUE"),
             (["judge", "--solver", TOY, "--seconds", "0"], "--seconds"), (["subject"], "--check"),
+            (["judge", "--solver", TOY, "--baseline", "none.json"], "none.json"),
+            (["judge", "--solver", TOY, "--baseline", str(PROGRAM)], "no verdicts.json"),
             (["serve"], "FOLDPROOF_IN is not set"),
             (["serve", "--integrator", "X"], "known: A, B, C"),
             (["serve", "--precision", "f2"], "--precision"),

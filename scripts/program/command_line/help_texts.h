@@ -102,8 +102,8 @@ Examples:
   foldproof judge --solver ./adapter --name mine --settings iterations=20 --out mine
 
 Exit codes:
-  0    every law holds, or does not apply
-  1    a law fails
+  0    every law holds, or does not apply; with --baseline: nothing got worse
+  1    a law fails; with --baseline: something got worse
   2    bad input)";
 
 constexpr const char* subject =
