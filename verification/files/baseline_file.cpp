@@ -71,7 +71,8 @@ std::vector<KeptVerdict> read_baseline(const std::string& path) {
   try {
     std::ifstream file(path);
     if (!file) throw InputError("it cannot be opened");
-    for (const nlohmann::json& row : nlohmann::json::parse(file).at("findings")) {
+    const nlohmann::json whole = nlohmann::json::parse(file);
+    for (const nlohmann::json& row : whole.at("findings")) {
       if (row.at("kind") == "claim") continue;
       kept.push_back(kept_verdict(row));
       if (!names.insert(kept.back().name).second)
