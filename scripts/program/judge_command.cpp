@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "scripts/program/command_line/out_folder.h"
@@ -9,6 +10,7 @@
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
 #include "scripts/program/run_all.h"
+#include "verification/files/atomic_file.h"
 #include "verification/files/baseline_file.h"
 #include "verification/files/verdicts_file.h"
 #include "verification/subjects/served/reference_server.h"
@@ -65,10 +67,36 @@ std::string changes_text(const BaselineChanges& changes) {
                             changes.better.size());
 }
 
-void write_results(const std::string& folder, const RunRecord& run) {
+/// What the solver says of itself, and how it was asked; empty texts if it did not start.
+std::string solver_json(const Judgement& judgement, const SolverCommand& command) {
+  using nlohmann::json;
+  const Declaration& d = judgement.declaration;
+  const bool started = !d.name.empty();
+  json said = {{"schema", 1},
+               {"name", d.name},
+               {"version", d.version},
+               {"level", started ? fmt::format("L{}", d.level) : ""},
+               {"precision", !started ? "" : d.is_single ? "f4" : "f8"},
+               {"scheme", d.scheme},
+               {"order", d.order},
+               {"capabilities", d.capabilities},
+               {"solve_tolerance", d.solve_tolerance},
+               {"command", command.command},
+               {"settings", json::object()},
+               {"mapping", json::object()}};
+  for (const auto& [key, value] : command.settings) said["settings"][key] = value;
+  for (const auto& [key, value] : judgement.mapping) {
+    json& words = said["mapping"][key];  // scenes may be mapped otherwise
+    words = words.is_null() ? value : words.get<std::string>() + "; " + value;
+  }
+  return said.dump(1, ' ', false, json::error_handler_t::replace) + "\n";
+}
+
+void write_results(const std::string& folder, const RunRecord& run, const std::string& solver) {
   if (folder.empty()) return;
   write_run(folder + "/run.h5", run);
   write_verdicts(folder, run);
+  write_text(folder + "/solver.json", solver);
 }
 
 RunRecord run_of(const Judgement& judgement, const Options& options) {
@@ -97,7 +125,7 @@ int judge_another_solver(const Options& options) {
       log_line(fmt::format("{} {}", outcome_text(record), record.name));
   });
   const RunRecord run = run_of(judgement, options);
-  write_results(options.out, run);
+  write_results(options.out, run, solver_json(judgement, command));
   if (options.json)
     fmt::print("{}", verdicts_json(run));
   else

@@ -105,7 +105,8 @@ class Judge(unittest.TestCase):
         self.assertRegex(done.stdout, r"\d\d hold, 0 fail, 0 inconclusive, 0 not applicable")
         self.assertIn("mapping of stretch: a spring per edge", done.stdout)
         self.assertEqual(
-            {path.name for path in out.iterdir()}, {"run.h5", "verdicts.json", "junit.xml"}
+            {path.name for path in out.iterdir()},
+            {"run.h5", "verdicts.json", "junit.xml", "solver.json"},
         )
         with h5py.File(out / "run.h5") as file:
             self.assertEqual(
@@ -153,6 +154,49 @@ class Judge(unittest.TestCase):
             ),
             done.stdout,
         )
+
+    def test_judged_solvers_stand_on_one_page(self) -> None:
+        """The toys, a wrong one and the reference, as `foldproof report` shows them."""
+        solvers = {
+            "python": (TOY, "iterations=20"), "cpp": (f"exec '{ROOT}/build/toy_solver'", "n=1"),
+            "wrong": (bad("wrong", "gravity_scaled"), "n=2"), "none": ("/nowhere/solver", "n=3"),
+            "reference": (f"exec '{PROGRAM}' serve --integrator A --precision f4", "n=4"),
+        }
+        for name, (command, setting) in solvers.items():
+            run("judge", "--solver", command, "--out", str(self.path / name), "--settings", setting)
+        done = run("report", *(str(self.path / name) for name in solvers))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        page = self.path / "reference" / "compare.html"
+        self.assertEqual(done.stdout.strip(), str(page))
+        said = json.loads(page.with_suffix(".json").read_text(encoding="utf-8"))
+        self.assertEqual(len(said["laws"]), 23)
+        for solver, (command, setting) in zip(said["solvers"], solvers.values()):
+            self.assertEqual(solver["command"], command)
+            self.assertEqual(solver["settings"], dict([setting.split("=")]))
+        self.assertEqual([one["counts"]["fails"] for one in said["solvers"]], [0, 0, 3, 23, 0])
+        self.assertEqual(said["solvers"][0]["version"], "1.0")
+        for number, name in enumerate(solvers):
+            verdicts = json.loads((self.path / name / "verdicts.json").read_text(encoding="utf-8"))
+            for law, row in zip(said["laws"], verdicts["findings"]):
+                answer = law["answers"][number]
+                self.assertEqual(law["name"], row["name"])
+                for key in ("outcome", "measured", "bound", "unit", "note"):
+                    self.assertEqual(answer[key], row[key])
+        text = page.read_text(encoding="utf-8")
+        self.assertIn('Differences from a law <span class="quiet">26</span>', text)
+        for words in ("5 solvers on trial", "f4", "a spring per edge", "iterations</b> 20"):
+            self.assertIn(words, text)
+
+    def test_folders_that_are_not_all_trials_are_refused(self) -> None:
+        kept = self.keep_baseline(TOY).parent
+        (self.path / "empty").mkdir()
+        done = run("report", str(kept), str(kept), str(self.path / "empty"))
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
+        self.assertIn("only if `foldproof judge --out` wrote each of them", done.stderr)
+        (kept / "solver.json").write_text("[]", encoding="utf-8")
+        done = run("report", str(kept), str(kept))
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("solver.json", done.stderr)
 
     def keep_baseline(self, solver: str) -> Path:
         """The verdicts.json of a solver, kept."""

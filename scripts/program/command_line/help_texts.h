@@ -38,6 +38,8 @@ Exit codes:
 
 constexpr const char* report =
     R"(Needs the Debian packages python3-h5py, python3-matplotlib and python3-jinja2; --pdf also chromium.
+Folders that `judge --out` wrote become one page of laws by solvers, compare.html in the last of
+them, with its numbers in compare.json.
 
 Examples:
   foldproof report results --summary                   one page: what was tested, what holds
