@@ -66,9 +66,18 @@ class Flex extends Solver {
   advance(dt, steps) {
     this.model.opt.timestep = dt;
     for (let k = 0; k < steps; ++k) mujoco.mj_step(this.model, this.data);
+    this.require_no_warning();
     const { rest, x } = this.scene, moved = this.spread(this.data.qpos, x.map(() => 0));
     this.x = x.map((p, i) => this.moves[Math.floor(i / 3)] ? rest[i] + moved[i] : p);
     this.v = this.spread(this.data.qvel, x.map(() => 0));
+  }
+
+  /// MuJoCo resets an unstable motion to its start, and goes on.
+  require_no_warning() {
+    for (let kind = 0; kind < this.data.warning.size(); ++kind) {
+      const { number, lastinfo } = this.data.warning.get(kind);
+      if (number > 0) throw new Error(mujoco.mju_warningText(kind, lastinfo));
+    }
   }
 
   forces() {
