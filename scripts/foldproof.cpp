@@ -398,8 +398,9 @@ void add_pages(CLI::App& app, Options& options) {
       app, options,
       {"report", "Make DIR/report.html from stored results, or compare folders", help::report},
       make_report);
-  add_input(report, "DIR", options.names,
-            "Folder with run.h5 or case files; two of them, or several judged solvers, are compared")
+  add_input(
+      report, "DIR", options.names,
+      "Folder with run.h5 or case files; two of them, or several judged solvers, are compared")
       ->expected(1, 20);
   add_switch(report, "--summary", options.summary,
              "Write the one-page verdict instead: DIR/summary.html, .md and .pdf");

@@ -76,7 +76,9 @@ std::string solver_json(const Judgement& judgement, const SolverCommand& command
                {"name", d.name},
                {"version", d.version},
                {"level", started ? fmt::format("L{}", d.level) : ""},
-               {"precision", !started ? "" : d.is_single ? "f4" : "f8"},
+               {"precision", !started      ? ""
+                             : d.is_single ? "f4"
+                                           : "f8"},
                {"scheme", d.scheme},
                {"order", d.order},
                {"capabilities", d.capabilities},
