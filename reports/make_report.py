@@ -8,6 +8,7 @@
     reports/make_report.py results --summary            -> results/summary.*: html, md, pdf
     reports/make_report.py results --site               -> results/report/index.html and its pages
     reports/make_report.py results mine                 -> mine/compare.html: what differs
+    reports/make_report.py jolt mujoco bullet           -> bullet/compare.html: judged solvers
     reports/make_report.py results mine --summary       -> mine/summary.*, with changes
 """
 from __future__ import annotations
@@ -30,6 +31,7 @@ from data.command_line import OneLineParser, refuse, require_modules, require_pr
 require_modules("make_report", "numpy", "h5py", "matplotlib", "jinja2")
 from data.fault_record import with_record  # noqa: E402
 from data.history import row_of  # noqa: E402
+from data.trials import is_trial, read_trial  # noqa: E402
 from data.results import (
     Case,
     CaseEntry,
@@ -62,6 +64,7 @@ from pages.page import (
 from pages.printed import print_page  # noqa: E402
 from pages.summary import REFERENCE, since_last  # noqa: E402
 from pages.summary_page import render_summary  # noqa: E402
+from pages.trials import render_trials, trials_json, trials_of  # noqa: E402
 from pages.trust import (
     kinds_of,
     load_coverage,
@@ -91,23 +94,32 @@ def main() -> int:
     """Returns 0 when the page is written, 2 when there is nothing to report
     on, or no browser to print with."""
     said = arguments()
-    if said.site and (said.other or said.pdf or said.out or said.summary):
+    if said.site and (said.others or said.pdf or said.out or said.summary):
         refuse(
             "make_report",
             "--site takes one folder, and neither --pdf, --out nor --summary; leave those out",
+        )
+    others: list[Path] = said.others
+    are_trials = bool(others) and all(is_trial(folder) for folder in (said.dir, *others))
+    if len(others) > 1 and (not are_trials or said.summary):
+        refuse(
+            "make_report",
+            "more than two folders are compared only if `foldproof judge --out` wrote each of them",
         )
     if said.pdf:
         require_program("make_report", PACKAGE)
     try:
         if said.summary:
-            outs = make_summary(said.other or said.dir, said.dir if said.other else None)
+            outs = make_summary(others[0] if others else said.dir, said.dir if others else None)
             return show_paths(outs)
         if said.site:
             return show_paths(
                 [make_site(said.dir, said.figures or said.dir / "figures", said.papers)]
             )
-        if said.other:
-            out = compare_runs(said.dir, said.other, said.out)
+        if are_trials:
+            out = compare_trials([said.dir, *others], said.out)
+        elif others:
+            out = compare_runs(said.dir, others[0], said.out)
         else:
             out = make_report(
                 said.dir,
@@ -141,17 +153,20 @@ def arguments() -> argparse.Namespace:
         "dir", metavar="DIR", type=Path, help="folder with run.h5, bench.h5 or case files"
     )
     parser.add_argument(
-        "other",
+        "others",
         metavar="OTHER",
         type=Path,
-        nargs="?",
-        help="folder or run.h5 of another run: DIR (a folder or run.h5) is compared with it",
+        nargs="*",
+        help=(
+            "folder or run.h5 of another run: DIR (a folder or run.h5) is compared with it; or "
+            "folders of other judged solvers"
+        ),
     )
     parser.add_argument(
         "--out",
         metavar="FILE",
         type=Path,
-        help="the page (default: DIR/report.html; of two runs compare.html beside OTHER's run.h5)",
+        help="the page (default: DIR/report.html; of more runs compare.html in the last folder)",
     )
     parser.add_argument(
         "--figures", metavar="DIR", type=Path, help="folder for the figures (default: DIR/figures)"
@@ -191,6 +206,17 @@ def compare_runs(first: Path, other: Path, out: Path | None) -> Path:
     out = out or b.run.path.parent / "compare.html"
     out.parent.mkdir(parents=True, exist_ok=True)
     write_whole(out, render_comparison(compare(a, b)).encode("utf-8"))
+    return out
+
+
+def compare_trials(folders: list[Path], out: Path | None) -> Path:
+    """Writes the page of judged solvers, and its numbers as JSON beside it. Throws Unreadable if
+    one of them cannot be read."""
+    said = trials_of([read_trial(folder) for folder in folders])
+    out = out or folders[-1] / "compare.html"
+    out.parent.mkdir(parents=True, exist_ok=True)
+    write_whole(out, render_trials(said).encode("utf-8"))
+    write_whole(out.with_suffix(".json"), trials_json(said).encode("utf-8"))
     return out
 
 

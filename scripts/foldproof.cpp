@@ -396,11 +396,12 @@ void add_history(CLI::App& app, Options& options) {
 void add_pages(CLI::App& app, Options& options) {
   CLI::App* report = add_command(
       app, options,
-      {"report", "Make DIR/report.html from stored results, or compare two folders", help::report},
+      {"report", "Make DIR/report.html from stored results, or compare folders", help::report},
       make_report);
-  add_input(report, "DIR", options.names,
-            "Folder with run.h5 or case files; two of them are compared")
-      ->expected(1, 2);
+  add_input(
+      report, "DIR", options.names,
+      "Folder with run.h5 or case files; two of them, or several judged solvers, are compared")
+      ->expected(1, 20);
   add_switch(report, "--summary", options.summary,
              "Write the one-page verdict instead: DIR/summary.html, .md and .pdf");
   add_switch(report, "--site", options.site,
@@ -570,9 +571,14 @@ void add_judge(CLI::App& app, Options& options) {
   judge->add_option("--name", options.name, "Name in the report (default: the solver's own)")
       ->type_name("NAME")
       ->check(some_text("a name"));
+  judge
+      ->add_option("--baseline", options.baseline,
+                   "A kept verdicts.json of `judge`: fail only where the solver got worse since")
+      ->type_name("FILE")
+      ->check(some_text("a file"));
   add_solver_options(judge, options);
   add_out_if_typed(judge, options,
-                   "Also write run.h5, verdicts.json and junit.xml into this folder");
+                   "Also write run.h5, verdicts.json, junit.xml and solver.json into this folder");
   add_json(judge, options);
   CLI::App* subject =
       add_command(app, options,

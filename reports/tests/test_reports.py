@@ -473,7 +473,7 @@ def load_tests(loader: unittest.TestLoader, tests: unittest.TestSuite,
                _: str | None) -> unittest.TestSuite:
     """This file's tests, and those of the files named here, which are run with it."""
     names = ("page", "compare", "history", "needs", "errors", "pieces", "results", "summary",
-             "site", "formulas", "campaign_page")
+             "site", "formulas", "campaign_page", "trials")
     tests.addTests(loader.loadTestsFromNames([f"tests.test_{name}" for name in names]))
     return tests
 

@@ -2,12 +2,16 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <nlohmann/json.hpp>
+#include <optional>
 
 #include "scripts/program/command_line/out_folder.h"
 #include "scripts/program/commands.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
 #include "scripts/program/run_all.h"
+#include "verification/files/atomic_file.h"
+#include "verification/files/baseline_file.h"
 #include "verification/files/verdicts_file.h"
 #include "verification/subjects/served/reference_server.h"
 #include "verification/subjects/suite/conformance.h"
@@ -53,36 +57,86 @@ std::string failure_notes(const std::vector<Record>& records) {
   return text;
 }
 
+std::string changes_text(const BaselineChanges& changes) {
+  std::string text;
+  for (const auto& [word, lines] : {std::pair("worse", &changes.worse),
+                                    {"better", &changes.better},
+                                    {"neither worse nor better", &changes.other}})
+    for (const std::string& line : *lines) text += fmt::format("{}: {}\n", word, line);
+  return text + fmt::format("against the baseline: {} worse, {} better\n", changes.worse.size(),
+                            changes.better.size());
+}
+
+/// What the solver says of itself, and how it was asked; empty texts if it did not start.
+std::string solver_json(const Judgement& judgement, const SolverCommand& command) {
+  using nlohmann::json;
+  const Declaration& d = judgement.declaration;
+  const bool started = !d.name.empty();
+  json said = {{"schema", 1},
+               {"name", d.name},
+               {"version", d.version},
+               {"level", started ? fmt::format("L{}", d.level) : ""},
+               {"precision", !started      ? ""
+                             : d.is_single ? "f4"
+                                           : "f8"},
+               {"scheme", d.scheme},
+               {"order", d.order},
+               {"capabilities", d.capabilities},
+               {"solve_tolerance", d.solve_tolerance},
+               {"command", command.command},
+               {"settings", json::object()},
+               {"mapping", json::object()}};
+  for (const auto& [key, value] : command.settings) said["settings"][key] = value;
+  for (const auto& [key, value] : judgement.mapping) {
+    json& words = said["mapping"][key];  // scenes may be mapped otherwise
+    words = words.is_null() ? value : words.get<std::string>() + "; " + value;
+  }
+  return said.dump(1, ' ', false, json::error_handler_t::replace) + "\n";
+}
+
+void write_results(const std::string& folder, const RunRecord& run, const std::string& solver) {
+  if (folder.empty()) return;
+  write_run(folder + "/run.h5", run);
+  write_verdicts(folder, run);
+  write_text(folder + "/solver.json", solver);
+}
+
+RunRecord run_of(const Judgement& judgement, const Options& options) {
+  RunRecord run;
+  run.provenance = provenance(options.command);
+  run.tier = options.tier;
+  run.subject = options.name.empty() ? judgement.declaration.name : options.name;
+  if (run.subject.empty()) run.subject = options.solver;
+  run.subject_version = judgement.declaration.version;
+  run.records = judgement.records;
+  return run;
+}
+
 constexpr const char* smoke_failed =
     "A smoke law fails: suspect the adapter before the engine. Try `foldproof subject --check`.\n";
 
 }  // namespace
 
 int judge_another_solver(const Options& options) {
+  std::optional<std::vector<KeptVerdict>> baseline;
+  if (!options.baseline.empty()) baseline = read_baseline(options.baseline);
   const OutFolder folder(options.out);
   const SolverCommand command = solver_command(options);
   const Judgement judgement = judge_solver(command, portable_laws(), [](const Record& record) {
     if (record.outcome != Outcome::holds && record.outcome != Outcome::not_applicable)
       log_line(fmt::format("{} {}", outcome_text(record), record.name));
   });
-  RunRecord run;
-  run.provenance = provenance(options.command);
-  run.tier = options.tier;
-  run.subject = options.name.empty() ? judgement.declaration.name : options.name;
-  if (run.subject.empty()) run.subject = command.command;
-  run.subject_version = judgement.declaration.version;
-  run.records = judgement.records;
-  if (!options.out.empty()) {
-    write_run(options.out + "/run.h5", run);
-    write_verdicts(options.out, run);
-  }
-  if (options.json) {
+  const RunRecord run = run_of(judgement, options);
+  write_results(options.out, run, solver_json(judgement, command));
+  if (options.json)
     fmt::print("{}", verdicts_json(run));
-    return exit_code(run);
-  }
-  fmt::print("{}{}{}{}{}\n", heading(judgement, command), listing(run), failure_notes(run.records),
-             judgement.smoke_holds ? "" : smoke_failed, summary(run));
-  return exit_code(run);
+  else
+    fmt::print("{}{}{}{}{}\n", heading(judgement, command), listing(run),
+               failure_notes(run.records), judgement.smoke_holds ? "" : smoke_failed, summary(run));
+  if (!baseline) return exit_code(run);
+  const BaselineChanges changes = changes_since(*baseline, run.records);
+  fmt::print(options.json ? stderr : stdout, "{}", changes_text(changes));
+  return changes.worse.empty() ? all_hold : some_fail;
 }
 
 int check_subject(const Options& options) {

@@ -48,6 +48,7 @@ struct Options {
   std::vector<std::string> errors = {"1e-2", "1e-3"};  // of precision: wanted, as typed [1]
   double effort = 1;         // of precision: largest work of a run over the usual budget [1]
   std::string solver, name;  // of judge, subject: command; of judge: name in the report
+  std::string baseline;      // of judge: a kept verdicts.json, or empty
   double patience = 60;      // of judge, subject: limit of silence [s]
   std::string integrator = "C", precision = "f8";         // of serve
   std::string engine = "local", engine_options, scratch;  // of campaign

@@ -1,51 +1,60 @@
 #!/usr/bin/python3
 """Tests of the adapters of other engines, of those that are installed:
-`scripts/engines bullet` installs one."""
+`scripts/engines bullet jolt mujoco` installs them."""
 from __future__ import annotations
 
 import json
+import shutil
 import subprocess
 import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 RECORDED = "3.24"  # the version whose findings adapters/bullet/README.md records
+SMOKE = {"smoke.sheet-at-rest-stays", "smoke.free-fall-within-5-percent"}
 
 
 def run(*words: str | Path) -> subprocess.CompletedProcess[str]:
     return subprocess.run(words, cwd=ROOT, capture_output=True, text=True, check=False)
 
 
+def require_engine(name: str) -> None:
+    """Builds the engine's adapters; skips the tests where it is not installed."""
+    built = run("scripts/engines", "--no-install", name)
+    if built.returncode == 3:
+        print(f"{name}: skipped: not installed")
+        raise unittest.SkipTest(built.stderr.strip())
+    if built.returncode:
+        raise AssertionError(built.stderr)
+
+
+def judge(command: str, *options: str) -> dict[str, str]:
+    """The outcome of each law."""
+    done = run("build/foldproof", "judge", "--solver", command, "--json", *options)
+    return {row["name"]: row["outcome"] for row in json.loads(done.stdout)["findings"]}
+
+
+def those(outcomes: dict[str, str], wanted: str) -> set[str]:
+    return {name for name, outcome in outcomes.items() if outcome == wanted}
+
+
 class Bullet(unittest.TestCase):
     @classmethod
     def setUpClass(cls) -> None:
-        built = run("scripts/engines", "--no-install", "bullet")
-        if built.returncode == 3:
-            print("bullet: skipped: not installed")
-            raise unittest.SkipTest(built.stderr.strip())
-        if built.returncode:
-            raise AssertionError(built.stderr)
+        require_engine("bullet")
 
-    def judged(self, name: str, *options: str) -> dict:
-        return json.loads(
-            run(
-                "build/foldproof", "judge", "--solver", f"build/engines/{name}", "--json", *options
-            ).stdout
-        )
+    def judged(self, name: str, *options: str) -> dict[str, str]:
+        return judge(f"build/engines/{name}", *options)
 
-    def require(self, judged: dict, failing: set[str]) -> None:
+    def require(self, outcomes: dict[str, str], failing: set[str]) -> None:
         """The smoke laws hold, 60 % of the suite applies, and what fails is what was recorded."""
-        outcomes = {row["name"]: row["outcome"] for row in judged["findings"]}
-        smoke = {outcome for name, outcome in outcomes.items() if name.startswith("smoke.")}
-        self.assertEqual(smoke, {"holds"})
-        applicable = [outcome for outcome in outcomes.values() if outcome in ("holds", "fails")]
-        self.assertGreaterEqual(len(applicable), 0.6 * len(outcomes))
+        holds, fails = those(outcomes, "holds"), those(outcomes, "fails")
+        self.assertLessEqual(SMOKE, holds)
+        self.assertGreaterEqual(len(holds | fails), 0.6 * len(outcomes))
         if run("dpkg-query", "-W", "-f", "${Version}", "libbullet-dev").stdout.startswith(
             f"{RECORDED}+"
         ):
-            self.assertEqual(
-                {name for name, outcome in outcomes.items() if outcome == "fails"}, failing
-            )
+            self.assertEqual(fails, failing)
 
     def test_the_adapters_keep_to_the_protocol(self) -> None:
         for name in ("bullet_deformable", "bullet_position_based"):
@@ -64,10 +73,92 @@ class Bullet(unittest.TestCase):
                      {"inertia.free-sheet-keeps-its-velocity", "gravity.speed-grows-by-g-t",
                       "gravity.fall-is-as-exact-as-the-order-claims", "symmetry.renumbering"})
 
+
+class Npm(unittest.TestCase):
+    """Engines that npm has, in the version that scripts/engines pins."""
+
+    name, version = "jolt", "1.1.0"
+    applicable = 16  # laws, of 23
+    failing = {"": set()}  # what fails, by setting
+
+    @classmethod
+    def setUpClass(cls) -> None:
+        require_engine(cls.name)
+        cls.command = f"exec node build/engines/{cls.name}/{cls.name}.mjs"
+
+    def test_the_adapter_keeps_to_the_protocol_and_names_its_version(self) -> None:
+        done = run("build/foldproof", "subject", "--check", self.command)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertIn(f" {self.version}: ", done.stdout)
+
+    def test_it_meets_the_laws_but_those_that_its_page_records(self) -> None:
+        for setting, failing in self.failing.items():
+            outcomes = judge(self.command, *(["--settings", setting] if setting else []))
+            self.assertLessEqual(SMOKE, those(outcomes, "holds"))
+            self.assertEqual(those(outcomes, "fails"), failing, setting)
+            applicable = those(outcomes, "holds") | failing
+            self.assertEqual((len(applicable), len(outcomes)), (self.applicable, 23), setting)
+
+    def test_an_adapter_is_short(self) -> None:
+        text = (ROOT / f"verification/subjects/adapters/{self.name}/{self.name}.mjs").read_text()
+        self.assertLessEqual(len(text.splitlines()), 150)
+
+
+class Jolt(Npm):
+    failing = {"": set(), "iterations=1": set()}
+
+
+class MuJoCo(Npm):
+    name, version, applicable = "mujoco", "3.14.0", 22
+    failing = {
+        "": set(),
+        "integrator=RK4": set(),
+        "integrator=discrete": {
+            "momentum.linear-is-conserved", "momentum.linear-of-unequal-masses-is-conserved"
+        },
+    }
+
+    def test_the_modulus_is_as_recorded_without_the_adapter(self) -> None:
+        """The script of its page, and the numbers there."""
+        adapters = ROOT / "verification/subjects/adapters/mujoco"
+        script = adapters / "repro" / "uniaxial.mjs"
+        copy = ROOT / "build" / "engines" / "mujoco" / script.name
+        copy.write_bytes(script.read_bytes())
+        rows = [line.split() for line in run("node", copy).stdout.splitlines()[2:]]
+        self.assertEqual(len(rows), 6)
+        page = (adapters / "README.md").read_text(encoding="utf-8")
+        recorded = [
+            [float(cell) for cell in line.strip("|").split("|")]
+            for line in page.splitlines()
+            if line.startswith("| 0")
+        ]
+        for row, expected in zip(rows, 2 * recorded, strict=True):
+            for cell, value in zip(row[1:], expected, strict=True):
+                self.assertAlmostEqual(float(cell), value, delta=0.0011)
+
+
+del Npm  # only the engines are run
+
+
+class Template(unittest.TestCase):
+    def test_the_javascript_toy_meets_every_law(self) -> None:
+        if not shutil.which("node"):
+            print("JavaScript: skipped: not installed")
+            self.skipTest("node is not installed")
+        command = "exec node verification/subjects/adapters/toy_solver.mjs"
+        done = run("build/foldproof", "subject", "--check", command)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertEqual(set(judge(command).values()), {"holds"})
+
+
+class Script(unittest.TestCase):
     def test_an_unknown_engine_is_refused(self) -> None:
         done = run("scripts/engines", "bulet")
         self.assertEqual((done.returncode, done.stdout), (2, ""))
-        self.assertEqual(done.stderr, "scripts/engines: unknown engine 'bulet'; known: bullet\n")
+        self.assertEqual(
+            done.stderr,
+            "scripts/engines: unknown engine 'bulet'; known: bullet, jolt, mujoco\n",
+        )
 
 
 if __name__ == "__main__":

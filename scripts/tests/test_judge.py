@@ -105,7 +105,8 @@ class Judge(unittest.TestCase):
         self.assertRegex(done.stdout, r"\d\d hold, 0 fail, 0 inconclusive, 0 not applicable")
         self.assertIn("mapping of stretch: a spring per edge", done.stdout)
         self.assertEqual(
-            {path.name for path in out.iterdir()}, {"run.h5", "verdicts.json", "junit.xml"}
+            {path.name for path in out.iterdir()},
+            {"run.h5", "verdicts.json", "junit.xml", "solver.json"},
         )
         with h5py.File(out / "run.h5") as file:
             self.assertEqual(
@@ -154,12 +155,109 @@ class Judge(unittest.TestCase):
             done.stdout,
         )
 
+    def test_judged_solvers_stand_on_one_page(self) -> None:
+        """The toys, a wrong one and the reference, as `foldproof report` shows them."""
+        solvers = {
+            "python": (TOY, "iterations=20"), "cpp": (f"exec '{ROOT}/build/toy_solver'", "n=1"),
+            "wrong": (bad("wrong", "gravity_scaled"), "n=2"), "none": ("/nowhere/solver", "n=3"),
+            "reference": (f"exec '{PROGRAM}' serve --integrator A --precision f4", "n=4"),
+        }
+        for name, (command, setting) in solvers.items():
+            run("judge", "--solver", command, "--out", str(self.path / name), "--settings", setting)
+        done = run("report", *(str(self.path / name) for name in solvers))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        page = self.path / "reference" / "compare.html"
+        self.assertEqual(done.stdout.strip(), str(page))
+        said = json.loads(page.with_suffix(".json").read_text(encoding="utf-8"))
+        self.assertEqual(len(said["laws"]), 23)
+        for solver, (command, setting) in zip(said["solvers"], solvers.values()):
+            self.assertEqual(solver["command"], command)
+            self.assertEqual(solver["settings"], dict([setting.split("=")]))
+        self.assertEqual([one["counts"]["fails"] for one in said["solvers"]], [0, 0, 3, 23, 0])
+        self.assertEqual(said["solvers"][0]["version"], "1.0")
+        for number, name in enumerate(solvers):
+            verdicts = json.loads((self.path / name / "verdicts.json").read_text(encoding="utf-8"))
+            for law, row in zip(said["laws"], verdicts["findings"]):
+                answer = law["answers"][number]
+                self.assertEqual(law["name"], row["name"])
+                for key in ("outcome", "measured", "bound", "unit", "note"):
+                    self.assertEqual(answer[key], row[key])
+        text = page.read_text(encoding="utf-8")
+        self.assertIn('Differences from a law <span class="quiet">26</span>', text)
+        for words in ("5 solvers on trial", "f4", "a spring per edge", "iterations</b> 20"):
+            self.assertIn(words, text)
+
+    def test_folders_that_are_not_all_trials_are_refused(self) -> None:
+        kept = self.keep_baseline(TOY).parent
+        (self.path / "empty").mkdir()
+        done = run("report", str(kept), str(kept), str(self.path / "empty"))
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
+        self.assertIn("only if `foldproof judge --out` wrote each of them", done.stderr)
+        (kept / "solver.json").write_text("[]", encoding="utf-8")
+        done = run("report", str(kept), str(kept))
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("solver.json", done.stderr)
+
+    def keep_baseline(self, solver: str) -> Path:
+        """The verdicts.json of a solver, kept."""
+        out = self.path / "kept"
+        run("judge", "--solver", solver, "--out", str(out))
+        return out / "verdicts.json"
+
+    def test_known_failures_of_the_baseline_do_not_fail(self) -> None:
+        wrong = bad("wrong", "gravity_scaled")
+        kept = str(self.keep_baseline(wrong))
+        done = run("judge", "--solver", wrong, "--baseline", kept)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertIn("3 fail", done.stdout)
+        self.assertEqual(
+            done.stdout.splitlines()[-1], "against the baseline: 0 worse, 0 better"
+        )
+        done = run("judge", "--solver", TOY, "--baseline", kept)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertIn("better: gravity.speed-grows-by-g-t: holds; was: fails", done.stdout)
+        self.assertTrue(done.stdout.endswith("against the baseline: 0 worse, 3 better\n"))
+
+    def test_what_got_worse_fails_by_name(self) -> None:
+        kept = str(self.keep_baseline(TOY))
+        wrong = bad("wrong", "gravity_scaled")
+        done = run("judge", "--solver", wrong, "--baseline", kept, "--json")
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual(len(json.loads(done.stdout)["findings"]), 23)
+        self.assertRegex(done.stderr, r"worse: gravity.speed-grows-by-g-t: fails, measured/bound")
+        self.assertTrue(done.stderr.endswith("against the baseline: 3 worse, 0 better\n"))
+        done = run("judge", "--solver", "/nowhere/solver", "--baseline", kept)
+        self.assertEqual(done.returncode, 1)
+        self.assertTrue(done.stdout.endswith("against the baseline: 23 worse, 0 better\n"))
+
+    def test_the_job_of_the_page_judges_against_its_baseline(self) -> None:
+        """The commands of CI.md, in a repository as it describes."""
+        page = (SUBJECTS / "CI.md").read_text(encoding="utf-8")
+        job = re.search(r"```yaml\n(.*?)```", page, re.S).group(1)
+        self.assertLessEqual(len(job.splitlines()), 10)
+        keep = re.search(r"^foldproof judge .*$", page, re.M).group()
+        judge = re.search(r"run: (foldproof judge .*)$", job, re.M).group(1)
+        adapter = self.path / "adapter"
+        for program in (TOY, bad("wrong", "gravity_scaled")):
+            adapter.write_text(f"#!/bin/sh\n{program}\n", encoding="utf-8")
+            adapter.chmod(0o755)
+            command = judge if program != TOY else f"{keep} && {judge}"
+            done = subprocess.run(
+                command, shell=True, cwd=self.path, capture_output=True, text=True, check=False,
+                env={**os.environ, "PATH": f"{PROGRAM.parent}:{os.environ['PATH']}"},
+            )
+            self.assertEqual(done.returncode, int(program != TOY), done.stdout + done.stderr)
+        self.assertIn("against the baseline: 3 worse", done.stdout)
+        self.assertTrue((self.path / "judged" / "junit.xml").is_file())
+
     def test_bad_input_is_one_line_and_exit_code_2(self) -> None:
         for words, told in (
             (["judge"], "--solver"), (["judge", "--solver", ""], "--solver"),
             (["judge", "--solver", TOY, "--settings", "iterations"], "write KEY=VALUE"),
             (["judge", "--solver", TOY, "--settings", "=3"], "write KEY=VALUE"),
             (["judge", "--solver", TOY, "--seconds", "0"], "--seconds"), (["subject"], "--check"),
+            (["judge", "--solver", TOY, "--baseline", "none.json"], "none.json"),
+            (["judge", "--solver", TOY, "--baseline", str(PROGRAM)], "no verdicts.json"),
             (["serve"], "FOLDPROOF_IN is not set"),
             (["serve", "--integrator", "X"], "known: A, B, C"),
             (["serve", "--precision", "f2"], "--precision"),

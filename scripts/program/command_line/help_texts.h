@@ -38,6 +38,8 @@ Exit codes:
 
 constexpr const char* report =
     R"(Needs the Debian packages python3-h5py, python3-matplotlib and python3-jinja2; --pdf also chromium.
+Folders that `judge --out` wrote become one page of laws by solvers, compare.html in the last of
+them, with its numbers in compare.json.
 
 Examples:
   foldproof report results --summary                   one page: what was tested, what holds
@@ -102,8 +104,8 @@ Examples:
   foldproof judge --solver ./adapter --name mine --settings iterations=20 --out mine
 
 Exit codes:
-  0    every law holds, or does not apply
-  1    a law fails
+  0    every law holds, or does not apply; with --baseline: nothing got worse
+  1    a law fails; with --baseline: something got worse
   2    bad input)";
 
 constexpr const char* subject =

@@ -1,0 +1,97 @@
+"""Trials of other solvers: folders that `foldproof judge --out` wrote. Outcomes are the words that
+the program stored; nothing is judged here."""
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from math import nan
+from pathlib import Path
+from typing import Any
+
+from data.unreadable import Unreadable, reading
+
+FACTS = "solver.json"
+ABOUT = ("date", "version", "commit", "tree", "cpu", "command")
+
+
+@dataclass(frozen=True)
+class Law:
+    """A law of the portable suite."""
+
+    name: str
+    claim: str
+    source: str
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What one solver made of one law."""
+
+    outcome: str
+    measured: float  # [unit]; NaN: no number
+    bound: float  # [unit]
+    unit: str
+    why_bound: str
+    note: str
+
+
+@dataclass(frozen=True)
+class Trial:
+    """One judged solver."""
+
+    folder: str  # as it was named
+    subject: str  # its name in the report
+    facts: dict[str, Any]  # solver.json: declaration, command, settings, mapping
+    program: dict[str, Any]  # which foldproof judged, when, by which command
+    laws: list[Law]
+    answers: dict[str, Answer]  # by the law's name
+
+
+def is_trial(folder: Path) -> bool:
+    """Whether the folder holds a judged solver."""
+    return (folder / FACTS).is_file()
+
+
+def read_trial(folder: Path) -> Trial:
+    """Throws Unreadable naming the file."""
+    path = folder / "verdicts.json"
+    facts, verdicts = _facts(folder / FACTS), _object(path)
+    with reading(path):
+        rows, program = verdicts["findings"], verdicts["program"]
+        return Trial(
+            folder=str(folder),
+            subject=str(program["subject"]),
+            facts=facts,
+            program={key: str(program[key]) for key in ABOUT},
+            laws=[Law(row["name"], row["claim"], row["source"]) for row in rows],
+            answers={row["name"]: _answer(row) for row in rows},
+        )
+
+
+def _object(path: Path) -> dict[str, Any]:
+    with reading(path):
+        value = json.loads(path.read_text(encoding="utf-8"))
+    if not isinstance(value, dict):
+        raise Unreadable(f"{path}: is no JSON object")
+    return value
+
+
+def _facts(path: Path) -> dict[str, Any]:
+    facts = _object(path)
+    texts = ("version", "level", "precision", "scheme", "command")
+    with reading(path):
+        return {
+            **{key: str(facts[key]) for key in texts},
+            **{key: dict(facts[key]) for key in ("settings", "mapping")},
+            "capabilities": [str(one) for one in facts["capabilities"]],
+            "order": int(facts["order"]),
+            "solve_tolerance": float(facts["solve_tolerance"]),
+        }
+
+
+def _answer(row: dict[str, Any]) -> Answer:
+    def number(key: str) -> float:
+        return nan if row[key] is None else float(row[key])
+
+    texts = {key: str(row[key]) for key in ("outcome", "unit", "why_bound", "note")}
+    return Answer(measured=number("measured"), bound=number("bound"), **texts)

@@ -1,0 +1,122 @@
+"""The page of several judged solvers: laws by solvers. Arranges what was stored; judges nothing."""
+from __future__ import annotations
+
+import json
+from collections import Counter
+from dataclasses import asdict, dataclass
+from math import isfinite
+from typing import Any
+
+from data.trials import Answer, Law, Trial
+from pages.page import OUTCOMES, new_environment
+
+DECLINED = "the subject does not offer "  # begins the note of a law that does not apply
+
+
+@dataclass(frozen=True)
+class Row:
+    """A law, and the answers in the order of the solvers; None: not asked."""
+
+    law: Law
+    answers: list[Answer | None]
+
+
+@dataclass(frozen=True)
+class Trials:
+    """All that the page shows."""
+
+    trials: list[Trial]
+    labels: list[str]
+    rows: list[Row]
+
+    @property
+    def differences(self) -> list[tuple[Law, str, Answer]]:
+        """Laws that a solver does not meet, with its label."""
+        return [
+            (row.law, label, answer)
+            for row in self.rows
+            for label, answer in zip(self.labels, row.answers)
+            if answer and answer.outcome not in ("holds", "not applicable")
+        ]
+
+    @property
+    def declined(self) -> list[tuple[str, str, list[str]]]:
+        """What a solver does not offer: its label, the reason, the names of the laws."""
+        found: dict[tuple[str, str], list[str]] = {}
+        for row in self.rows:
+            for label, answer in zip(self.labels, row.answers):
+                if answer and answer.outcome == "not applicable":
+                    found.setdefault((label, reason(answer)), []).append(row.law.name)
+        return [(label, why, names) for (label, why), names in found.items()]
+
+
+def trials_of(trials: list[Trial]) -> Trials:
+    """Laws in the order of the first solver that was asked them."""
+    laws = {law.name: law for trial in trials for law in trial.laws}
+    rows = [Row(law, [trial.answers.get(name) for trial in trials]) for name, law in laws.items()]
+    return Trials(trials, _labels(trials), rows)
+
+
+def _labels(trials: list[Trial]) -> list[str]:
+    """Names of the solvers; the folder tells those apart that share one."""
+    counted = Counter(trial.subject for trial in trials)
+    return [
+        trial.subject if counted[trial.subject] == 1 else f"{trial.subject} ({trial.folder})"
+        for trial in trials
+    ]
+
+
+def reason(answer: Answer) -> str:
+    """Why a law does not apply."""
+    return "does not offer " + answer.note.removeprefix(DECLINED)
+
+
+def count(trial: Trial) -> list[tuple[str, int]]:
+    """How many laws have each outcome."""
+    counted = Counter(answer.outcome for answer in trial.answers.values())
+    others = sorted(set(counted) - set(OUTCOMES))
+    return [(outcome, counted[outcome]) for outcome in (*OUTCOMES, *others)]
+
+
+def trials_json(said: Trials) -> str:
+    """The page for other programs; null: no number, or not asked."""
+    return (
+        json.dumps(
+            {
+                "schema": 1,
+                "solvers": [
+                    {
+                        "name": label,
+                        "folder": trial.folder,
+                        **trial.facts,
+                        "judged_by": trial.program,
+                        "counts": dict(count(trial)),
+                    }
+                    for trial, label in zip(said.trials, said.labels)
+                ],
+                "laws": [
+                    {**asdict(row.law), "answers": [_answer_json(answer) for answer in row.answers]}
+                    for row in said.rows
+                ],
+            },
+            indent=1,
+            allow_nan=False,
+        )
+        + "\n"
+    )
+
+
+def _answer_json(answer: Answer | None) -> dict[str, Any] | None:
+    if answer is None:
+        return None
+    return {
+        key: None if isinstance(value, float) and not isfinite(value) else value
+        for key, value in asdict(answer).items()
+    }
+
+
+def render_trials(said: Trials) -> str:
+    """The page as one HTML text."""
+    environment = new_environment()
+    environment.globals.update(count=count, reason=reason)
+    return environment.get_template("trials.html.j2").render(said=said)

@@ -1,0 +1,141 @@
+"""Tests of the page of judged solvers, on two made-up ones."""
+from __future__ import annotations
+
+import json
+import tempfile
+import unittest
+from pathlib import Path
+from typing import Any
+
+from data.trials import is_trial, read_trial
+from data.unreadable import Unreadable
+from make_report import compare_trials
+from pages.trials import render_trials, trials_of
+
+HOSTILE = "<script>alert(1)</script>"
+
+
+def finding(name: str, outcome: str, measured: float | None, note: str = "") -> dict[str, Any]:
+    return {
+        "name": name,
+        "claim": f"Claim of {name}.",
+        "source": "Newton",
+        "outcome": outcome,
+        "measured": measured,
+        "bound": 0.5,
+        "unit": "m",
+        "why_bound": "rounding",
+        "note": note,
+    }
+
+
+def put_trial(folder: Path, subject: str, findings: list[dict[str, Any]]) -> Path:
+    folder.mkdir()
+    program = {
+        "subject": subject,
+        "date": "2026-11-26",
+        "version": "0.2.0",
+        "commit": "c",
+        "tree": "clean",
+        "cpu": "a processor",
+        "command": "foldproof judge ...",
+    }
+    facts = {
+        "version": "3.1",
+        "level": "L1",
+        "precision": "f4",
+        "scheme": "Euler",
+        "order": 0,
+        "capabilities": [],
+        "solve_tolerance": 0.0,
+        "command": "./adapter",
+        "settings": {"iterations": "20"},
+        "mapping": {"stretch": HOSTILE},
+    }
+    (folder / "verdicts.json").write_text(json.dumps({"program": program, "findings": findings}))
+    (folder / "solver.json").write_text(json.dumps(facts))
+    return folder
+
+
+class JudgedSolvers(unittest.TestCase):
+    def setUp(self) -> None:
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.path = Path(folder.name)
+        declined = "the subject does not offer level L2"
+        self.a = put_trial(
+            self.path / "a",
+            "mine",
+            [
+                finding("one", "holds", 0.25),
+                finding("two", "fails", 3.5),
+                finding("four", "not applicable", None, declined),
+                finding("five", "not applicable", None, declined),
+            ],
+        )
+        self.b = put_trial(
+            self.path / "b",
+            "mine",
+            [
+                finding("one", "fails", None, "stopped by an error: crashed"),
+                finding("three", "inconclusive", 0.5),
+            ],
+        )
+
+    def test_laws_are_matched_by_name(self) -> None:
+        said = trials_of([read_trial(self.a), read_trial(self.b)])
+        self.assertEqual(
+            [row.law.name for row in said.rows], ["one", "two", "four", "five", "three"]
+        )
+        self.assertEqual(
+            [[answer and answer.outcome for answer in row.answers] for row in said.rows[:2]],
+            [["holds", "fails"], ["fails", None]],
+        )
+        self.assertEqual(said.labels, [f"mine ({self.a})", f"mine ({self.b})"])
+        self.assertEqual(
+            [(law.name, answer.outcome) for law, _, answer in said.differences],
+            [("one", "fails"), ("two", "fails"), ("three", "inconclusive")],
+        )
+        self.assertEqual(
+            said.declined, [(f"mine ({self.a})", "does not offer level L2", ["four", "five"])]
+        )
+
+    def test_the_page_shows_numbers_reasons_settings_and_versions(self) -> None:
+        text = render_trials(trials_of([read_trial(self.a), read_trial(self.b)]))
+        for words in (
+            "2 solvers on trial",
+            "3.5",
+            "at most",
+            "does not offer level L2",
+            "iterations</b> 20",
+            "3.1",
+            "stopped by an error: crashed",
+            "order not claimed",
+            "not asked",
+        ):
+            self.assertIn(words, text)
+        self.assertNotIn(HOSTILE, text)
+
+    def test_the_json_has_what_the_page_has(self) -> None:
+        out = compare_trials([self.a, self.b], None)
+        self.assertEqual(out, self.b / "compare.html")
+        said = json.loads(out.with_suffix(".json").read_text(encoding="utf-8"))
+        self.assertEqual(
+            [law["answers"][0] and law["answers"][0]["measured"] for law in said["laws"]],
+            [0.25, 3.5, None, None, None],
+        )
+        self.assertEqual(said["solvers"][1]["settings"], {"iterations": "20"})
+        self.assertEqual(
+            said["solvers"][0]["counts"],
+            {"holds": 1, "fails": 1, "inconclusive": 0, "not applicable": 2},
+        )
+
+    def test_what_is_no_trial_is_refused_by_its_file(self) -> None:
+        self.assertFalse(is_trial(self.path))
+        for name in ("solver.json", "verdicts.json"):
+            kept = (self.a / name).read_text(encoding="utf-8")
+            for text in ("", "[]", '{"program": {}}'):
+                (self.a / name).write_text(text, encoding="utf-8")
+                with self.assertRaisesRegex(Unreadable, name):
+                    read_trial(self.a)
+            (self.a / name).write_text(kept, encoding="utf-8")

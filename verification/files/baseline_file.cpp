@@ -1,0 +1,116 @@
+#include "verification/files/baseline_file.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "reference/types.h"
+
+namespace foldproof {
+
+namespace {
+
+constexpr double much_worse = 2;  // as `foldproof history` calls a margin
+
+double number_of(const nlohmann::json& row, const char* key) {
+  const nlohmann::json& value = row.at(key);
+  return value.is_null() ? std::nan("") : value.get<double>();
+}
+
+/// holds 0, inconclusive 1, fails 2; not applicable -1
+int badness(std::string_view outcome) {
+  if (outcome == name_of(Outcome::not_applicable)) return -1;
+  if (outcome == name_of(Outcome::holds)) return 0;
+  return outcome == name_of(Outcome::inconclusive) ? 1 : 2;
+}
+
+/// How far it is from its law: measured/bound, or the number itself where the bound is 0.
+double excess(double measured, double bound) { return bound > 0 ? measured / bound : measured; }
+
+enum class Change { none, worse, better, other };
+
+Change change_of(const KeptVerdict& kept, const Record& now) {
+  const Verdict& verdict = now.finding.verdict;
+  const int before = badness(kept.outcome), after = badness(outcome_text(now));
+  if (after < 0) return before == 0 ? Change::worse : before < 0 ? Change::none : Change::other;
+  if (after != before) return after > std::max(before, 0) ? Change::worse : Change::better;
+  if (after == 0) return Change::none;
+  const double excess_before = excess(kept.measured, kept.bound);
+  const double excess_now = excess(verdict.measured, verdict.bound);
+  if (std::isnan(excess_before)) return std::isnan(excess_now) ? Change::none : Change::better;
+  if (!(excess_now <= much_worse * excess_before)) return Change::worse;  // NaN too
+  return excess_now * much_worse < excess_before ? Change::better : Change::none;
+}
+
+/// "fails, measured/bound 3.2e+04", "holds"
+std::string phrase(std::string_view outcome, double measured, double bound) {
+  if (badness(outcome) <= 0) return std::string(outcome);
+  if (std::isnan(measured)) return fmt::format("{} without a number", outcome);
+  return bound > 0 ? fmt::format("{}, measured/bound {:.3g}", outcome, measured / bound)
+                   : fmt::format("{}, measured {:.3g}", outcome, measured);
+}
+
+KeptVerdict kept_verdict(const nlohmann::json& row) {
+  KeptVerdict kept{row.at("name").get<std::string>(), row.at("outcome").get<std::string>(),
+                   number_of(row, "measured"), number_of(row, "bound")};
+  for (const Outcome known :
+       {Outcome::holds, Outcome::fails, Outcome::inconclusive, Outcome::not_applicable})
+    if (kept.outcome == name_of(known)) return kept;
+  throw InputError(fmt::format("the outcome of {} is '{}'", kept.name, kept.outcome));
+}
+
+}  // namespace
+
+std::vector<KeptVerdict> read_baseline(const std::string& path) {
+  std::vector<KeptVerdict> kept;
+  std::set<std::string> names;
+  try {
+    std::ifstream file(path);
+    if (!file) throw InputError("it cannot be opened");
+    const nlohmann::json whole = nlohmann::json::parse(file);
+    for (const nlohmann::json& row : whole.at("findings")) {
+      if (row.at("kind") == "claim") continue;
+      kept.push_back(kept_verdict(row));
+      if (!names.insert(kept.back().name).second)
+        throw InputError("it has " + kept.back().name + " twice");
+    }
+    if (kept.empty()) throw InputError("it has no findings");
+  } catch (const std::exception& error) {
+    throw InputError(fmt::format("{}: no verdicts.json of a finished run: {}", path, error.what()));
+  }
+  return kept;
+}
+
+BaselineChanges changes_since(const std::vector<KeptVerdict>& kept,
+                              const std::vector<Record>& records) {
+  std::map<std::string, KeptVerdict> before;
+  for (const KeptVerdict& one : kept) before.emplace(one.name, one);
+  BaselineChanges changes;
+  for (const Record& now : records) {
+    const Verdict& verdict = now.finding.verdict;
+    const std::string is = phrase(outcome_text(now), verdict.measured, verdict.bound);
+    const auto old = before.extract(now.name);
+    if (old.empty()) {
+      changes.other.push_back(fmt::format("{}: {}; not in the baseline", now.name, is));
+      continue;
+    }
+    const KeptVerdict& was = old.mapped();
+    const Change change = change_of(was, now);
+    if (change == Change::none) continue;
+    auto& lines = change == Change::worse    ? changes.worse
+                  : change == Change::better ? changes.better
+                                             : changes.other;
+    lines.push_back(
+        fmt::format("{}: {}; was: {}", now.name, is, phrase(was.outcome, was.measured, was.bound)));
+  }
+  for (const auto& [name, was] : before)
+    changes.other.push_back(fmt::format("{}: not asked any more; was: {}", name,
+                                        phrase(was.outcome, was.measured, was.bound)));
+  return changes;
+}
+
+}  // namespace foldproof

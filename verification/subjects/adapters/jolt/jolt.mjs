@@ -1,0 +1,110 @@
+// Adapter of Jolt's soft bodies; `scripts/engines jolt` installs them.
+// Settings: iterations = substeps of each step (5); compliance_scale = of all edges (1).
+import fs from 'node:fs';
+import initialize from 'jolt-physics';
+import { Declined, Solver, serve } from '../foldproof_solver.mjs';
+
+const Jolt = await initialize();
+const version =
+  JSON.parse(fs.readFileSync(new URL('node_modules/jolt-physics/package.json', import.meta.url)))
+    .version;
+
+class SoftBody extends Solver {
+  name = 'Jolt soft body'; version = version; precision = 'f4';
+  scheme = 'position based, with compliance'; order = 0;
+
+  constructor() {
+    super();
+    const settings = new Jolt.JoltSettings();
+    settings.mMaxWorkerThreads = 1;
+    const pairs = new Jolt.ObjectLayerPairFilterTable(1);
+    const layers = new Jolt.BroadPhaseLayerInterfaceTable(1, 1);
+    layers.MapObjectToBroadPhaseLayer(0, new Jolt.BroadPhaseLayer(0));
+    settings.mObjectLayerPairFilter = pairs;
+    settings.mBroadPhaseLayerInterface = layers;
+    settings.mObjectVsBroadPhaseLayerFilter =
+      new Jolt.ObjectVsBroadPhaseLayerFilterTable(layers, 1, pairs, 1);
+    this.jolt = new Jolt.JoltInterface(settings);
+    this.system = this.jolt.GetPhysicsSystem();
+    this.bodies = this.system.GetBodyInterface();
+  }
+
+  prepare(scene) {
+    if (scene.header.material.bending_rigidity > 0)
+      throw new Declined('a bending rigidity in N m: its hinges have a compliance in 1/J');
+    this.remove();
+    const { gravity, settings } = scene.header;
+    const iterations = Number(settings.iterations ?? 5);
+    const scale = Number(settings.compliance_scale ?? 1);
+    this.system.SetGravity(new Jolt.Vec3(...gravity));
+    const sheet = this.sheet(scene, scale);
+    const origin = new Jolt.RVec3(0, 0, 0), unturned = Jolt.Quat.prototype.sIdentity();
+    const creation = new Jolt.SoftBodyCreationSettings(sheet, origin, unturned, 0);
+    Object.assign(creation, {
+      mNumIterations: iterations, mLinearDamping: 0, mMaxLinearVelocity: 1e6, mPressure: 0,
+      mUpdatePosition: false, mMakeRotationIdentity: false, mAllowSleeping: false,
+    });
+    this.body = this.bodies.CreateSoftBody(creation);
+    this.bodies.AddBody(this.body.GetID(), Jolt.EActivation_Activate);
+    this.motion = Jolt.castObject(this.body.GetMotionProperties(), Jolt.SoftBodyMotionProperties);
+    this.set_state(scene.x, scene.v);
+    return {
+      stretch: `each edge's compliance is ${scale} over its stiffness [m/N]`,
+      damping: 'none but that of the method', step: `${iterations} substeps`,
+    };
+  }
+
+  /// Particles, faces and edges of the scene.
+  sheet(scene, scale) {
+    const { x, mass, held, triangles, edges, edge_stiffness, rest_lengths } = scene;
+    const sheet = new Jolt.SoftBodySharedSettings();
+    const particle = new Jolt.SoftBodySharedSettingsVertex();
+    for (let i = 0; i < mass.length; ++i) {
+      const p = particle.mPosition;
+      [p.x, p.y, p.z] = x.slice(3 * i, 3 * i + 3);
+      particle.mInvMass = held.includes(i) ? 0 : 1 / mass[i];
+      sheet.mVertices.push_back(particle);
+    }
+    for (let t = 0; t < triangles.length; t += 3)
+      sheet.AddFace(new Jolt.SoftBodySharedSettingsFace(...triangles.slice(t, t + 3), 0));
+    for (let e = 0; e < rest_lengths.length; ++e) {
+      const [a, b] = edges.slice(2 * e, 2 * e + 2), compliance = scale / edge_stiffness[e];
+      const edge = new Jolt.SoftBodySharedSettingsEdge(a, b, compliance);
+      edge.mRestLength = rest_lengths[e];
+      sheet.mEdgeConstraints.push_back(edge);
+    }
+    sheet.Optimize();
+    return sheet;
+  }
+
+  remove() {
+    if (!this.body) return;
+    const id = this.body.GetID();
+    this.bodies.RemoveBody(id);
+    this.bodies.DestroyBody(id);
+    this.body = null;
+  }
+
+  set_state(x, v) {
+    this.x = Float32Array.from(x);
+    this.v = Float32Array.from(v);
+    for (let i = 0; i < x.length / 3; ++i) {
+      const particle = this.motion.GetVertex(i);
+      particle.mPosition.Set(...x.slice(3 * i, 3 * i + 3));
+      particle.mPreviousPosition = particle.mPosition;
+      particle.mVelocity.Set(...v.slice(3 * i, 3 * i + 3));
+    }
+  }
+
+  advance(dt, steps) {
+    for (let k = 0; k < steps; ++k) this.jolt.Step(dt, 1);
+    for (let i = 0; i < this.x.length / 3; ++i) {
+      const particle = this.motion.GetVertex(i);
+      const p = particle.mPosition, u = particle.mVelocity;
+      this.x.set([p.GetX(), p.GetY(), p.GetZ()], 3 * i);
+      this.v.set([u.GetX(), u.GetY(), u.GetZ()], 3 * i);
+    }
+  }
+}
+
+serve(new SoftBody());

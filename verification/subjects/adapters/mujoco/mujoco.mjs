@@ -1,0 +1,94 @@
+// Adapter of MuJoCo's flexible bodies; `scripts/engines mujoco` installs them.
+// Settings: integrator = Euler, RK4 or discrete; poisson = ratio (1/3); thickness [m] (1e-3).
+import load from '@mujoco/mujoco';
+import { Declined, Solver, serve } from '../foldproof_solver.mjs';
+
+const mujoco = await load();
+const orders = { Euler: 1, RK4: 4, discrete: 1 };
+const vector = (x, i) => Array.from(x.slice(3 * i, 3 * i + 3)).join(' ');
+
+class Flex extends Solver {
+  name = 'MuJoCo flex'; version = mujoco.mj_versionString(); level = 'L2';
+  scheme = 'Euler, Runge-Kutta or discrete'; order = 1;
+
+  prepare(scene) {
+    const { material, gravity, settings } = scene.header;
+    if (material.bending_rigidity > 0) throw new Declined('bending: not mapped yet');
+    if (material.rest_length_scale !== 1) throw new Declined('rest lengths that no rest shape has');
+    const integrator = settings.integrator ?? 'Euler', poisson = Number(settings.poisson ?? 1 / 3);
+    if (!(integrator in orders)) throw new Error(`unknown integrator ${integrator}`);
+    const thickness = Number(settings.thickness ?? 1e-3), young = material.young / thickness;
+    this.scene = scene;
+    this.moves = Array.from(scene.mass, (_, i) => !scene.held.includes(i));
+    const joints = 'xyz'.split('').map((_, c) =>
+      `<joint type="slide" axis="${[0, 1, 2].map(k => Number(k === c)).join(' ')}"/>`).join('');
+    const bodies = Array.from(scene.mass, (mass, i) =>
+      `<body name="b${i}" pos="${vector(this.moves[i] ? scene.rest : scene.x, i)}">
+         <inertial pos="0 0 0" mass="${mass}" diaginertia="1e-9 1e-9 1e-9"/>
+         ${this.moves[i] ? joints : ''}</body>`).join('');
+    this.model?.delete(), this.data?.delete();
+    this.model = mujoco.MjModel.from_xml_string(`<mujoco>
+      <compiler boundmass="0" boundinertia="0"/>
+      <option integrator="${integrator}" gravity="${gravity.join(' ')}">
+        <flag contact="disable" constraint="disable"/></option>
+      <worldbody>${bodies}</worldbody>
+      <deformable><flex name="sheet" dim="2" radius="1e-4"
+        body="${this.moves.map((_, i) => `b${i}`).join(' ')}"
+        element="${scene.triangles.join(' ')}">
+        <elasticity young="${young}" poisson="${poisson}" thickness="${thickness}"
+          elastic2d="stretch"/>
+        <contact internal="false" selfcollide="none" contype="0" conaffinity="0"/>
+      </flex></deformable></mujoco>`);
+    this.data = new mujoco.MjData(this.model);
+    this.set_state(scene.x, scene.v);
+    return {
+      stretch: `elastic triangles, not springs: ${thickness} m thick, Young's modulus ` +
+        `${young} Pa, Poisson's ratio ${poisson.toFixed(3)}; springs of edges are ignored`,
+      damping: 'none', step: integrator,
+    };
+  }
+
+  /// Numbers of the particles that move, as MuJoCo orders them; and back.
+  free(numbers) { return numbers.filter((_, i) => this.moves[Math.floor(i / 3)]); }
+  spread(numbers, otherwise) {
+    let at = 0;
+    return otherwise.map((n, i) => this.moves[Math.floor(i / 3)] ? numbers[at++] : n);
+  }
+
+  set_state(x, v) {
+    this.x = Float64Array.from(x);
+    this.v = Float64Array.from(v);
+    mujoco.mj_resetData(this.model, this.data);
+    this.data.qpos.set(this.free(this.x.map((p, i) => p - this.scene.rest[i])));
+    this.data.qvel.set(this.free(this.v));
+  }
+
+  advance(dt, steps) {
+    this.model.opt.timestep = dt;
+    for (let k = 0; k < steps; ++k) mujoco.mj_step(this.model, this.data);
+    this.require_no_warning();
+    const { rest, x } = this.scene, moved = this.spread(this.data.qpos, x.map(() => 0));
+    this.x = x.map((p, i) => this.moves[Math.floor(i / 3)] ? rest[i] + moved[i] : p);
+    this.v = this.spread(this.data.qvel, x.map(() => 0));
+  }
+
+  /// MuJoCo resets an unstable motion to its start, and goes on.
+  require_no_warning() {
+    for (let kind = 0; kind < this.data.warning.size(); ++kind) {
+      const { number, lastinfo } = this.data.warning.get(kind);
+      if (number > 0) throw new Error(mujoco.mju_warningText(kind, lastinfo));
+    }
+  }
+
+  forces() {
+    mujoco.mj_forward(this.model, this.data);
+    const { qfrc_passive, qfrc_bias } = this.data;
+    return this.spread(qfrc_passive.map((f, i) => f - qfrc_bias[i]), this.scene.x.map(() => 0));
+  }
+
+  damping() { return this.scene.x.map(() => 0); }
+
+  energy() { throw new Declined("the energy: MuJoCo's leaves out the elastic one of flexes"); }
+}
+
+serve(new Flex());

@@ -1,0 +1,96 @@
+// Kept verdicts: what counts as worse, and which files are refused.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "reference/types.h"
+#include "verification/files/baseline_file.h"
+#include "verification/files/verdicts_file.h"
+#include "verification/specimens/scratch_folder.h"
+
+using namespace foldproof;
+
+namespace {
+
+Record record_of(const std::string& name, Outcome outcome, double measured, double bound = 1) {
+  Record record;
+  record.name = name;
+  record.kind = "check";
+  record.finding.verdict = {measured, bound, 0, "1", ""};
+  record.outcome = outcome;
+  return record;
+}
+
+KeptVerdict kept_of(Outcome outcome, double measured, double bound = 1) {
+  return {"law", std::string(name_of(outcome)), measured, bound};
+}
+
+/// 'w' worse, 'b' better, 'o' other, '-' as it was.
+char change(const KeptVerdict& kept, const Record& now) {
+  const BaselineChanges changes = changes_since({kept}, {now});
+  CHECK(changes.worse.size() + changes.better.size() + changes.other.size() <= 1);
+  if (!changes.worse.empty()) return 'w';
+  if (!changes.better.empty()) return 'b';
+  return changes.other.empty() ? '-' : 'o';
+}
+
+constexpr auto holds = Outcome::holds, fails = Outcome::fails, inconclusive = Outcome::inconclusive,
+               not_applicable = Outcome::not_applicable;
+
+}  // namespace
+
+TEST_CASE("baseline: a change of the outcome is worse, better or neither") {
+  const Outcome outcomes[] = {holds, inconclusive, fails, not_applicable};
+  const char* const expected[] = {"-www", "b-wo", "bb-o", "bww-"};  // rows: as it was
+  for (int was = 0; was < 4; ++was)
+    for (int is = 0; is < 4; ++is) {
+      INFO(name_of(outcomes[was]) << " before, " << name_of(outcomes[is]) << " now");
+      CHECK(change(kept_of(outcomes[was], 3), record_of("law", outcomes[is], 3)) ==
+            expected[was][is]);
+    }
+}
+
+TEST_CASE("baseline: a failure is worse if it more than doubled or lost its number") {
+  const KeptVerdict kept = kept_of(fails, 30, 3);
+  CHECK(change(kept, record_of("law", fails, 60, 3)) == '-');
+  CHECK(change(kept, record_of("law", fails, 61, 3)) == 'w');
+  CHECK(change(kept, record_of("law", fails, 61, 4)) == '-');
+  CHECK(change(kept, record_of("law", fails, 14, 3)) == 'b');
+  CHECK(change(kept, record_of("law", fails, std::nan(""), std::nan(""))) == 'w');
+  const KeptVerdict crashed = kept_of(fails, std::nan(""), std::nan(""));
+  CHECK(change(crashed, record_of("law", fails, std::nan(""), std::nan(""))) == '-');
+  CHECK(change(crashed, record_of("law", fails, 61, 3)) == 'b');
+  CHECK(change(kept_of(fails, 3, 0), record_of("law", fails, 7, 0)) == 'w');
+}
+
+TEST_CASE("baseline: what only one run has is named and is not worse") {
+  const BaselineChanges changes =
+      changes_since({kept_of(fails, 3)}, {record_of("new", fails, 5, 2)});
+  CHECK(changes.worse.empty());
+  CHECK(changes.other ==
+        std::vector<std::string>{"new: fails, measured/bound 2.5; not in the baseline",
+                                 "law: not asked any more; was: fails, measured/bound 3"});
+}
+
+TEST_CASE("baseline: a written run is read as it was, and other files are refused") {
+  const ScratchFolder folder;
+  RunRecord run;
+  run.records = {record_of("a", holds, 0.25), record_of("b", fails, std::nan(""))};
+  write_verdicts(folder.file("."), run);
+  const std::string path = folder.file("verdicts.json");
+  const std::vector<KeptVerdict> kept = read_baseline(path);
+  REQUIRE(kept.size() == 2);
+  CHECK((kept[0].name == "a" && kept[0].outcome == "holds" && kept[0].measured == 0.25));
+  CHECK(std::isnan(kept[1].measured));
+  CHECK(changes_since(kept, run.records).worse.empty());
+  CHECK_THROWS_AS(read_baseline(folder.file("none.json")), InputError);
+  const char* const row = R"({"name":"a","kind":"check","outcome":"holds","measured":1,"bound":1})";
+  for (const std::string& text :
+       {std::string("{"), std::string("[]"), std::string(R"({"findings":[]})"),
+        std::string(R"({"findings":[{"name":"a"}]})"),
+        std::string(R"({"findings":[)") + row + "," + row + "]}",
+        std::string(R"({"findings":[{"name":"a","kind":"check","outcome":"did not run",)") +
+            R"("measured":null,"bound":null}]})"}) {
+    folder.write("verdicts.json", text);
+    CHECK_THROWS_AS(read_baseline(path), InputError);
+  }
+}
