@@ -88,7 +88,7 @@ const std::vector<Headline>& headlines() {
       {"pointwise-contact",
        {"edge-penetration-is-second-order", "edge-penetration-is-within-the-chord",
         "a-thin-pin-passes-through"}},
-      {"self-collision-cost", {"search-time-is-nearly-linear", "sheet-rests-within-the-thickness"}},
+      {"self-collision-cost", {"search-work-is-nearly-linear", "sheet-rests-within-the-thickness"}},
       {"crossing-queries", {"no-meeting-is-missed"}},
       {"strain-sweeps",
        {"grow-quadratically", "jacobi-is-mirror-symmetric",

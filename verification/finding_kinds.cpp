@@ -20,9 +20,7 @@ constexpr std::array<std::string_view, 4> structural_findings = {
     "case.hinge.never-crosses-itself", "case.hundred_thousand_steps.takes-steps"};
 
 /// Findings that compare processor times.
-constexpr std::array<std::string_view, 3> timed_findings = {
-    "solver.cached-terms-save-time", "level-set-cache.loading-is-cheap",
-    "self-collision-cost.search-time-is-nearly-linear"};
+constexpr std::array<std::string_view, 1> timed_findings = {"solver.cached-terms-save-time"};
 
 /// Words of units that count.
 constexpr std::array<std::string_view, 19> counted_units = {

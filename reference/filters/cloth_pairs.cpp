@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "reference/filters/pair_search.h"
+
 namespace foldproof {
 
 namespace {
@@ -69,6 +71,7 @@ struct Search {
   std::vector<Bounds> particles, triangles, nodes;
   std::vector<char> triangle_moved, node_moved;  // empty: all are asked about
   std::vector<FeaturePair> found;
+  long box_tests = 0;
 
   Search(const ClothTree& of, std::vector<Bounds> particle_boxes, const std::vector<char>& which);
 
@@ -133,6 +136,7 @@ void Search::within(int node) {
 
 /// Pairs of a triangle below one node and one below another; the larger node is opened first.
 void Search::between(int a, int b) {
+  ++box_tests;
   if (skips(a, b)) return;
   const BoxNode &at_a = cloth.tree.nodes[size_t(a)], &at_b = cloth.tree.nodes[size_t(b)];
   if (at_a.right < 0 && at_b.right < 0) {
@@ -155,6 +159,7 @@ void Search::between_leaves(const BoxNode& a, const BoxNode& b) {
 /// The features that the triangles s and t answer for, against each other.
 void Search::compare(int s, int t) {
   if (!moved.empty() && !triangle_moved[size_t(s)] && !triangle_moved[size_t(t)]) return;
+  ++box_tests;
   if (!triangles[size_t(s)].intersects(triangles[size_t(t)])) return;
   const Triangle &at_s = cloth.triangles[size_t(s)], &at_t = cloth.triangles[size_t(t)];
   const OwnedFeatures &own_s = cloth.own[size_t(s)], &own_t = cloth.own[size_t(t)];
@@ -211,9 +216,15 @@ ClothTree make_cloth_tree(const TriangleMesh& mesh) {
 std::vector<FeaturePair> near_pairs(const ClothTree& cloth, const PerParticle3& x,
                                     const PerParticle3& end, double margin,
                                     const std::vector<char>& moved) {
+  return counted_near_pairs(cloth, x, end, margin, moved).pairs;
+}
+
+PairSearch counted_near_pairs(const ClothTree& cloth, const PerParticle3& x,
+                              const PerParticle3& end, double margin,
+                              const std::vector<char>& moved) {
   Search search(cloth, particle_boxes(x, end, margin), moved);
   search.within(0);
-  return std::move(search.found);
+  return {std::move(search.found), search.box_tests};
 }
 
 PairCache make_pair_cache(const ClothTree& cloth, const PerParticle3& x, double margin) {
