@@ -255,7 +255,7 @@ step = 0.001
 
     def test_precision_names_the_cheapest_integrator_and_keeps_its_runs(self) -> None:
         ask = (
-            "precision", "hinge", "--until", "0.2", "--methods", "A,RK4,backward-euler", "--errors",
+            "precision", "hinge", "--until", "0.2", "--method", "A,RK4,backward-euler", "--errors",
             "0.02", "--out", str(self.path / "out"), "--json"
         )
         first, again = run(*ask), run(*ask)
@@ -680,7 +680,8 @@ step = 0.001
             "simulate hinge.toml --cache": "--cache needs a value: --cache DIR",
             "converge hinge --levels 2": "'2' is not a whole number from 3 to 12",
             "converge hinge --until -1": "'-1' is not a number above 0",
-            "precision hinge --methods A,D": "unknown integrator 'D'; known: A, B,",
+            "precision hinge --method A,D": "unknown integrator 'D'; known: A, B,",
+            "precision hinge --methods A": "unknown option '--methods'; did you mean --method?",
             "precision hinge --errors 0": "'0' is not a number above 0",
             "precision hinge --effort x": "'x' is not a number above 0",
             "converge hinge --out notes.txt": "notes.txt: cannot make this folder",
