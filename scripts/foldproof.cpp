@@ -198,6 +198,17 @@ void add_ablate(CLI::App& app, Options& options) {
   add_json(ablate, options);
 }
 
+/// The integrators to run; `usual` are those of a command without the option.
+void add_method(CLI::App* command, Options& options, const std::string& usual) {
+  command
+      ->add_option("--method", options.methods,
+                   "Integrators: a list such as A,C,RK4, or all (default: " + usual + ")")
+      ->type_name("METHODS")
+      ->check(some_text("integrators, or all"))
+      ->delimiter(',')
+      ->allow_extra_args(false);
+}
+
 /// Options of the ladder: its direction, levels, methods and limits.
 void add_ladder(CLI::App* converge, Options& options) {
   converge
@@ -212,13 +223,7 @@ void add_ladder(CLI::App* converge, Options& options) {
       ->type_name("N")
       ->check(whole_number(3, 12))
       ->capture_default_str();
-  converge
-      ->add_option("--method", options.methods,
-                   "Integrators in place of the case's own: a list A,B,..., or all")
-      ->type_name("METHODS")
-      ->check(some_text("an integrator"))
-      ->delimiter(',')
-      ->allow_extra_args(false);
+  add_method(converge, options, "case's own");
   converge->add_flag("--refine-objects", options.refines_objects,
                      "In space: also refine the level sets of objects, by the same factor");
   converge
@@ -289,11 +294,7 @@ void add_precision(CLI::App& app, Options& options) {
                    help::precision},
                   ::foldproof::precision);
   add_input(precision, "CASE", options.file, case_words);
-  precision->add_option("--methods", options.methods, "Integrators, such as A,C,RK4 (default: all)")
-      ->type_name("METHODS")
-      ->check(some_text("integrators, or all"))
-      ->delimiter(',')
-      ->allow_extra_args(false);
+  add_method(precision, options, "all");
   add_errors(precision, options, "Wanted errors, as shares of the motion (default: 1e-2,1e-3)");
   precision
       ->add_option("--until", options.until,
@@ -513,8 +514,9 @@ void add_readers(CLI::App& app, Options& options) {
       app, options,
       {"claims", "Show the rulings of a finished run on the papers' claims", help::claims},
       show_claims);
-  claims->add_option("ID", options.names,
-                     "One claim, such as T17: why, and the findings that decide it");
+  claims->add_option(
+      "ID", options.names,
+      "One claim, such as T17: its ruling, the reason, and the findings that decide it");
   claims->add_option("--paper", options.paper, "Only the claims of one paper, such as BFA02")
       ->type_name("KEY");
   add_folder(claims, options, "Folder of the finished run")->capture_default_str();
@@ -522,7 +524,8 @@ void add_readers(CLI::App& app, Options& options) {
   add_pages(app, options);
   CLI::App* mesh = add_command(
       app, options,
-      {"inspect", "Can a mesh serve as a body, or what does it make of a cloth?", help::inspect},
+      {"inspect", "Is a mesh valid as a body? With --cloth: how stiff is it as a cloth?",
+       help::inspect},
       inspect);
   add_input(mesh, "MESH.obj", options.file, "An OBJ file");
   mesh->add_flag("--cloth", options.as_cloth,
@@ -532,11 +535,11 @@ void add_readers(CLI::App& app, Options& options) {
       ->check(whole_number(4, 1000))
       ->capture_default_str();
   add_json(mesh, options);
-  CLI::App* crossings = add_command(
-      app, options,
-      {"crossings", "Find edges and triangles of a cloth that cross in any frame, decided exactly",
-       help::crossings},
-      show_crossings);
+  CLI::App* crossings =
+      add_command(app, options,
+                  {"crossings", "Does a cloth pass through itself in any frame? Decided exactly",
+                   help::crossings},
+                  show_crossings);
   add_input(crossings, "FILE", options.names, "Stored runs (.h5), or meshes (.obj), each a frame");
   add_json(crossings, options);
   add_compare(app, options);
@@ -595,11 +598,11 @@ void add_judge(CLI::App& app, Options& options) {
                   {"serve", "Answer the protocol of `judge` as the reference: `judge` starts this",
                    help::serve},
                   serve);
-  served->add_option("--integrator", options.integrator, "Of `foldproof list`")
+  served->add_option("--integrator", options.integrator, "One that `foldproof list` names")
       ->type_name("NAME")
       ->check(some_text("an integrator"))
       ->capture_default_str();
-  served->add_option("--precision", options.precision, "Of its answers: f8 or f4")
+  served->add_option("--precision", options.precision, "Number format of its answers: f8 or f4")
       ->type_name("TYPE")
       ->check(one_of({"f8", "f4"}))
       ->capture_default_str();
@@ -651,15 +654,16 @@ void add_campaign(CLI::App& app, Options& options) {
                show_campaign_status),
            options);
   add({"watch", "Show the status until nothing runs", help::campaign_watch}, watch_campaign);
-  add({"cancel", "End what runs of the campaign", help::campaign_cancel}, cancel_campaign);
-  CLI::App* emit = add({"emit", "Print a command a line, for another engine", help::campaign_emit},
+  add({"cancel", "Stop the running jobs of the campaign", help::campaign_cancel}, cancel_campaign);
+  CLI::App* emit = add({"emit", "Print what is missing as commands, one a line, for another engine",
+                        help::campaign_emit},
                        emit_campaign);
   emit->add_option("--slice", options.slice, "Jobs a line (default: 50)")
       ->type_name("N")
       ->check(whole_number(1, 10'000'000));
   CLI::App* work = add_command(
       *campaign, options,
-      {"work", "Run a slice of a batch; engines type this", help::campaign_work}, work_on_batch);
+      {"work", "Run a slice of a batch; engines start this", help::campaign_work}, work_on_batch);
   add_input(work, "BATCH", options.file, "Folder of the batch, DIR/store/batches/NAME");
   add_campaign_work(work, options);
 }

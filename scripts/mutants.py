@@ -22,9 +22,13 @@ BUILD = ROOT / "build"
 PROGRAM = BUILD / "foldproof"
 TESTS = BUILD / "tests"
 # test class: its file; each takes --program FILE
-PYTHON_TESTS = {"ProgramTest": ROOT / "scripts/tests/test_program.py",
-                "CampaignTest": ROOT / "scripts/tests/test_campaign.py",
-                "IndependentTest": ROOT / "verification/independent/test_independent.py"}
+PYTHON_TESTS = {
+    "ProgramTest": ROOT / "scripts/tests/test_program.py",
+    "SimulateTest": ROOT / "scripts/tests/test_simulate.py",
+    "EvaluateTest": ROOT / "scripts/tests/test_evaluate.py",
+    "CampaignTest": ROOT / "scripts/tests/test_campaign.py",
+    "IndependentTest": ROOT / "verification/independent/test_independent.py",
+}
 APART_FOLDER = BUILD / "faults" / "apart"
 CLOCK = 240  # s: how long a mutant may run
 
@@ -125,7 +129,8 @@ def key_of(plan: Plan) -> str:
     read = sorted((ROOT / "cases").rglob("*.*")) + sorted(
         (ROOT / "verification/claims").glob("*.toml")
     )
-    read += [PYTHON_TESTS["ProgramTest"], PYTHON_TESTS["CampaignTest"]] + files_of_independent()
+    read += [file for file in PYTHON_TESTS.values() if file.parent.name == "tests"]
+    read += [ROOT / "scripts/tests/program_case.py"] + files_of_independent()
     for path in objects + read:
         key.update(path.read_bytes())
     return key.hexdigest()

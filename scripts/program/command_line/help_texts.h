@@ -243,8 +243,8 @@ Examples:
 
 Exit codes:
   0    every part is needed, none is missing
-  1    a part (marked !) is not needed or missing, and the case does not say why, or says so
-       needlessly; or the unchanged scene does not reach its end, or fails an expectation
+  1    a part (marked !) is not needed, or is missing, and the case does not say why; or it says why
+       without need; or the unchanged scene does not reach its end, or fails an expectation
   2    bad input, or a file that cannot be written)";
 
 constexpr const char* converge =
@@ -296,11 +296,11 @@ price   interpolated between the two runs that bracket the error. Methods are ti
 
 Examples:
   foldproof precision hinge --until 0.2
-  foldproof precision hanging_sheet --methods A,C,RK4 --errors 1e-2 --out mine
+  foldproof precision hanging_sheet --method A,C,RK4 --errors 1e-2 --out mine
 
 Exit codes:
   0    every wanted error is reached by some method, and the truth is good for it
-  1    an error is not reached, or the truth is not known well enough
+  1    no method reaches an error, or the truth is not known well enough
   2    bad input, or a file that cannot be written)";
 
 constexpr const char* campaign =
@@ -313,7 +313,7 @@ Exit codes:
   2    bad input)";
 
 constexpr const char* campaign_plan =
-    R"(Asks no engine, and keeps nothing of the sample.
+    R"(Contacts no engine, and keeps no result of the sample.
 
 Examples:
   foldproof campaign plan bending_atlas
@@ -323,9 +323,9 @@ Exit codes:
   2    bad input)";
 
 constexpr const char* campaign_run =
-    R"(Runs every job that the store has no result of: the same question is never asked twice, in
-whichever campaign. Failures are results. What was killed is started again, up to three times. After
-Ctrl-C the same command goes on; a batch in a queue goes on without it.
+    R"(Runs every job that has no result in the store: no question is asked twice, not even by two
+campaigns. Failures are results. A killed job is started again, up to three times. After Ctrl-C the
+same command resumes; a batch in a queue goes on without it.
 
 Examples:
   foldproof campaign run bending_atlas --out mine
@@ -388,8 +388,8 @@ Exit codes:
   2    bad input; the engine refuses, or it runs on another machine)";
 
 constexpr const char* campaign_emit =
-    R"(Prints what is missing as commands, each a slice. They may run anywhere that sees the store, in any
-order, and again. Afterwards the other commands find their results.
+    R"(Prints one command for each slice of missing jobs. They may run anywhere that sees the store, in any
+order, and more than once. Afterwards the other commands find their results.
 
 Examples:
   foldproof campaign emit bending_atlas --out mine
@@ -399,8 +399,8 @@ Exit codes:
   2    bad input, or a file that cannot be written)";
 
 constexpr const char* campaign_work =
-    R"(Runs what its slice has no result of, on --threads processes. Refuses a batch that another build of
-the program planned.
+    R"(Runs the jobs of its slice that have no result, on --threads processes. Refuses a batch that another
+build of the program planned.
 
 Examples:
   foldproof campaign work mine/store/batches/NAME --slice 0 --threads 1
