@@ -2,7 +2,7 @@
 """Makes the page of a campaign from the files of `foldproof campaign table`.
 
     reports/make_campaign.py mine/campaigns/first_grid
-    reports/make_campaign.py mine/campaigns/first_grid --quantity tip --over time.step time.integrator
+    reports/make_campaign.py mine/campaigns/first_grid --quantity tip --over time.step
 """
 from __future__ import annotations
 

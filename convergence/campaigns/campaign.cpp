@@ -52,6 +52,7 @@ std::vector<std::string> values_of(const KeyTable& table, const std::string& key
   std::vector<std::string> values;
   const KeyValue& entry = table.entries.at(key);
   if (const auto* list = std::get_if<std::vector<KeyValue>>(&entry.data)) {
+    table.leave(key);  // a value may be a table, which the case will read
     for (const KeyValue& value : *list) values.push_back(text_of(value));
   } else if (std::holds_alternative<std::shared_ptr<KeyTable>>(entry.data)) {
     const auto range = table.table(key);

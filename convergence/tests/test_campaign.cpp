@@ -56,6 +56,8 @@ TEST_CASE("campaign: zipped lists go together, and need as many values") {
   CHECK(jobs.size() == 6);
   CHECK(jobs[5] == "a=3;b=6;g=1;");
   CHECK(jobs[0] == "a=1;b=4;g=0;");
+  CHECK(jobs_of(campaign_of("[[zip]]\na = [{ b = 7 }, { b = [8, 9] }]\n")) ==
+        std::vector<std::string>{"a={ \"b\" = 7 };", "a={ \"b\" = [8, 9] };"});
   CHECK_THROWS_WITH(campaign_of("[[zip]]\na = [1, 2]\nb = [1]\n"),
                     Contains("name.campaign.toml:3: 'b' has 1 values, and 'a' has 2"));
 }

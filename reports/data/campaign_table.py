@@ -45,8 +45,11 @@ class CampaignTable:
         return dict(Counter(self.outcomes).most_common())
 
     def commonest_reasons(self, most: int) -> list[tuple[str, str, int]]:
-        """Outcome, reason and count of what does not hold."""
-        said = Counter((o, r) for o, r in zip(self.outcomes, self.reasons) if o != "holds")
+        """Outcome, reason and count of what does not hold. What a reason has in brackets, as the
+        step at which a run diverged, is left out."""
+        said = Counter(
+            (o, r.split(" (")[0]) for o, r in zip(self.outcomes, self.reasons) if o != "holds"
+        )
         return [(*what, count) for what, count in said.most_common(most)]
 
 

@@ -2,6 +2,7 @@
 no value is a mark of its outcome, never a gap that looks like nothing."""
 from __future__ import annotations
 
+import re
 from collections import defaultdict
 from dataclasses import dataclass
 from pathlib import Path
@@ -43,6 +44,8 @@ MARKS = {
     "missing": "1",
 }
 MOST_PANELS, MOST_CURVES, MOST_NAMED = 12, 11, 8
+NUMBER = re.compile(r"(?<![\w.])([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)(?![\w.])")
+LETTER = 0.075  # width [inch], with the space around a tick's name shared out
 SPARSE = 4  # places for each run beyond which a map becomes points
 
 
@@ -80,15 +83,29 @@ class Layout:
 
 
 def levels_of(texts: list[str]) -> Levels:
-    """Ascending numbers, or texts in the order of their first job."""
+    """Ascending numbers, or texts in the order of their first job. Texts that differ in a single
+    number, as { angle = 30, axis = [0, 0, 1] }, are that number."""
     different = list(dict.fromkeys(texts))
-    try:
-        numbers = np.array([float(text) for text in different])
-    except ValueError:
+    numbers = _numbers_in(different)
+    if numbers is None:
         return Levels(different, None)
     order = np.argsort(numbers, kind="stable")
     numbers = numbers[order]
     return Levels([different[k] for k in order], numbers, _scale_of(numbers))
+
+
+def _numbers_in(texts: list[str]) -> np.ndarray | None:
+    """The number in which each text differs from the others; None if that is not all."""
+    parts = [NUMBER.split(text) for text in texts]
+    if len({tuple(part[::2]) for part in parts}) > 1:
+        return None
+    columns = [column for column in zip(*(part[1::2] for part in parts)) if len(set(column)) > 1]
+    if len(texts) == 1:
+        columns = list(zip(*(part[1::2] for part in parts)))
+    if len(columns) != 1:
+        return None
+    numbers = np.array([float(text) for text in columns[0]])
+    return numbers if len(set(numbers)) == len(texts) else None
 
 
 def _scale_of(numbers: np.ndarray) -> str:
@@ -170,7 +187,7 @@ def _draw_panels(layout: Layout, table: CampaignTable, values: np.ndarray, draw)
             panel.title,
             (1.0, 1.0),
             xycoords="axes fraction",
-            xytext=(0, 6),
+            xytext=(0, 18),  # above the axis's label
             textcoords="offset points",
             ha="right",
             va="bottom",
@@ -319,6 +336,10 @@ def _name_places(axes: Axes, which: str, levels: Levels) -> None:
     """Ticks at cells, every second or third one where there are many."""
     named = levels.named()
     every = -(-len(named) // MOST_NAMED)
+    if which == "x":  # names must not touch
+        width = axes.get_position().width * axes.figure.get_figwidth()
+        room = max(1, int(width / (LETTER * (2 + max(map(len, named))))))
+        every = max(every, -(-len(named) // room))
     places = list(range(0, len(named), every))
     (axes.set_xticks if which == "x" else axes.set_yticks)(places, [named[k] for k in places])
     (axes.set_xlim if which == "x" else axes.set_ylim)(-0.5, len(named) - 0.5)

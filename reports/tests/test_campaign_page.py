@@ -88,6 +88,10 @@ class CampaignPageTest(unittest.TestCase):
         self.assertEqual(levels_of(["-1", "10", "100", "1000"]).scale, "linear")
         self.assertEqual(levels_of(["C", "A", "C", "7"]).texts, ["C", "A", "7"])
         self.assertIsNone(levels_of(["C", "A"]).numbers)
+        turns = levels_of([f"{{ angle = {a}, axis = [0, 0, 1] }}" for a in (90, 2.5e1, 0)])
+        self.assertEqual(turns.named(), ["0", "25", "90"])
+        self.assertIsNone(levels_of(["[0, 1]", "[1, 0]"]).numbers)
+        self.assertIsNone(levels_of(["RK2", "RK4"]).numbers)
 
     def test_each_run_is_drawn_at_its_place(self) -> None:
         self.put()
@@ -163,7 +167,7 @@ class CampaignPageTest(unittest.TestCase):
         self.put(findings=[finding])
         page = self.page()
         self.assertEqual(page, self.page())
-        for said in ("Made &lt;up&gt;", "a &lt;bad&gt; step", "100 % &lt;of&gt; the runs", "a wish"):
+        for said in ("Made &lt;up&gt;", "a &lt;bad&gt; step", "100 % &lt;of&gt; the", "a wish"):
             self.assertIn(said, page)
         self.assertIn("1 of 6 runs have no value", page)
         self.assertNotIn("<bad>", page)
