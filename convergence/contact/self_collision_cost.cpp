@@ -36,8 +36,8 @@ TriangleMesh stacked_sheets(int n, int layers, double gap) {
   return make_triangle_mesh(std::move(rest), std::move(triangles));
 }
 
-/// The search for close pairs in stacks of sheets: boxes compared, and the least processor time of
-/// five.
+/// The search for close pairs in stacks of sheets: boxes compared, and the least
+/// processor time of five.
 Table searches() {
   return {{"layers", "1"},
           {"particles", "1"},
@@ -77,15 +77,15 @@ NamedFinding search_work(const Table& by_size) {
   evidence.add({"pairs", "1", by_size.numbers("close pairs")});
   evidence.add(by_size.column("box tests"));
   evidence.add(by_size.column("processor time"));
-  return {"self-collision-cost.search-work-is-nearly-linear",
-          "The search for close pairs compares boxes nearly in proportion to the number of "
-          "particles.",
-          {{growth(by_size, "box tests"), growth_with_depth(by_size), 0, "1",
-            "the exponent of n log n over these particles: each has the same number of neighbours, "
-            "and the tree is as deep as the logarithm of n"},
-           std::move(evidence),
-           "box tests repeat to the last one; the processor times, the least of five searches, "
-           "stand beside them and are not judged"}};
+  return {
+      "self-collision-cost.search-work-is-nearly-linear",
+      "The search for close pairs compares boxes nearly in proportion to the number of particles.",
+      {{growth(by_size, "box tests"), growth_with_depth(by_size), 0, "1",
+        "the exponent of n log n over these particles: each has the same number of neighbours, and "
+        "the tree is as deep as the logarithm of n"},
+       std::move(evidence),
+       "box tests repeat to the last one; the processor times, the least of five searches, stand "
+       "beside them and are not judged"}};
 }
 
 void add_searches(Tier tier, StudyResult& result) {

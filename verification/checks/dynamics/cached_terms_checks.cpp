@@ -82,14 +82,13 @@ Finding time_finding(const Subject&) {
     least.observe(ratio.least);
     most.observe(ratio.most);
   }
-  return {
-      {(least.value() + most.value()) / 2, 0.5, (most.value() - least.value()) / 2, "1",
-       "half: with less gain the cache would not be worth its memory from the second product of a "
-       "solve on"},
-      times,
-      "ratios of the least processor times in eight batches of five alternating runs of each; "
-      "measured is the middle of their range on the slowest mesh and the uncertainty half of the "
-      "range, so that a clock whose spread reaches over the bound decides nothing"};
+  return {{(least.value() + most.value()) / 2, 0.5, (most.value() - least.value()) / 2, "1",
+           "half: with less gain the cache would not be worth its memory from the second product "
+           "of a solve on"},
+          times,
+          "ratios of the least processor times in eight batches of five alternating runs of each; "
+          "measured is the middle of their range on the slowest mesh and the uncertainty half of "
+          "the range, so that a clock whose spread reaches over the bound decides nothing"};
 }
 
 /// The 3 x 3 blocks of D on and above its diagonal that springs and hinges fill.
