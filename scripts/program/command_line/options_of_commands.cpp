@@ -1,0 +1,88 @@
+#include "scripts/program/command_line/options_of_commands.h"
+
+namespace foldproof {
+
+CLI::App* add_command(CLI::App& app, Options& options, const CommandText& text,
+                      int (*run)(const Options&)) {
+  CLI::App* command = app.add_subcommand(text.name, text.what);
+  command->footer(text.below);
+  command->group("Commands");
+  command->callback([&options, run] { options.run = run; });
+  return command;
+}
+
+void add_json(CLI::App* command, Options& options) {
+  command->add_flag("--json", options.json, "Print JSON on standard output")
+      ->disable_flag_override();
+}
+
+CLI::Option* add_switch(CLI::App* command, const std::string& name, bool& value,
+                        const std::string& what) {
+  return command->add_flag(name, value, what)->disable_flag_override();
+}
+
+CLI::Option* add_folder(CLI::App* command, Options& options, const std::string& what) {
+  return command->add_option("--out", options.out, what)
+      ->type_name("DIR")
+      ->check(some_text("a folder"));
+}
+
+void add_tier(CLI::App* command, Options& options) {
+  command->add_option("--tier", options.tier, "quick (minutes) or full (hours)")
+      ->type_name("TIER")
+      ->check(one_of({"quick", "full"}))
+      ->capture_default_str();
+}
+
+void add_overrides(CLI::App* command, Options& options) {
+  command
+      ->add_option("--set", options.overrides,
+                   "Override a key of the case file, such as time.end=2; may be given again")
+      ->type_name("TABLE.KEY=VALUE")
+      ->check(some_text("table.key=value"))
+      ->allow_extra_args(false);
+}
+
+void add_cache(CLI::App* command, Options& options) {
+  command
+      ->add_option("--cache", options.cache,
+                   "Keep the level sets of meshes in this folder for later runs; the results are "
+                   "the same to the bit")
+      ->type_name("DIR")
+      ->check(some_text("a folder"));
+}
+
+void add_threads(CLI::App* command, Options& options) {
+  command->add_option("--threads", options.running.threads, "Jobs at a time (default: one a core)")
+      ->type_name("N")
+      ->check(whole_number(1, 1024));
+}
+
+void add_running(CLI::App* command, Options& options) {
+  command
+      ->add_option("--seed", options.seed_shift,
+                   "Shift the seeds of all random samples, 0 to 1000000000; official results use 0")
+      ->type_name("N")
+      ->check(whole_number(0, 1'000'000'000))
+      ->capture_default_str();
+  add_threads(command, options);
+  command
+      ->add_option("--order", options.running.order,
+                   "Shuffle the jobs, with N as the seed (default: the longest first)")
+      ->type_name("N")
+      ->check(whole_number(0, 1'000'000'000));
+}
+
+void add_out_if_typed(CLI::App* command, Options& options, const std::string& what) {
+  add_folder(command, options, what);
+  command->parse_complete_callback([&options, command] {
+    if (command->count("--out") == 0) options.out = "";
+  });
+}
+
+CLI::Option* add_length(CLI::App* command, const std::string& name, double& value,
+                        const std::string& what) {
+  return command->add_option(name, value, what)->type_name("LENGTH")->check(finite_number());
+}
+
+}  // namespace foldproof
