@@ -12,6 +12,7 @@
 #include "scripts/program/commands.h"
 #include "scripts/program/data_folder.h"
 #include "scripts/program/command_line/help_texts.h"
+#include "scripts/program/command_line/typed_command.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
 
@@ -20,7 +21,7 @@ namespace {
 
 std::string command_line(int argc, char** argv) {
   std::string command = program_command();
-  for (int k = 1; k < argc; ++k) command += std::string(" ") + argv[k];
+  for (int k = 1; k < argc; ++k) command += " " + shell_word(argv[k]);
   return command;
 }
 

@@ -157,6 +157,10 @@ TEST_CASE("wide key: the published values of FNV-1a, 128 bits") {
   for (const char* part : {"ab", "c"}) ab_c.add(part);
   for (const char* part : {"a", "bc"}) a_bc.add(part);
   CHECK(ab_c.text() != a_bc.text());
+  WideKey two_parts, one_part;  // that holds the bytes which would stand between the two
+  for (const char* part : {"a", "b"}) two_parts.add(part);
+  one_part.add("a" + std::string(8, '\0') + "b");
+  CHECK(two_parts.text() != one_part.text());
 }
 
 }  // namespace foldproof

@@ -132,16 +132,21 @@ def _integrator(results: Results) -> Conclusion | None:
     known = [factor for factor in factors if isfinite(factor)]
     if not known:
         return None
-    methods = dict.fromkeys(choice.method for _, choice in rows)
+    winners = dict.fromkeys((choice.method, *choice.alike) for _, choice in rows)
+    is_one_best = bool(set.intersection(*(set(winner) for winner in winners)))
     picks = [
         [
-            Quoted(method, source, is_name=True),
-            " on ",
+            *in_words([[Quoted(method, source, is_name=True)] for method in winner]),
+            " alike on " if len(winner) > 1 else " on ",
             *in_words(
-                [[Quoted(scene, source)] for scene, choice in rows if choice.method == method]
+                [
+                    [Quoted(scene, source)]
+                    for scene, choice in rows
+                    if (choice.method, *choice.alike) == winner
+                ]
             ),
         ]
-        for method in methods
+        for winner in winners
     ]
     next_best = [
         choice.others[0][1] for _, choice in rows if choice.others and isfinite(choice.others[0][1])
@@ -155,7 +160,7 @@ def _integrator(results: Results) -> Conclusion | None:
     )
     return Conclusion(
         [
-            "No integrator is cheapest everywhere: " if len(methods) > 1 else "", "scheme C costs ",
+            "" if is_one_best else "No integrator is cheapest everywhere: ", "scheme C costs ",
             *_range(known, source), " times the cheapest for ", error, " error", *more,
             Number(len(rows), "1", source), " motions."
         ],

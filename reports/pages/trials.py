@@ -1,4 +1,5 @@
-"""The page of several judged solvers: laws by solvers. Arranges what was stored; judges nothing."""
+"""The page of several judged solvers: a table of laws by solvers. It arranges what was stored and
+judges nothing."""
 from __future__ import annotations
 
 import json

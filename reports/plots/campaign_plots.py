@@ -26,6 +26,7 @@ from plots.plot_style import (
     PAPER,
     Plot,
     finish,
+    hatch,
     label_axes,
     level_text,
     new_figure,
@@ -173,12 +174,12 @@ def _draw_panels(layout: Layout, table: CampaignTable, values: np.ndarray, draw)
     columns = min(3, count)
     rows = -(-count // columns)
     wide, high = (5.2, 3.4) if count == 1 else (2.5, 2.1)
-    across, up, right, below = wide + 0.75, high + 0.95, 0.75, 0.55
+    across, up, right, below = wide + 0.75, high + 0.95, 1.2, 0.55
     canvas = new_figure(columns * across + right, rows * up + below)
     width, height = canvas.get_size_inches()
     norm = _norm(values, layout.figure.is_logarithmic)
     for k, panel in enumerate(layout.panels):
-        left = 0.6 + (k % columns) * across
+        left = 0.75 + (k % columns) * across
         bottom = below + 0.5 + (rows - 1 - k // columns) * up
         axes = canvas.add_axes((left / width, bottom / height, wide / width, high / height))
         label_axes(axes, layout.figure.over[0], "1", "", "1")
@@ -194,7 +195,7 @@ def _draw_panels(layout: Layout, table: CampaignTable, values: np.ndarray, draw)
             color=MUTED,
         )
     if draw is _draw_map and np.isfinite(values).any():
-        _draw_colour_bar(canvas, layout, norm, (columns * across + 0.05) / width)
+        _draw_colour_bar(canvas, layout, norm, (columns * across + 0.2) / width)
     _draw_legend(canvas, layout, table, draw is _draw_curves)
     return canvas
 
@@ -293,19 +294,7 @@ def _draw_map(drawing: Drawing) -> None:
             axes.plot(
                 x, y, mark, markersize=5, markeredgecolor=INK, markerfacecolor=face, zorder=3
             )
-    axes.add_patch(
-        Rectangle(
-            (0, 0),
-            1,
-            1,
-            transform=axes.transAxes,
-            facecolor="none",
-            edgecolor=MUTED,
-            hatch="/////",
-            linewidth=0.0,
-            zorder=0.5,
-        )
-    )
+    hatch(axes)
     for (x, y), jobs in drawing.panel.jobs.items():
         if not np.isfinite(cells[y, x]):  # its mark stands on paper; hatched is what no job asks
             axes.add_patch(
@@ -421,7 +410,7 @@ def _draw_curve(drawing: Drawing, k: int, places: np.ndarray) -> None:
 
 
 def median_of(values: np.ndarray) -> float:
-    """Of those that are known; NaN if none is."""
+    """The median of the finite values; NaN if there are none."""
     known = values[np.isfinite(values)]
     return float(np.median(known)) if len(known) else float("nan")
 

@@ -12,7 +12,6 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colorbar import Colorbar
 from matplotlib.colors import LogNorm, Normalize
 from matplotlib.figure import Figure
-from matplotlib.patches import Rectangle
 
 from data.quantities import number_text
 from data.formulas import formula_text
@@ -23,6 +22,7 @@ from plots.plot_style import (
     PAPER,
     Plot,
     finish,
+    hatch,
     label_axes,
     level_text,
     new_figure,
@@ -110,19 +110,7 @@ def _draw_values(axes: Axes, study_map: StudyMap, drawable: np.ndarray) -> Scala
     axes.set_xlim(x[0], x[-1])
     axes.set_ylim(y[0], y[-1])
     if not drawable.all():
-        axes.add_patch(
-            Rectangle(
-                (0, 0),
-                1,
-                1,
-                transform=axes.transAxes,
-                facecolor="none",
-                edgecolor=MUTED,
-                hatch="/////",
-                linewidth=0.0,
-                zorder=0.5,
-            )
-        )
+        hatch(axes)
     values = np.ma.masked_where(~drawable, study_map.values)
     return axes.pcolormesh(
         x,

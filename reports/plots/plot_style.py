@@ -17,6 +17,7 @@ from markupsafe import Markup
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
 from matplotlib.ticker import (
     FixedLocator, FuncFormatter, LogLocator, MaxNLocator, NullFormatter, NullLocator
 )
@@ -240,3 +241,20 @@ def say_in_the_middle(axes: Axes, words: str) -> None:
     axes.text(0.5, 0.5, words, transform=axes.transAxes, ha="center", va="center", color=MUTED)
     axes.set_xticks([])
     axes.set_yticks([])
+
+
+def hatch(axes: Axes) -> None:
+    """Hatches the whole frame, below what is drawn later: what stays uncovered has no value."""
+    axes.add_patch(
+        Rectangle(
+            (0, 0),
+            1,
+            1,
+            transform=axes.transAxes,
+            facecolor="none",
+            edgecolor=MUTED,
+            hatch="/////",
+            linewidth=0.0,
+            zorder=0.5,
+        )
+    )

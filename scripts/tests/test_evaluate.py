@@ -57,7 +57,7 @@ class EvaluateTest(ProgramCase):
         file = self.write("queries.csv", "\n".join(rows) + "\n")
         done = run("evaluate", "crossings", file, "--kind", "vertex-face")
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("2 queries, 1 of which meet", done.stdout)
+        self.assertIn("2 queries; meeting, by the file: 1", done.stdout)
         self.assertIn("exact judge: 0 missed, 0 told though apart", done.stdout)
         wrong = self.write("wrong.csv", "\n".join(row[:-1] + "1" for row in rows))
         self.assertEqual(run("evaluate", "crossings", wrong, "--kind", "vertex-face").returncode, 1)

@@ -7,6 +7,7 @@ from __future__ import annotations
 import json
 import os
 import re
+import shlex
 import subprocess
 import sys
 import tempfile
@@ -285,6 +286,15 @@ class Judge(unittest.TestCase):
         done = run("judge", "--solver", command, "--settings", "iterations=20")
         self.assertIn("setting iterations = 20", done.stdout)
         self.assertIn("mapping of iterations: 20", done.stdout)
+
+    def test_the_command_that_is_kept_can_be_typed_again(self) -> None:
+        out = self.path / "a folder's"
+        command, _ = self.logging_solver()
+        run("judge", "--solver", command, "--out", str(out))
+        kept = json.loads((out / "verdicts.json").read_text(encoding="utf-8"))["program"]["command"]
+        self.assertEqual(
+            shlex.split(kept)[-5:], ["judge", "--solver", command, "--out", str(out)]
+        )
 
     def test_all_that_is_sent_is_what_the_schema_describes(self) -> None:
         command, log = self.logging_solver()

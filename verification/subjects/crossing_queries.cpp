@@ -110,7 +110,7 @@ std::string kind_of(const std::string& file, const std::string& given) {
 bool evaluate_file(const std::string& file, const std::string& given, double keep) {
   const auto [queries, meetings, reference, exact] =
       judge_queries(read_text_file(file, table_text_limits), file, given, keep);
-  fmt::print("{}: {} queries, {} of which meet as the file says\n", file, queries, meetings);
+  fmt::print("{}: {} queries; meeting, by the file: {}\n", file, queries, meetings);
   fmt::print("reference, keeping {:g} m: {} missed, {} told though apart\n", keep, reference.misses,
              reference.alarms);
   fmt::print("exact judge: {} missed, {} told though apart\n", exact.misses, exact.alarms);

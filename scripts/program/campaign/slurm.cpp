@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "reference/types.h"
+#include "scripts/program/command_line/typed_command.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
 
@@ -38,13 +39,6 @@ Output output_of(const std::string& command) {
   return output;
 }
 
-/// A word for sh.
-std::string quoted(const std::string& word) {
-  std::string text = "'";
-  for (const char c : word) text += c == '\'' ? "'\\''" : std::string(1, c);
-  return text + "'";
-}
-
 /// Elements of one array: MaxArraySize is one more than the highest index.
 size_t largest_array() {
   const std::string text = output_of("scontrol show config").text;
@@ -60,9 +54,9 @@ std::string script_of(const Batch& batch, const EngineSettings& settings) {
   std::string work = fmt::format(
       "{} campaign work {} --slice $((SLURM_ARRAY_TASK_ID + $1)) --threads "
       "\"${{SLURM_CPUS_ON_NODE:-1}}\"",
-      quoted(program_file()), quoted(batch.folder));
-  if (!settings.work.cache.empty()) work += " --cache " + quoted(settings.work.cache);
-  if (!settings.scratch.empty()) work += " --scratch " + quoted(settings.scratch);
+      shell_word(program_file()), shell_word(batch.folder));
+  if (!settings.work.cache.empty()) work += " --cache " + shell_word(settings.work.cache);
+  if (!settings.scratch.empty()) work += " --scratch " + shell_word(settings.scratch);
   return "#!/bin/sh\nexec " + work + "\n";
 }
 
@@ -77,9 +71,9 @@ std::string submit_array(const Batch& batch, const EngineSettings& settings, siz
   const Output output =
       output_of(fmt::format("sbatch --parsable --requeue --open-mode=append --signal=B:TERM@30 "
                             "--job-name={} --output={} --array={} {} {} {}",
-                            quoted(job_name(batch)), quoted(batch.folder + "/slurm-%a.log"),
+                            shell_word(job_name(batch)), shell_word(batch.folder + "/slurm-%a.log"),
                             array_of(count, settings.at_a_time), settings.options,
-                            quoted(batch.folder + "/slurm.sh"), first));
+                            shell_word(batch.folder + "/slurm.sh"), first));
   const std::string number = output.text.substr(0, output.text.find_first_of(";\n"));
   if (output.code != 0 || number.find_first_not_of("0123456789") != std::string::npos)
     throw InputError("sbatch: " + output.text.substr(0, output.text.find('\n')) +
@@ -116,7 +110,8 @@ void slurm_submit(Batch& batch, const EngineSettings& settings,
 }
 
 BatchState slurm_ask(const Batch& batch) {
-  const Output output = output_of("squeue -h -r -o '%i %T %r' --name=" + quoted(job_name(batch)));
+  const Output output =
+      output_of("squeue -h -r -o '%i %T %r' --name=" + shell_word(job_name(batch)));
   if (output.code != 0) return BatchState::unknown;
   std::istringstream lines(output.text);
   bool is_there = false;
@@ -128,7 +123,7 @@ BatchState slurm_ask(const Batch& batch) {
 }
 
 void slurm_cancel(const Batch& batch) {
-  const Output output = output_of("scancel --name=" + quoted(job_name(batch)));
+  const Output output = output_of("scancel --name=" + shell_word(job_name(batch)));
   if (output.code != 0)
     throw InputError("scancel: " + output.text.substr(0, output.text.find('\n')));
 }

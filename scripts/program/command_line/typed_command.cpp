@@ -11,19 +11,19 @@ bool is_plain(const std::string& word) {
   return !word.empty() && word.find_first_not_of(plain) == std::string::npos;
 }
 
-std::string quote(const std::string& word) {
+}  // namespace
+
+std::string shell_word(const std::string& word) {
   if (is_plain(word)) return word;
   std::string text = "'";
   for (const char letter : word) text += letter == '\'' ? "'\\''" : std::string(1, letter);
   return text + "'";
 }
 
-}  // namespace
-
 std::string with_option(const std::vector<std::string>& words, const std::string& option) {
   std::string line;
   for (const std::string& word : words)
-    if (word != "--resume" && word != "--restart") line += quote(word) + " ";
+    if (word != "--resume" && word != "--restart") line += shell_word(word) + " ";
   return line + option;
 }
 
