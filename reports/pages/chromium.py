@@ -27,6 +27,8 @@ _SWITCHES = (
     "--disable-dev-shm-usage", "--force-color-profile=srgb"
 )
 
+_KEYS = {"Tab": (9, ""), "Enter": (13, "\r"), " ": (32, " ")}   # their codes, what they write
+
 
 class NoBrowser(Exception):
     """There is no Chromium here, or it does not answer."""
@@ -107,10 +109,12 @@ class Browser:
         return reply["result"].get("value")
 
     def press(self, key: str) -> None:
-        """One key that writes one letter, as from a keyboard."""
+        """One key as from a keyboard: one that writes a letter, or one of _KEYS."""
+        code, text = _KEYS.get(key, (0, key))
         for kind in ("keyDown", "keyUp"):
             self._call(
-                "Input.dispatchKeyEvent", type=kind, key=key, text=key if kind == "keyDown" else ""
+                "Input.dispatchKeyEvent", type=kind, key=key, windowsVirtualKeyCode=code,
+                text=text if kind == "keyDown" else ""
             )
 
     def picture(self) -> bytes:

@@ -392,8 +392,8 @@ class ViewInThePage(WithCase):
 def load_tests(
     loader: unittest.TestLoader, tests: unittest.TestSuite, _: str | None
 ) -> unittest.TestSuite:
-    """This file's tests, those of films and exported files, and those of where up is."""
-    for name in ("tests.test_exports", "tests.test_upright"):
+    """This file's tests, those of films and exported files, of where up is, and of the keyboard."""
+    for name in ("tests.test_exports", "tests.test_upright", "tests.test_keyboard"):
         tests.addTests(loader.loadTestsFromName(name))
     return tests
 
