@@ -26,6 +26,7 @@ PYTHON_TESTS = {
     "ProgramTest": ROOT / "scripts/tests/test_program.py",
     "SimulateTest": ROOT / "scripts/tests/test_simulate.py",
     "EvaluateTest": ROOT / "scripts/tests/test_evaluate.py",
+    "ResumeTest": ROOT / "scripts/tests/test_resume.py",
     "CampaignTest": ROOT / "scripts/tests/test_campaign.py",
     "IndependentTest": ROOT / "verification/independent/test_independent.py",
 }

@@ -16,6 +16,7 @@
 #include "verification/subjects/bending_rows.h"
 #include "verification/subjects/crossing_queries.h"
 #include "scripts/program/json_text.h"
+#include "scripts/program/kept_results.h"
 #include "scripts/program/ledger.h"
 #include "scripts/program/command_line/out_folder.h"
 #include "scripts/program/progress.h"
@@ -52,6 +53,20 @@ RunRecord new_run(const Options& options) {
   return run;
 }
 
+/// In the folder of the run its results are kept until it ends.
+JobSettings running_of(const Options& options) {
+  JobSettings running = options.running;
+  running.keep_in = options.out;
+  running.resumes = options.resumes;
+  running.restarts = options.restarts;
+  return running;
+}
+
+void require_folder_to_resume(const Options& options) {
+  if (options.out.empty() && (options.resumes || options.restarts))
+    throw InputError("--resume and --restart need --out, the folder of the interrupted run");
+}
+
 /// Names the faults, writes the files that were asked for, prints, and gives the exit code.
 int conclude(RunRecord& run, const Options& options, const std::string& file) {
   run.faults = read_faults(faults_folder());
@@ -59,6 +74,7 @@ int conclude(RunRecord& run, const Options& options, const std::string& file) {
   if (!file.empty()) {
     write_run(options.out + "/" + file, run);
     write_verdicts(options.out, run);
+    drop_kept_results(options.out);
   }
   if (options.json)
     fmt::print("{}", verdicts_json(run));
@@ -150,23 +166,25 @@ int list(const Options& options) {
 }
 
 int run_checks(const Options& options) {
+  require_folder_to_resume(options);
   const OutFolder folder(options.out);
   const std::vector<Claim> claims = written_claims();
   RunRecord run = new_run(options);
   const Tier tier = tier_of(options);
   run_selection(select({options.names, {"check"}}, tier), reference_subject(), tier,
-                options.running, run);
+                running_of(options), run);
   rule_covered_claims(claims, run);
   return conclude(run, options, options.out.empty() ? "" : "run.h5");
 }
 
 int run_studies(const Options& options) {
+  require_folder_to_resume(options);
   const OutFolder folder(options.out);
   const std::vector<Claim> claims = written_claims();
   RunRecord run = new_run(options);
   const Tier tier = tier_of(options);
   run_selection(select({options.names, {"study"}}, tier), reference_subject(), tier,
-                options.running, run);
+                running_of(options), run);
   if (options.names.empty()) {
     reject_claims_of_lost_findings(claims, run);
     reject_faults_of_lost_findings(read_faults(faults_folder()), run);
@@ -209,7 +227,7 @@ int verify(const Options& options) {
       jobs_of(select({{}, {"check", "study"}}, tier_of(options)), subject, tier_of(options));
   for (Job& job : jobs_of_built_in_cases(options, run.provenance)) jobs.push_back(std::move(job));
   announce(jobs, run, options.out);
-  run_jobs(jobs, "checks, studies and cases", options.running, run);
+  run_jobs(jobs, "checks, studies and cases", running_of(options), run);
   run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   rule_all_claims(claims, run);
   run.faults = read_faults(faults_folder());
@@ -217,6 +235,7 @@ int verify(const Options& options) {
   name_faults(run.faults, run.records);
   write_run(options.out + "/run.h5", run);
   write_verdicts(options.out, run);
+  drop_kept_results(options.out);
 
   if (!options.no_bench) {
     RunRecord speeds = bench(tier_of(options) == Tier::full ? 1'100'000 : 110'000);

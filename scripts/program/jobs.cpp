@@ -11,6 +11,7 @@
 #include <thread>
 #include <utility>
 
+#include "scripts/program/kept_results.h"
 #include "scripts/program/progress.h"
 
 namespace foldproof {
@@ -123,16 +124,19 @@ void run_jobs(const std::vector<Job>& jobs, const std::string& label, const JobS
 
 void run_jobs(const std::vector<Job>& jobs, const ProgressSpan& span, const JobSettings& settings,
               RunRecord& run) {
-  Queue queue(jobs, span, settings.order);
+  KeptResults kept(settings, run);
+  const std::vector<Job> all = kept.wrapped(jobs);
+  Queue queue(all, span, settings.order);
   {
     const size_t threads =
         settings.threads > 0 ? settings.threads : std::thread::hardware_concurrency();
     std::vector<std::jthread> others;
-    for (size_t k = 1; k < std::min(threads, jobs.size()); ++k)
+    for (size_t k = 1; k < std::min(threads, all.size()); ++k)
       others.emplace_back([&] { queue.work(); });
     queue.work();
   }
   queue.gather(run);
+  kept.name_origins(run);
 }
 
 }  // namespace foldproof

@@ -26,7 +26,11 @@ Record unfinished_record(const std::string& name, std::optional<Outcome> outcome
 /// In which way jobs are run. No number that a job measures depends on it, seconds excepted.
 struct JobSettings {
   unsigned threads = 0;  // jobs at a time; 0: one a core
-  unsigned order = 0;  // 0: the longest of a group first; else shuffled, each number another order
+  unsigned order = 0;   // 0: the longest of a group first; else shuffled, each number another order
+  std::string keep_in;  // a folder for the results of each job until the run ends; "": none
+  // use what an interrupted run of the same program, tier and seed left there
+  bool resumes = false;
+  bool restarts = false;  // delete it
 };
 
 class ProgressLine;

@@ -77,6 +77,17 @@ void write_claims(const Hdf5& file, const std::vector<ClaimRecord>& claims) {
 
 }  // namespace
 
+std::string RunOrigin::text() const {
+  return fmt::format("{} job{} on {} ({}), begun {}", jobs, jobs == 1 ? "" : "s",
+                     commit.substr(0, 10), tree, date);
+}
+
+std::string origins_text(const RunRecord& run) {
+  std::vector<std::string> texts;
+  for (const RunOrigin& origin : run.origins) texts.push_back(origin.text());
+  return fmt::format("{}", fmt::join(texts, "; "));
+}
+
 void write_run(const std::string& path, const RunRecord& run) {
   write_hdf5(path, [&](const Hdf5& file) {
     write_provenance(file, run.provenance);
@@ -85,6 +96,7 @@ void write_run(const std::string& path, const RunRecord& run) {
     file.attribute("subject", run.subject);
     file.attribute("subject_version", run.subject_version);
     file.attribute("seconds", run.seconds);
+    if (!run.origins.empty()) file.attribute("parts", origins_text(run));
     write_findings(file, run.records);
     write_studies(file, run.studies);
     write_cases(file, run.cases);

@@ -17,6 +17,15 @@ struct CaseRecord {
   std::string stopped;  // "" or the reason
 };
 
+/// Where and when jobs of a run were run.
+struct RunOrigin {
+  std::string commit, tree, date;  // as in Provenance
+  size_t jobs = 0;
+
+  /// "12 jobs on 0123456789 (clean), begun 2026-01-31T12:00:00Z"
+  std::string text() const;
+};
+
 struct RunRecord {
   Provenance provenance;
   std::string tier, subject, subject_version;
@@ -27,7 +36,12 @@ struct RunRecord {
   std::vector<CaseRecord> cases;
   std::vector<Fault> faults;
   std::vector<ClaimRecord> claims;
+  // of a run that was interrupted and went on: where its parts come from, the oldest first
+  std::vector<RunOrigin> origins;
 };
+
+/// The texts of all origins, or "" for a run that was never interrupted.
+std::string origins_text(const RunRecord& run);
 
 /// Writes the whole run to `path`, under a temporary name first and renamed when complete. Throws
 /// std::runtime_error naming the file.

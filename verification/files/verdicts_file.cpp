@@ -133,6 +133,7 @@ std::string verdicts_json(const RunRecord& run) {
                            {"seed", run.seed},
                            {"subject", run.subject}}},
                          {"findings", nlohmann::json::array()}};
+  if (!run.origins.empty()) json["program"]["parts"] = origins_text(run);
   for (const Record& record : run.records) json["findings"].push_back(to_json(record));
   for (const ClaimRecord& claim : run.claims) json["findings"].push_back(to_json(claim));
   return json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";

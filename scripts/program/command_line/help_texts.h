@@ -208,9 +208,12 @@ Exit codes:
   130  interrupted by Ctrl-C (143: by SIGTERM))";
 
 constexpr const char* verify =
-    R"(Examples:
+    R"(Results are kept in DIR/unfinished as they come, and deleted at the end. A run that was interrupted
+goes on with --resume, if program, tier and seed are the same; the report names the commits.
+
+Examples:
   foldproof verify
-  foldproof verify --tier full --out full              hours
+  foldproof verify --tier full --out full --resume     hours, also in parts
 
 Exit codes:
   0    everything holds, and the ruling on every claim is as recorded

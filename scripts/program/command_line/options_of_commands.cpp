@@ -71,6 +71,12 @@ void add_running(CLI::App* command, Options& options) {
                    "Shuffle the jobs, with N as the seed (default: the longest first)")
       ->type_name("N")
       ->check(whole_number(0, 1'000'000'000));
+  CLI::Option* resume = add_switch(
+      command, "--resume", options.resumes,
+      "Go on with an interrupted run in the same folder; what it finished is not run again");
+  add_switch(command, "--restart", options.restarts,
+             "Start over; deletes what an interrupted run had finished")
+      ->excludes(resume);
 }
 
 void add_out_if_typed(CLI::App* command, Options& options, const std::string& what) {

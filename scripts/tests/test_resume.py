@@ -1,0 +1,87 @@
+#!/usr/bin/python3
+"""Tests of a run of checks and studies that is interrupted and goes on."""
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+import time
+import unittest
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+
+import h5py  # noqa: E402
+
+from program_case import PROGRAM, ProgramCase, run  # noqa: E402
+
+STUDIES = ("time-order.hinge", "elastic-limit", "strain-sweeps")
+
+
+def judged(folder: Path) -> list[dict]:
+    """The findings of a run without the seconds that they took."""
+    told = json.loads((folder / "verdicts.json").read_text(encoding="utf-8"))
+    return [{k: v for k, v in row.items() if k != "seconds"} for row in told["findings"]]
+
+
+class ResumeTest(ProgramCase):
+    def interrupted(self, *options: str) -> Path:
+        """The folder of a run that was killed after its first study."""
+        out = self.path / "out"
+        with subprocess.Popen(
+            [str(PROGRAM), "study", *STUDIES, "--threads", "1", "--out", str(out), *options],
+            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+        ) as process:
+            while process.poll() is None and not list(out.glob("unfinished/*.cbor")):
+                time.sleep(0.01)
+            process.kill()
+        self.assertTrue(list(out.glob("unfinished/*.cbor")), "it was not killed in time")
+        self.assertFalse((out / "run.h5").exists())
+        return out
+
+    def test_a_killed_run_goes_on_to_the_same_findings_and_names_its_parts(self) -> None:
+        whole = self.path / "whole"
+        run("study", *STUDIES, "--out", str(whole))
+        self.assertFalse((whole / "unfinished").exists())
+        out = self.interrupted()
+        time.sleep(1.1)  # parts are told apart by the second in which their runs began
+        done = run("study", *STUDIES, "--out", str(out), "--resume")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stderr, r"interrupted run that went on: \d jobs? on .*; \d jobs? on")
+        self.assertEqual(judged(out), judged(whole))
+        self.assertFalse((out / "unfinished").exists())
+        with h5py.File(out / "run.h5") as file, h5py.File(whole / "run.h5") as other:
+            self.assertRegex(file.attrs["parts"], r"^\d jobs? on \w+ \(\w+\), begun 20.*Z; \d job")
+            self.assertNotIn("parts", other.attrs)
+            names: list[str] = []
+            other["studies"].visit(names.append)
+            for name in names:
+                self.assertIn(name, file["studies"])
+
+    def test_the_same_command_deletes_nothing(self) -> None:
+        out = self.interrupted()
+        kept = sorted(out.glob("unfinished/*"))
+        done = run("study", *STUDIES, "--out", str(out))
+        self.assertEqual(done.returncode, 2)
+        for word in ("--resume", "--restart"):
+            self.assertIn(word, done.stderr)
+        self.assertEqual(sorted(out.glob("unfinished/*")), kept)
+        restarted = run("study", STUDIES[1], "--out", str(out), "--restart")
+        self.assertEqual(restarted.returncode, 0, restarted.stderr)
+        self.assertNotIn("went on", restarted.stderr)
+        self.assertFalse((out / "unfinished").exists())
+
+    def test_what_another_seed_or_tier_left_is_not_taken(self) -> None:
+        out = self.interrupted("--seed", "7")
+        done = run("study", STUDIES[0], "--out", str(out), "--resume")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertNotIn("went on", done.stderr)
+
+    def test_without_a_folder_there_is_nothing_to_resume(self) -> None:
+        done = run("check", "bending", "--resume")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("need --out", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
