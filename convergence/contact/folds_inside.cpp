@@ -172,13 +172,14 @@ StudyResult run_folds_inside(const Subject& subject, Tier tier, const Progress& 
 }  // namespace
 
 Study folds_inside_study() {
-  return {"folding-inside-objects",
-          "Cloth that starts partly inside of an object folds more if it may stay there; cloth "
-          "that comes from outside folds as much either way.",
-          "BMF03 section 5.3",
-          "A tube that starts inside of a drum is pushed together, and a sheet falls on a ball: "
-          "how many folds have they with forecast times from a step to far longer than the run?",
-          run_folds_inside};
+  return {
+      "folding-inside-objects",
+      "Cloth that starts partly inside of an object folds more if it may stay there; cloth that "
+      "comes from outside folds as much either way.",
+      "BMF03 section 5.3",
+      "A tube that starts inside of a drum is pushed together, and a sheet falls on a ball: how "
+      "many folds do they form with forecast times from one step to far longer than the run?",
+      run_folds_inside};
 }
 
 }  // namespace foldproof

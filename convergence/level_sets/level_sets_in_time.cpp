@@ -164,8 +164,8 @@ Figure figure_of(const std::vector<Pair>& pairs) {
           {"time between frames", "s", Scale::log},
           {"largest miss of phi", "m", Scale::log},
           2,
-          "Within 2 cm of the surface, at the time in the middle of the two frames, against the "
-          "exact distance to the mesh as it is then. The floor is the octrees' tolerance.",
+          "Within 2 cm of the surface, midway in time between the two frames, against the exact "
+          "distance to the mesh as it is then. The floor is the octrees' tolerance.",
           {{"blended at the point", x, column(pairs, &Pair::blended), tolerance,
             pair_orders(convergence_of(pairs, &Pair::blended))},
            {"carried along", x, column(pairs, &Pair::carried), tolerance,

@@ -88,14 +88,14 @@ std::vector<NamedFinding> gains_of_one_solve(const Subject& subject, Tier tier) 
            "In steps of a thirtieth of a second, one linear solve a step keeps the energy of a "
            "falling sheet bounded, from soft to nearly inextensible cloth, damped or not.",
            judge_worst(table, "largest gain of energy", 1,
-                       "what a fall by the sheet's side frees: an unstable method gains it many "
-                       "times over within sixty steps",
+                       "the energy that a fall by the sheet's side sets free: an unstable method "
+                       "gains it many times over within sixty steps",
                        "linearised backward Euler with semidefinite elements")},
           {"frame-long-steps.one-solve-adds-energy",
            "In such steps one linear solve a step does add energy to some of these sheets, more "
-           "than a hundredth of what the fall frees.",
+           "than a hundredth of the energy that the fall sets free.",
            {{0.01 / largest, 1, 0, "1",
-             "a hundredth is visible; backward Euler solved to the end only takes energy away"},
+             "a hundredth is visible; backward Euler solved to convergence only takes energy away"},
             table,
             ""}}};
 }
@@ -139,7 +139,7 @@ NamedFinding one_solve_is_coarser(const Subject& subject) {
   const double at_a_frame = table.numbers("one over the other").front();
   return {"frame-long-steps.one-solve-is-less-accurate",
           "In steps of a frame, one linear solve a step has more than twice the error of Newton's "
-          "method to the end.",
+          "method run to convergence.",
           {{2 / at_a_frame, 1, 0, "1",
             "both are of first order: a factor of two is what halving the step would give"},
            table,
@@ -172,7 +172,8 @@ NamedFinding work_grows(const Subject& subject, Tier tier) {
       "At a fixed frame rate, iterations times particles grow with the power 3/2 of the particles.",
       {{std::abs(last - 1.5), 0.2, 0, "1",
         "iterations grow with the root of the condition, which grows with the number of cells "
-        "along a side, the root of the particles: 1 + 1/2; two tenths for the start of that range"},
+        "along a side, the root of the particles: 1 + 1/2; two tenths are allowed, since these "
+        "meshes are only at the start of the range in which that holds"},
        table,
        "counted, not timed: a product costs the same for each particle"}};
 }
@@ -223,8 +224,8 @@ StudyResult run_frame_long_steps(const Subject& subject, Tier tier, const Progre
 Study frame_long_steps_study() {
   return {"frame-long-steps",
           "In steps of a frame one linear solve keeps implicit methods bounded, though it may add "
-          "energy and errs more than twice as much as Newton's method; the price grows faster than "
-          "the mesh.",
+          "energy and errs more than twice as much as Newton's method; the cost grows faster than "
+          "the number of particles.",
           "Baraff and Witkin (1998); Choi and Ko (2002)",
           "A sheet held at two corners falls and swings. Steps are a thirtieth of a second, up to "
           "hundreds of times the elastic limit.",
