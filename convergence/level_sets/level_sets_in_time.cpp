@@ -122,8 +122,8 @@ NamedFinding carried_errs_less(const std::vector<Pair>& pairs) {
           "Carried along with the body, phi has less than half the error of phi blended at a fixed "
           "point.",
           {{worst.value(), 0.5, 0, "1",
-            "a half: then it saves more than a quarter of the frames, 1 - 1/sqrt(2), both errors "
-            "falling with the interval squared"},
+            "a half: it then saves more than a quarter of the frames, 1 - 1/sqrt(2), since both "
+            "errors fall with the square of the interval"},
            {{"time between frames", "s", column(pairs, &Pair::interval)},
             {"carried", "m", column(pairs, &Pair::carried)},
             {"blended", "m", column(pairs, &Pair::blended)}},

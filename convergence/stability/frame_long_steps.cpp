@@ -167,15 +167,15 @@ NamedFinding work_grows(const Subject& subject, Tier tier) {
     before_work = work;
     before_particles = particles;
   }
-  return {
-      "frame-long-steps.work-grows-with-the-power-of-three-halves",
-      "At a fixed frame rate, iterations times particles grow with the power 3/2 of the particles.",
-      {{std::abs(last - 1.5), 0.2, 0, "1",
-        "iterations grow with the root of the condition, which grows with the number of cells "
-        "along a side, the root of the particles: 1 + 1/2; two tenths are allowed, since these "
-        "meshes are only at the start of the range in which that holds"},
-       table,
-       "counted, not timed: a product costs the same for each particle"}};
+  return {"frame-long-steps.work-grows-with-the-power-of-three-halves",
+          "At a fixed frame rate, iterations times particles grow with the power 3/2 of the number "
+          "of particles.",
+          {{std::abs(last - 1.5), 0.2, 0, "1",
+            "iterations grow with the root of the condition number, and that root with the number "
+            "of cells along a side, the root of the number of particles: 1 + 1/2; two tenths are "
+            "allowed, since these meshes are only at the start of the range in which that holds"},
+           table,
+           "counted, not timed: a product costs the same for each particle"}};
 }
 
 /// Of the motion of a sheet that swings: what is left of its energy, and the price.
@@ -203,7 +203,7 @@ NamedFinding bdf2_costs(const Subject& subject) {
           "BDF2 takes at most a third more iterations than backward Euler, at equal steps.",
           judge_worst(table, "one over the other", 4.0 / 3,
                       "its matrix has the step times 2/3 in it and is better conditioned; a third "
-                      "for motion that it keeps and backward Euler damps out",
+                      "is allowed for motion that it keeps and backward Euler damps out",
                       "all linear iterations of Newton's method, over eight frames")};
 }
 

@@ -307,16 +307,16 @@ StudyResult run_sticking_lag(const Subject& subject, Tier tier, const Progress& 
 }  // namespace
 
 Study sticking_lag_study() {
-  return {
-      "sticking-lag",
-      "What sticks lags by m a/k, and in scheme C by more the longer the step; forecasts stop its "
-      "swinging and, in scheme C, make the stable step independent of the bond's stiffness.",
-      "BMF03 section 6",
-      "A bond is a spring of zero rest length between the forecast positions of a particle and its "
-      "target. Forecasting both adds damping of their relative velocity, which the schemes treat "
-      "implicitly: the bond lags as a plain spring does, but it comes to rest, and in scheme C it "
-      "is stable however stiff.",
-      run_sticking_lag};
+  return {"sticking-lag",
+          "What sticks lags by m a/k, and in scheme C by more the longer the step; forecasts stop "
+          "its swinging and, in scheme C, keep steps of up to twice the forecast time stable "
+          "however stiff the bond.",
+          "BMF03 section 6",
+          "A bond is a spring of zero rest length between the forecast positions of a particle and "
+          "its target. Forecasting both adds damping of their relative velocity, which the schemes "
+          "treat implicitly: the bond lags as a plain spring does, but it comes to rest, and in "
+          "scheme C it is stable however stiff.",
+          run_sticking_lag};
 }
 
 }  // namespace foldproof

@@ -265,19 +265,19 @@ def _faults(faults: list[Fault]) -> list[Piece]:
     ]
     if recorded:
         said += [
-            ", on commit ",
+            " (recorded on commit ",
             Quoted(recorded[0][0][:10], "record of faults", is_name=True),
             *([" and others"] if recorded[1:] else []),
-            ", not with these results",
+            ", not with these results)",
         ]
     rest = len(faults) - counted["caught"] - counted["SURVIVED"]
     return [
         *said,
         *(
             [
-                ", ",
+                "; ",
                 _count(rest, "other faults"),
-                " were not run since they were written, or are equivalent",
+                " are equivalent, or were not run since they were written",
             ]
             if rest
             else []
