@@ -50,8 +50,8 @@ NamedFinding as_homogenised(const RegularPattern& pattern, const Table& rigidity
   worst.observe(largest_deviation(rigidity, "D/ke, forced", "oracle, forced"));
   worst.observe(largest_deviation(rigidity, "D/ke, relaxed", "oracle, relaxed"));
   const Verdict verdict{worst.value(), std::pow(gentle * pattern.longest_edge, 2), 0, "1",
-                        "angles on a cylinder differ from those of small curvature by the square "
-                        "of longest edge times curvature, relatively, with factors below 1"};
+                        "angles on a cylinder differ relatively from those at small curvature by "
+                        "the square of longest edge times curvature, with factors below 1"};
   return {"bending-rigidity.matches-homogenisation." + pattern.name,
           "On a gentle cylinder, the energy per area of " + pattern.words +
               " is that of the homogenised cell, in every direction.",
@@ -95,7 +95,7 @@ NamedFinding size_does_not_matter(const std::vector<Table>& refinements) {
                         "pairs the second term is below a hundredth of the first"};
   return {"bending-rigidity.does-not-depend-on-cell-size",
           "The same pattern with smaller cells tends to its homogenised rigidity with second "
-          "order: ke says the same at every size.",
+          "order: ke means the same at every size.",
           {verdict, patterns,
            "measured is the worst |order - 2| of the last two pairs over all patterns; curvature "
            "17 1/m along 25 degrees"}};
@@ -254,13 +254,14 @@ StudyResult run_bending_rigidity(const Subject& subject, Tier tier, const Progre
 
 Study bending_rigidity_study() {
   return {"bending-rigidity",
-          "ke does not depend on the size of the triangles, but the sheet's flexural rigidity "
-          "depends on their pattern and on the direction, and refinement does not remove that.",
+          "For a given ke the flexural rigidity of a sheet does not depend on the size of its "
+          "triangles, but it does depend on their pattern and on the direction, and refinement "
+          "does not remove that.",
           "BMF03 section 4: |E|^2/(|N1| + |N2|) makes the cloth's look independent of remeshing",
           "Flat sheets of many meshes are laid on cylinders, and the bending energy per area gives "
           "the flexural rigidity D. The oracle knows only how a hinge is defined: it adds up the "
-          "hinges of one cell. Regular patterns keep their rigidity at every size; it depends on "
-          "the pattern and the direction, from 0.13 to 2.8 ke.",
+          "hinges of one cell. A regular pattern keeps its rigidity at every size; which rigidity "
+          "depends on the pattern and the direction, from 0.13 to 2.8 ke.",
           run_bending_rigidity};
 }
 

@@ -113,8 +113,8 @@ Study bending_scaling_study() {
           "|E|^2/(|N1| + |N2|) does.",
           "BMF03 section 4",
           "A square sheet is rolled on a cylinder whose curvature grows at a given rate, so that "
-          "every mesh deforms alike. The power that the bending damping takes is compared between "
-          "meshes, for both factors.",
+          "every mesh deforms alike. The power that the bending damping dissipates is compared "
+          "between meshes, for both factors.",
           run_bending_scaling};
 }
 

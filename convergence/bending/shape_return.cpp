@@ -119,8 +119,8 @@ NamedFinding comes_back(const std::vector<Shell>& shells, const std::vector<Retu
   }
   const Verdict verdict{
       worst.value(), 1e-3, 0, "of the start",
-      "another rest shape, a dent or a wrong angle, is at least a tenth of the disturbance away; "
-      "motion that has not died out would show in the last tenth of the time"};
+      "another rest shape, with a dent or a wrong angle, is at least a tenth of the disturbance "
+      "away; motion that has not died out would show in the last tenth of the time"};
   return {"shape-recovery.shell-returns-to-its-shape",
           "With its own angles as rest angles, a shell pulled out of shape by about a tenth of its "
           "size returns to it, on coarse and fine meshes.",

@@ -130,8 +130,8 @@ NamedFinding within_chebyshev(const std::vector<Sweep>& measured) {
   const Verdict verdict{worst.value(), 1, 0, "1",
                         "conjugate gradients cannot do worse than Chebyshev's polynomials"};
   return {"cg-iterations.stay-within-the-theoretical-bound",
-          "No solve needs more iterations than the condition 1 + 2 zeta h/h_limit of its matrix "
-          "allows, over all settings.",
+          "No solve needs more iterations than the condition number 1 + 2 zeta h/h_limit of its "
+          "matrix allows, over all settings.",
           {verdict, costs_table(measured),
            "measured is the largest ratio, with residuals compared with the initial one"}};
 }
@@ -168,8 +168,8 @@ NamedFinding no_growth_with_the_mesh(const std::vector<Sweep>& measured) {
     if (!std::isnan(steepest) && !(exponent <= steepest)) steepest = exponent;
   }
   const Verdict verdict{meshes.rows() == 0 ? nan : steepest, largest_exponent, 0, "1",
-                        "no growth: the condition is the same on every mesh; a count that grew "
-                        "like its root on a fixed material would have exponent 1/2"};
+                        "no growth: the condition number is the same on every mesh; a count that "
+                        "grew like its root, as on a fixed material, would have exponent 1/2"};
   return {"cg-iterations.do-not-grow-with-the-mesh",
           "At a fixed damping ratio and a fixed fraction of the elastic limit, iterations do not "
           "grow with the number of cells along a side.",

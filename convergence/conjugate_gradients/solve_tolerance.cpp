@@ -194,12 +194,12 @@ StudyResult run_solve_tolerance(const Subject& subject, Tier tier, const Progres
 
 Study solve_tolerance_study() {
   return {"solve-tolerance",
-          "The default tolerance of the solves leaves the order of A, B and C alone.",
+          "The default tolerance of the solves does not change the order of A, B and C.",
           "BMF03 section 3",
-          "How loose may a solve be? A damped sheet, whose fastest mode is overdamped several "
-          "times, is run with A, B and C at half, a quarter and an eighth of the elastic limit "
-          "while the relative residual at which conjugate gradients stop goes from a tenth down to "
-          "rounding. Errors are against an extrapolated RK4, which solves nothing.",
+          "How loose may a solve be? A damped sheet, whose fastest mode is damped several times "
+          "critically, is run with A, B and C at half, a quarter and an eighth of the elastic "
+          "limit while the relative residual at which conjugate gradients stop goes from a tenth "
+          "down to rounding. Errors are against an extrapolated RK4, which solves nothing.",
           run_solve_tolerance};
 }
 

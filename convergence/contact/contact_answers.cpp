@@ -92,7 +92,7 @@ StudyResult run_contact_answers(const Subject& subject, Tier, const Progress& pr
 
 Study contact_answers_study() {
   return {"contact-answers",
-          "Repulsion answers most contacts of cloth that drifts, and not of cloth that is thrown.",
+          "Repulsion answers most contacts of cloth that drifts, but not of cloth that is thrown.",
           "Bridson, Fedkiw and Anderson (2002)",
           "Two small free sheets meet at a tenth of a metre per second or at two. Counted are "
           "pairs that repulsion parts, pairs that an impulse keeps from meeting, and particles in "

@@ -217,8 +217,8 @@ NamedFinding tells_near_ones_only(const std::vector<Alarms>& all) {
           "reported time.",
           {{worst.value(), 1 + roundings, 0, "1",
             "distance over 1.5 times the distance to keep, or over three quarters of the distance "
-            "at the start; coordinates of 10 m are rounded by 1e-15 m, a 10^12th of the least "
-            "distance to keep"},
+            "at the start; coordinates of 10 m are rounded by 1e-15 m, 1e-12 of the least distance "
+            "to keep"},
            stacked({"queries", ""}, told),
            ""}};
 }

@@ -124,9 +124,10 @@ Table range_of(const Body& body, int levels) {
 
 NamedFinding order_finding(const Body& body, const Table& range) {
   const Estimate deviation = order_deviation(convergence_of(range, "eps needed"), body.order, 2);
-  const std::string power = body.order == 2 ? "the square of the edge" : "the edge";
+  const std::string power = body.order == 2 ? "as the square of the cloth's edge length"
+                                            : "in proportion to the cloth's edge length";
   return {"required-eps.order-is-as-derived." + body.name,
-          "On the " + body.words + " the eps that is needed grows as " + power + ".",
+          "On the " + body.words + " the eps that is needed grows " + power + ".",
           {{deviation.value, 0.01, 0, "1",
             "eps is found to 5e-4 of itself, which is 0.0015 of an order; the next term of "
             "sqrt(R^2 + L^2/3) - R is L^2/(12 R^2) of the first, below 0.003 in the last pairs; "
@@ -173,8 +174,8 @@ StudyResult run_eps_needed(const Subject&, Tier tier, const Progress& progress) 
 
 Study eps_needed_study() {
   return {"required-eps",
-          "The eps that keeps triangles out of an object grows as the square of their edges over "
-          "its radius, and as their edges along its own edges.",
+          "The eps that keeps triangles out of an object grows as the square of their edge length "
+          "over its radius, and along an edge of the object in proportion to their edge length.",
           "BMF03 section 5.3",
           "Sheets of equilateral triangles are sunk into a body and projected plainly, their "
           "particles to eps outside. The least eps is sought with which no triangle has a point in "

@@ -96,8 +96,8 @@ NamedFinding order_left(const FilteredMotion& motion, const std::string& scheme,
   return {"filtered-order." + motion.leaves + "-no-second-order." + scheme,
           "Scheme " + scheme + " is not of second order while " + motion.in_words + ".",
           {{order, 1.5, 0, "1",
-            "halfway between first and second order; when in a step a filter begins to act shifts "
-            "a run by part of a step"},
+            "halfway between first and second order; a run is shifted by a part of a step that "
+            "depends on when in the step a filter begins to act"},
            differences,
            "measured is the order of the line through all levels"}};
 }
@@ -139,10 +139,10 @@ Study filtered_order_study() {
           "order.",
           "BMF03 section 3",
           "A sheet falls on a ball and slides on it; another hangs on springs that reach their "
-          "limits. A contact begins somewhere within a step, but acts from its start or its end: "
-          "that shifts the motion by part of a step, and what follows by first order. A sweep of "
-          "strain limits stops springs at one end of the step, too. How much is chance, so the "
-          "differences are means over starts that differ a little.",
+          "limits. A contact begins somewhere within a step, but acts from the step's start or "
+          "end: that shifts the motion by part of a step, and all that follows errs by first "
+          "order. Strain limits, too, stop springs at one end of the step. By how much is chance, "
+          "so the differences are averaged over starts that differ a little.",
           run_filtered_order};
 }
 

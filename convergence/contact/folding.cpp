@@ -204,7 +204,7 @@ NamedFinding lost_finding(const std::vector<FoldedSheet>& runs) {
           "and is compressed.",
           {{least / run.area_lost, 1, 0, "1",
             "measured is half the share by which the clamps come together, over the area lost: "
-            "Poisson's ratio gives back a third of it"},
+            "Poisson's ratio gives a third of it back"},
            evidence_of(std::vector{run}),
            ""}};
 }

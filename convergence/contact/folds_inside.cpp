@@ -126,7 +126,7 @@ NamedFinding tube_finding(const Table& folds) {
   const std::vector<double>& crests = folds.numbers("crests a turn");
   return {
       "folding-inside-objects.more-folds-when-allowed-inside",
-      "Cloth that starts partly inside of a drum and is pushed together has fewer folds if it is "
+      "Cloth that starts partly inside a drum and is pushed together has fewer folds if it is "
       "brought to the surface at once than if it may stay inside.",
       {{crests.front() / crests.back(), 0.5, 0, "1",
         "a surface that blocks one side blocks folds to that side: at most half of them are left"},
@@ -173,11 +173,11 @@ StudyResult run_folds_inside(const Subject& subject, Tier tier, const Progress& 
 
 Study folds_inside_study() {
   return {"folding-inside-objects",
-          "Cloth that starts partly inside of an object folds more if it may stay there; cloth "
-          "that comes from outside folds as much either way.",
+          "Cloth that starts partly inside an object folds more if it may stay there; cloth that "
+          "comes from outside folds as much either way.",
           "BMF03 section 5.3",
-          "A tube that starts inside of a drum is pushed together, and a sheet falls on a ball: "
-          "how many folds have they with forecast times from a step to far longer than the run?",
+          "A tube that starts inside a drum is pushed together, and a sheet falls on a ball: how "
+          "many folds do they form with forecast times from one step to far longer than the run?",
           run_folds_inside};
 }
 

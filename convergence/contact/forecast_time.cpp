@@ -104,9 +104,9 @@ NamedFinding order_finding(const Setting& setting, const Table& misses) {
   return {"forecast-time.second-order-on-a-" + setting.name,
           "On " + setting.words + ", it misses the surface by the square of the step.",
           {{deviation.value, 0.1, deviation.uncertainty, "1",
-            "a first-order miss would be off by one: the forecast has then the wrong direction or "
-            "velocity; the next term is smaller by the distance moved in a step over the radius, a "
-            "hundredth"},
+            "a first-order miss would be off by one: the forecast would then have the wrong "
+            "direction or velocity; the next term is smaller by the distance moved in a step over "
+            "the radius, a hundredth"},
            misses,
            "measured is |order - 2| of the last two pairs"}};
 }
@@ -191,7 +191,7 @@ StudyResult run_forecast_time(const Subject& subject, Tier tier, const Progress&
       nan,
       "At 0.9 m/s, steps of 4 ms. The height is multiplied by 1 - h/tau in every step: a longer "
       "forecast time is a softer landing. A forecast time shorter than the step overshoots: the "
-      "point is inside after it, and the push outwards throws it off.",
+      "point is inside after the step, and the push outwards throws it off.",
       {}};
   Table decays{{"forecast time over the step", "1"}, {"off", "1"}};
   const Decay thrown = decay_of(subject, 0.7);

@@ -48,14 +48,15 @@ Table cuts(const Subject& subject, const std::vector<int>& meshes, PointKind poi
 
 NamedFinding order_finding(const Table& cut) {
   const Estimate deviation = order_deviation(convergence_of(cut, "depth of midpoints"), 2, 2);
-  return {"pointwise-contact.edge-penetration-is-second-order",
-          "Edges whose ends lie on a ball cut into it by the square of their length.",
-          {{deviation.value, 0.1, 0, "1",
-            "a chord of length L is L^2/(8R) deep, and another power is off by 1; a tenth is four "
-            "percent of a depth between meshes half as fine again, more than how the longest edges "
-            "come to lie along the ball differs"},
-           cut,
-           "measured is |order - 2| of the last two pairs"}};
+  return {
+      "pointwise-contact.edge-penetration-is-second-order",
+      "Edges whose ends lie on a ball cut into it by the square of their length.",
+      {{deviation.value, 0.1, 0, "1",
+        "a chord of length L is L^2/(8R) deep, and another power is off by 1; between meshes whose "
+        "edges differ by a factor of one and a half, a tenth of an order is four percent of a "
+        "depth, more than the scatter from how the longest edges happen to lie along the ball"},
+       cut,
+       "measured is |order - 2| of the last two pairs"}};
 }
 
 NamedFinding bound_finding(const Table& cut) {

@@ -70,8 +70,8 @@ constexpr const char* what_is_measured =
 NamedFinding quieter(const Rest& forecast, const Rest& push_out) {
   return {
       "resting-contact.quieter-than-push-out",
-      "Cloth at rest shakes less than half as much under forecasting as if points found inside are "
-      "pushed out.",
+      "Cloth at rest shakes less than half as much under forecasting as when points found inside "
+      "are pushed out.",
       {{forecast.jitter / push_out.jitter, 0.5, 0, "1",
         "two responses that are equally good differ by a hundredth here; half is far beyond that"},
        compare({forecast, push_out}),
@@ -81,7 +81,7 @@ NamedFinding quieter(const Rest& forecast, const Rest& push_out) {
 NamedFinding alike(const Rest& forecast, const Rest& projection) {
   return {
       "resting-contact.projection-is-as-quiet",
-      "Cloth at rest shakes as much under forecasting as if points are put on the surface after "
+      "Cloth at rest shakes as much under forecasting as when points are put on the surface after "
       "each step and lose their velocity into it.",
       {{std::abs(forecast.jitter / projection.jitter - 1), 0.1, 0, "1",
         "empirical: which of two like motions shakes more is chance; runs differ by a twentieth"},
@@ -115,8 +115,8 @@ StudyResult run_resting_contact(const Subject& subject, Tier, const Progress& pr
 Study resting_contact_study() {
   return {
       "resting-contact",
-      "Cloth that lies on a ball shakes less than half as much under forecasting as if it is "
-      "pushed out, and as much as if it is projected after each step.",
+      "Cloth that lies on a ball shakes less than half as much under forecasting as when it is "
+      "pushed out, and as much as when it is projected after each step.",
       "BMF03 section 5.2",
       "A sheet falls on a ball and hangs over it. The paper's response corrects velocities before "
       "the cloth moves; the two responses compared with it act on positions after the move.",

@@ -74,13 +74,13 @@ struct LossLaw {
 };
 
 std::vector<LossLaw> loss_laws() {
-  return {{"forward-euler", "grow per period in proportion to the step", 1},
-          {"RK2", "grow per period as the cube of the step", 3},
-          {"SSP-RK3", "lose as the cube of the step per period", 3},
-          {"RK4", "lose as the fifth power of the step per period", 5},
-          {"backward-euler", "lose in proportion to the step per period", 1},
-          {"linear-backward-euler", "lose in proportion to the step per period", 1},
-          {"BDF2", "lose as the cube of the step per period, nearly", 3, 0.2}};
+  return {{"forward-euler", "gain amplitude per period in proportion to the step", 1},
+          {"RK2", "gain amplitude per period as the cube of the step", 3},
+          {"SSP-RK3", "lose amplitude per period as the cube of the step", 3},
+          {"RK4", "lose amplitude per period as the fifth power of the step", 5},
+          {"backward-euler", "lose amplitude per period in proportion to the step", 1},
+          {"linear-backward-euler", "lose amplitude per period in proportion to the step", 1},
+          {"BDF2", "lose amplitude per period nearly as the cube of the step", 3, 0.2}};
 }
 
 NamedFinding order_of_loss(const VibratingSheet& sheet, const Response& response,

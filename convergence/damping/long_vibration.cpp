@@ -187,8 +187,8 @@ NamedFinding stays_bounded(const Run& run) {
 
 NamedFinding dies_out(const Run& run) {
   return {"artificial-damping.energy-dies-out.backward-euler",
-          "Backward Euler takes more than half the energy of an undamped sheet within a hundred "
-          "periods at half the elastic limit.",
+          "Backward Euler takes away more than half the energy of an undamped sheet within a "
+          "hundred periods at half the elastic limit.",
           {{run.energies().back(), 0.5, 0, "of the start's energy",
             "half of the energy is what we call significant"},
            thinned_history(run),

@@ -41,7 +41,9 @@ std::string ways_in_words(const std::string& scheme) {
 NamedFinding goes_its_derived_way(const Subject& subject, const DampedMotions& motions,
                                   const std::string& scheme) {
   Worst worst;
-  Table ways{{"h c/2", "1"}, {"first step over the way", "1"}, {"all over the way", "1"}};
+  Table ways{{"h c/2", "1"},
+             {"first step over the displacement", "1"},
+             {"all steps over the displacement", "1"}};
   for (const double a : {0.2, 0.7, 1.6, 4.3, 10.0, 25.0}) {
     const int steps = int(std::ceil(30 / -std::log(std::abs((1 - a) / (1 + a)))));
     const DampedRun run = run_damped(subject, motions.triangle, scheme, a, steps);
@@ -54,7 +56,9 @@ NamedFinding goes_its_derived_way(const Subject& subject, const DampedMotions& m
   return {"monotonicity.distance-is-as-derived." + scheme,
           "Under scheme " + scheme + " a motion that is only damped goes " + ways_in_words(scheme) +
               ", a = h c/2.",
-          {{worst.value(), rounding, 0, "of (1 + a^2) times the way", why_rounding}, ways, ""}};
+          {{worst.value(), rounding, 0, "of (1 + a^2) times the displacement", why_rounding},
+           ways,
+           ""}};
 }
 
 // ---- scheme A
@@ -62,7 +66,7 @@ NamedFinding goes_its_derived_way(const Subject& subject, const DampedMotions& m
 NamedFinding overshoots(const Subject& subject, const DampedMotions& motions) {
   constexpr double a = 10;
   Worst worst;
-  Table rows{{"motion", "1"}, {"h c/2", "1"}, {"farthest in the wrong direction", "ways"}};
+  Table rows{{"motion", "1"}, {"h c/2", "1"}, {"farthest in the wrong direction", "displacements"}};
   for (const DampedMotion* motion : {&motions.triangle, &motions.sheet}) {
     const double wrong = largest_reversal(run_damped(subject, *motion, "A", a, 12));
     worst.observe(100 / wrong);
@@ -106,7 +110,7 @@ NamedFinding is_stable(const Subject& subject, const DampedMotions& motions) {
 
 NamedFinding is_bounded(const Subject& subject, const DampedMotions& motions,
                         const std::string& scheme) {
-  Table rows{{"motion", "1"}, {"h c/2", "1"}, {"farthest", "ways"}};
+  Table rows{{"motion", "1"}, {"h c/2", "1"}, {"farthest", "displacements"}};
   for (const DampedMotion* motion : {&motions.triangle, &motions.sheet})
     for (const double a : {0.7, 4.3, 25.0, 110.0}) {
       const double far = largest_progress(run_damped(subject, *motion, scheme, a, 30));
@@ -116,7 +120,7 @@ NamedFinding is_bounded(const Subject& subject, const DampedMotions& motions,
           "Scheme " + scheme +
               " overshoots a linear motion by no more than its displacement, however large the "
               "damping.",
-          {{rows.worst("farthest"), 2, 0, "ways",
+          {{rows.worst("farthest"), 2, 0, "displacements",
             "derived: it goes at most 2a/(1 + a) of the displacement, in the first step"},
            rows,
            ""}};
@@ -145,7 +149,7 @@ NamedFinding alternates(const Subject& subject, const DampedMotions& motions,
 
 NamedFinding monotone_below_one(const Subject& subject, const DampedMotions& motions,
                                 const std::string& scheme) {
-  Table rows{{"motion", "1"}, {"h c/2", "1"}, {"overshoot or way back", "ways"}};
+  Table rows{{"motion", "1"}, {"h c/2", "1"}, {"overshoot or way back", "displacements"}};
   for (const DampedMotion* motion : {&motions.triangle, &motions.sheet})
     for (const double a : {0.2, 0.7, 0.95}) {
       const double wrong = worst_overshoot_or_reversal(run_damped(subject, *motion, scheme, a, 40));
@@ -153,14 +157,16 @@ NamedFinding monotone_below_one(const Subject& subject, const DampedMotions& mot
     }
   return {"monotonicity.monotone-in-short-steps." + scheme,
           "Scheme " + scheme + " is monotone while h c/2 < 1.",
-          {{rows.worst("overshoot or way back"), turning, 0, "of the way", why_turning}, rows, ""}};
+          {{rows.worst("overshoot or way back"), turning, 0, "of the displacement", why_turning},
+           rows,
+           ""}};
 }
 
 // ---- fully implicit methods
 
 NamedFinding is_monotone(const Subject& subject, const DampedMotions& motions,
                          const std::string& method) {
-  Table rows{{"motion", "1"}, {"h c/2", "1"}, {"overshoot or way back", "ways"}};
+  Table rows{{"motion", "1"}, {"h c/2", "1"}, {"overshoot or way back", "displacements"}};
   for (const DampedMotion* motion : {&motions.triangle, &motions.sheet})
     for (const double a : {0.7, 4.3, 25.0, 400.0}) {
       const double wrong = worst_overshoot_or_reversal(run_damped(subject, *motion, method, a, 30));
@@ -169,7 +175,9 @@ NamedFinding is_monotone(const Subject& subject, const DampedMotions& motions,
   return {"monotonicity.monotone." + method,
           "Linear motions are monotone at any step under " + method +
               ": nothing overshoots, nothing turns back.",
-          {{rows.worst("overshoot or way back"), turning, 0, "of the way", why_turning}, rows, ""}};
+          {{rows.worst("overshoot or way back"), turning, 0, "of the displacement", why_turning},
+           rows,
+           ""}};
 }
 
 /// The farthest that BDF2 gets from two exact values of v' = -c v: its recurrence on v, with x =
@@ -189,7 +197,7 @@ double farthest_by_bdf2(double a, int steps) {
 
 std::vector<NamedFinding> bdf2_findings(const Subject& subject, const DampedMotions& motions) {
   Worst least, error;
-  Table rows{{"motion", "1"}, {"h c/2", "1"}, {"farthest", "ways"}};
+  Table rows{{"motion", "1"}, {"h c/2", "1"}, {"farthest", "displacements"}};
   for (const double a : {0.5, 1.6, 4.3, 10.0}) {
     const double far = largest_progress(run_damped(subject, motions.triangle, "BDF2", a, 30));
     least.observe(far > 1 ? 0.01 / (far - 1) : std::numeric_limits<double>::infinity());
@@ -203,7 +211,7 @@ std::vector<NamedFinding> bdf2_findings(const Subject& subject, const DampedMoti
           {"monotonicity.distance-is-as-derived.BDF2",
            "BDF2, started exactly, overshoots as its recurrence says, by at most a tenth of the "
            "displacement.",
-           {{error.value(), rounding, 0, "of the way", why_rounding}, rows, ""}}};
+           {{error.value(), rounding, 0, "of the displacement", why_rounding}, rows, ""}}};
 }
 
 StudyResult run_monotonicity(const Subject& subject, Tier tier, const Progress& progress) {
@@ -237,10 +245,10 @@ StudyResult run_monotonicity(const Subject& subject, Tier tier, const Progress& 
 
 Study monotonicity_study() {
   return {"monotonicity",
-          "A linear motion that damping alone brings to rest is overshot by A without bound, and "
-          "by B and C by the way itself at most, though they swing, in steps far longer than the "
-          "damping's time; backward Euler is monotone. On a folding hinge C and full backward "
-          "Euler overshoot too, linearised backward Euler does not.",
+          "In steps far longer than the damping time, A overshoots a linear motion that damping "
+          "alone brings to rest without bound, and B and C by at most the displacement itself, "
+          "though they oscillate; backward Euler is monotone. On a folding hinge C and fully "
+          "implicit backward Euler overshoot too; linearised backward Euler does not.",
           "BMF03 section 3",
           "Three motions that damping alone brings to rest: a triangle that expands (linear, known "
           "exactly), a hinge that folds (nonlinear, known by an oracle), a sheet whose modes all "

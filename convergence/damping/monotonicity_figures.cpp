@@ -42,7 +42,7 @@ Figure distance_figure(const Subject& subject, const DampedMotions& motions) {
   Figure figure{"distance",
                 "A damped motion at h c/2 = 10",
                 {"step", "1", Scale::linear},
-                {"distance from the exact place of rest, over the way", "1", Scale::log},
+                {"distance from the exact place of rest, over the displacement", "1", Scale::log},
                 nan,
                 "The exact motion is over before the first step ends. Explicit methods are "
                 "unstable here; A comes to rest a hundred displacements away.",
@@ -81,7 +81,7 @@ Figure history_figure(const Subject& subject, const DampedMotion& motion, const 
   Figure figure{"history-" + motion.name,
                 "Coming to rest at h c/2 = 10: " + motion.words,
                 {"step", "1", Scale::linear},
-                {"way gone over the exact one", "1", Scale::linear},
+                {"displacement over the exact one", "1", Scale::linear},
                 nan,
                 shown.caption,
                 {}};

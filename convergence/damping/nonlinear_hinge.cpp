@@ -8,7 +8,7 @@ namespace {
 
 NamedFinding passes_the_bound(const Subject& subject, const DampedMotion& hinge) {
   Worst worst;
-  Table rows{{"motion", "1"}, {"h c/2", "1"}, {"farthest", "ways"}};
+  Table rows{{"motion", "1"}, {"h c/2", "1"}, {"farthest", "displacements"}};
   for (const double a : {10.0, 25.0}) {
     const double far = largest_progress(run_damped(subject, hinge, "C", a, 30));
     worst.observe(2 / far);
@@ -27,7 +27,7 @@ NamedFinding passes_the_bound(const Subject& subject, const DampedMotion& hinge)
 
 NamedFinding is_monotone_on_a_hinge(const Subject& subject, const DampedMotion& hinge,
                                     const std::string& method) {
-  Table rows{{"motion", "1"}, {"h c/2", "1"}, {"overshoot or way back", "ways"}};
+  Table rows{{"motion", "1"}, {"h c/2", "1"}, {"overshoot or way back", "displacements"}};
   for (const double a : {0.7, 4.3, 10.0, 25.0, 400.0}) {
     const DampedRun run = run_damped(subject, hinge, method, a, 30);
     const double wrong = run.work.unfinished_solves == 0 ? worst_overshoot_or_reversal(run)
@@ -37,7 +37,7 @@ NamedFinding is_monotone_on_a_hinge(const Subject& subject, const DampedMotion& 
   return {"monotonicity.monotone-on-a-hinge." + method,
           "On a nonlinear hinge too motion is monotone under " + method +
               ", as nearly as the exact motion is.",
-          {{rows.worst("overshoot or way back"), 0.004, 0, "ways",
+          {{rows.worst("overshoot or way back"), 0.004, 0, "displacements",
             "the exact motion overshoots its rest angle by 0.4 % and returns"},
            rows,
            "A solve that did not finish would count as NaN."}};
@@ -45,7 +45,7 @@ NamedFinding is_monotone_on_a_hinge(const Subject& subject, const DampedMotion& 
 
 NamedFinding passes_its_place(const Subject& subject, const DampedMotion& hinge) {
   Worst worst;
-  Table rows{{"motion", "1"}, {"h c/2", "1"}, {"farthest", "ways"}};
+  Table rows{{"motion", "1"}, {"h c/2", "1"}, {"farthest", "displacements"}};
   for (const double a : {0.7, 1.1, 1.6}) {
     const DampedRun run = run_damped(subject, hinge, "backward-euler", a, 30);
     const double far = run.work.unfinished_solves == 0 ? largest_progress(run)
@@ -69,8 +69,8 @@ NamedFinding passes_its_place(const Subject& subject, const DampedMotion& hinge)
 Table hinge_table(const Subject& subject, const DampedMotion& hinge) {
   Table table{{"method", "1"},
               {"h c/2", "1"},
-              {"farthest", "ways"},
-              {"way back", "ways"},
+              {"farthest", "displacements"},
+              {"way back", "displacements"},
               {"Newton iterations", "a step"},
               {"unfinished solves", "1"}};
   for (const std::string name :
@@ -81,7 +81,7 @@ Table hinge_table(const Subject& subject, const DampedMotion& hinge) {
                 double(run.work.newton_iterations) / double(run.speed.size() - 1),
                 run.work.unfinished_solves);
     }
-  return {"hinge", "A folding hinge: 1 is its exact way", table};
+  return {"hinge", "A folding hinge: 1 is its exact displacement", table};
 }
 
 }  // namespace

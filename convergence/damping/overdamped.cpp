@@ -40,7 +40,7 @@ Misconduct misconduct_of(const DampedRun& run) {
 /// The sheet at each of these steps, a = h c/2.
 Table sheet_at_steps(const Subject& subject, const DampedMotion& sheet, const std::string& method,
                      const std::vector<double>& as, int steps) {
-  Table rows{{"h c/2", "1"}, {"positions", "ways"}, {"velocities", "of the start's"}};
+  Table rows{{"h c/2", "1"}, {"positions", "displacements"}, {"velocities", "of the start's"}};
   for (const double a : as) {
     const Misconduct wrong = misconduct_of(run_damped(subject, sheet, method, a, steps));
     rows.row(a, wrong.position, wrong.velocity);
@@ -63,7 +63,9 @@ NamedFinding sheet_is_monotone(const Subject& subject, const DampedMotion& sheet
           "On an overdamped sheet with stiffness neither a position nor a velocity overshoots or "
           "turns back at any step under " +
               method + ".",
-          {{worst_of_both(rows), turning, 0, "of the way or of the speed", why_turning}, rows, ""}};
+          {{worst_of_both(rows), turning, 0, "of the displacement or of the speed", why_turning},
+           rows,
+           ""}};
 }
 
 NamedFinding sheet_is_thrown_back(const Subject& subject, const DampedMotion& sheet) {
@@ -85,7 +87,7 @@ NamedFinding sheet_is_bounded(const Subject& subject, const DampedMotion& sheet,
           "On an overdamped sheet with stiffness scheme " + scheme +
               " overshoots or turns back by less than the displacement in positions, and by less "
               "than twice the starting speed in velocities.",
-          {{worst_of_both(rows), 2, 0, "ways or speeds",
+          {{worst_of_both(rows), 2, 0, "displacements or speeds",
             "derived without stiffness: a velocity is multiplied by (1 - a)/(1 + a) > -1, so it "
             "changes by less than twice its size; the part of a position that decays fast "
             "overshoots by less than itself"},
@@ -110,7 +112,7 @@ NamedFinding sheet_swings(const Subject& subject, const DampedMotion& sheet,
 
 NamedFinding hinge_closes_monotonically(const Subject& subject, const DampedMotion& hinge,
                                         const std::string& method) {
-  Table rows{{"motion", "1"}, {"h c/2", "1"}, {"overshoot or way back", "ways"}};
+  Table rows{{"motion", "1"}, {"h c/2", "1"}, {"overshoot or way back", "displacements"}};
   for (const double a : {0.2, 0.7, 4.3, 25.0, 110.0, 400.0}) {
     const DampedRun run = run_damped(subject, hinge, method, a, 40);
     const double wrong = run.work.unfinished_solves == 0 ? worst_overshoot_or_reversal(run) : nan;
@@ -120,7 +122,7 @@ NamedFinding hinge_closes_monotonically(const Subject& subject, const DampedMoti
           "An overdamped hinge that closes by nearly two radians neither passes its rest angle nor "
           "turns back under " +
               method + ", at any step.",
-          {{rows.worst("overshoot or way back"), 1e-7, 0, "of the way",
+          {{rows.worst("overshoot or way back"), 1e-7, 0, "of the displacement",
             "forty solves, each to 1e-11 of the momentum that the hinge would have at its fast "
             "rate, a thousand times its own"},
            rows,
@@ -170,7 +172,7 @@ void add_figures(const Subject& subject, const DampedMotion& sheet, Tier tier,
 Table closing_table(const Subject& subject, const DampedMotion& hinge) {
   Table table{{"method", "1"},
               {"h c/2", "1"},
-              {"overshoot or way back", "ways"},
+              {"overshoot or way back", "displacements"},
               {"Newton iterations", "a step"},
               {"unfinished solves", "1"}};
   for (const Integrator& integrator : integrators())

@@ -274,17 +274,18 @@ StudyResult run_momentum_drift(const Subject& subject, Tier tier, const Progress
 }  // namespace
 
 Study momentum_drift_study() {
-  return {"momentum-drift",
-          "Schemes A and B keep the angular momentum of a free sheet to rounding, damped or not; C "
-          "keeps it undamped, and lets it drift by second order in the step when damped. The "
-          "implicit midpoint rule keeps it to the tolerance of its solves; all methods keep the "
-          "linear momentum.",
-          "BMF03 section 3; Hairer, Lubich, Wanner, section IV.2",
-          "An irregular sheet, bent, stretched and spinning, flies without any force from outside. "
-          "All forces keep angular momentum call by call; a method keeps it only if the velocity "
-          "that moves the positions agrees, in the sum of cross products, with the velocity that "
-          "carries the momentum. The drift from start to end is measured while the step is halved.",
-          run_momentum_drift};
+  return {
+      "momentum-drift",
+      "Schemes A and B keep the angular momentum of a free sheet to rounding, damped or not; C "
+      "keeps it without damping, and with damping lets it drift by second order in the step. The "
+      "implicit midpoint rule keeps it to the tolerance of its solves; all methods keep the linear "
+      "momentum.",
+      "BMF03 section 3; Hairer, Lubich, Wanner, section IV.2",
+      "An irregular sheet, bent, stretched and spinning, flies without any force from outside. The "
+      "forces keep angular momentum whenever they are evaluated; a method keeps it only if the "
+      "velocity that moves the positions and the velocity that carries the momentum agree in the "
+      "sum of cross products. The drift from start to end is measured while the step is halved.",
+      run_momentum_drift};
 }
 
 }  // namespace foldproof

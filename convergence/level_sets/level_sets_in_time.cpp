@@ -122,8 +122,8 @@ NamedFinding carried_errs_less(const std::vector<Pair>& pairs) {
           "Carried along with the body, phi has less than half the error of phi blended at a fixed "
           "point.",
           {{worst.value(), 0.5, 0, "1",
-            "a half: then it saves more than a quarter of the frames, 1 - 1/sqrt(2), both errors "
-            "falling with the interval squared"},
+            "a half: it then saves more than a quarter of the frames, 1 - 1/sqrt(2), since both "
+            "errors fall with the square of the interval"},
            {{"time between frames", "s", column(pairs, &Pair::interval)},
             {"carried", "m", column(pairs, &Pair::carried)},
             {"blended", "m", column(pairs, &Pair::blended)}},
@@ -164,8 +164,8 @@ Figure figure_of(const std::vector<Pair>& pairs) {
           {"time between frames", "s", Scale::log},
           {"largest miss of phi", "m", Scale::log},
           2,
-          "Within 2 cm of the surface, at the time in the middle of the two frames, against the "
-          "exact distance to the mesh as it is then. The floor is the octrees' tolerance.",
+          "Within 2 cm of the surface, midway in time between the two frames, against the exact "
+          "distance to the mesh as it is then. The floor is the octrees' tolerance.",
           {{"blended at the point", x, column(pairs, &Pair::blended), tolerance,
             pair_orders(convergence_of(pairs, &Pair::blended))},
            {"carried along", x, column(pairs, &Pair::carried), tolerance,

@@ -149,7 +149,7 @@ NamedFinding takes_a_tenth(const std::vector<Balance>& all) {
 
 NamedFinding even_curve_takes_more(const std::vector<Balance>& all) {
   return {"octree-memory.sphere-takes-more-than-a-tenth",
-          "On a sphere, which is curved alike everywhere, the octree takes more than a tenth of "
+          "On a sphere, which is equally curved everywhere, the octree takes more than a tenth of "
           "the grid's memory.",
           {{0.1 / share_of_grid(finest(all, "sphere")), 1, 0, "1",
             "measured is a tenth over the share: below 1 the share is larger. The band's cells "

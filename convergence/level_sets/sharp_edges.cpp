@@ -116,7 +116,7 @@ void add_row(const EdgeErrors& errors, Table& table) {
 
 NamedFinding reach_finding(const Sampling& sampling) {
   return {"sharp-edges.normals-blend-near-edges-only." + sampling.name,
-          "On " + sampling.words + " N is the face's but for a few cells next to an edge.",
+          "On " + sampling.words + " N is the face's normal except within a few cells of an edge.",
           judge_worst(sampling.errors, "reach", sampling.looks, sampling.why_looks,
                       "measured is the largest distance from the edge at which N is off by more "
                       "than a degree")};
@@ -129,7 +129,7 @@ NamedFinding angle_finding(const Sampling& sampling) {
           "On " + sampling.words +
               " refinement narrows the strip of blended normals, but not their error.",
           {{std::abs(last / first - 1), 0.2, 0, "1",
-            "next to an edge the samples of every spacing look alike except for where the edge "
+            "next to an edge the samples look alike at every spacing, except for where the edge "
             "lies among them; 6000 places are tried, and a fifth is left for chance"},
            sampling.errors,
            "measured is the change of the largest angle from the coarsest to the finest"}};

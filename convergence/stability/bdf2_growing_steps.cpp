@@ -34,8 +34,8 @@ NamedFinding zero_stability(const Subject& subject) {
   const oracles::Estimate exact = oracles::bdf2_largest_ratio();
   return {
       "variable-step-stability.BDF2.largest-step-ratio-is-as-derived",
-      "BDF2 with steps of a constant ratio amplifies differences of x'' = 0 from the ratio 1 + "
-      "sqrt(2) on.",
+      "With steps that grow by a constant ratio, BDF2 amplifies differences between solutions of "
+      "x'' = 0 from the ratio 1 + sqrt(2) on.",
       {{std::abs((below + above) / 2 - exact.value), 1e-9, exact.uncertainty, "1",
         "the factor r^2/(1 + 2 r) is found to roundings, and its slope there is 0.35"},
        Table{{"ratio found", "1"}, {"1 + sqrt(2)", "1"}}.with_row((below + above) / 2, exact.value),

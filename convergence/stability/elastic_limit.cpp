@@ -70,7 +70,7 @@ NamedFinding bound_of(const Regime& regime, const Table& limits) {
   evidence.add({"elastic limit over 2/omega", "1", ratios});
   const double worst = evidence.worst("elastic limit over 2/omega");
   const Verdict verdict{worst, 1, 0.01 * worst, "1",
-                        "the bound on the frequency must not lie below it"};
+                        "the bound on the frequency must not lie below the frequency"};
   return {"elastic-limit.bound-is-safe." + regime.name,
           "With " + regime.words +
               ", the reference's elastic limit is no longer than the largest stable step.",
@@ -95,8 +95,8 @@ NamedFinding smaller_of_both(const std::vector<Table>& alone, const Table& both)
   const Verdict verdict{worst.value(), 0.01, 0, "1",
                         "power iteration has found the frequencies to better than a hundredth"};
   return {"elastic-limit.both.is-the-smaller-of-the-two",
-          "With springs and bending, the largest stable step is the smaller of the two: springs' "
-          "on wide cells, bending's on narrow ones.",
+          "With springs and bending, the largest stable step is the smaller of the two: that of "
+          "the springs on wide cells, that of bending on narrow ones.",
           {verdict, std::move(limits), ""}};
 }
 
@@ -125,7 +125,7 @@ StudyResult run_elastic_limit(const Subject& subject, Tier tier, const Progress&
                 {"width of a cell", "m", Scale::log},
                 {"2/omega", "s", Scale::log},
                 nan,
-                "Springs' limit falls with the width, hinges' with its square.",
+                "The springs' limit falls with the width, the hinges' with its square.",
                 {}};
   double done = 0;
   const double parts = 1 + double(regimes().size() * (1 + paper_schemes().size()));

@@ -49,7 +49,7 @@ NamedFinding damping_exponent(const Damping& damping, Table limits, double expon
 std::vector<Damping> dampings() {
   return {{"springs", "damped springs", 0.3, 0},
           {"bending", "damped bending", 0, 0.01},
-          {"both", "both damped", 0.3, 0.01}};
+          {"both", "springs and bending both damped", 0.3, 0.01}};
 }
 
 void add_refinement(const Subject& subject, Tier tier, StudyResult& result) {
@@ -137,13 +137,13 @@ NamedFinding factor_exponent(const Table& counts) {
   for (size_t i = 0; i < widths.size(); ++i) factors.row(widths[i], classical[i] / mixed[i]);
   const Estimate deviation =
       order_deviation(convergence_of(factors, "steps of RK4 over those of A"), -1, 1);
-  return {
-      "stability-sheet.tenth-width.step-ratio-exponent",
-      "The factor between the steps of explicit and mixed methods grows as one over the width of a "
-      "cell.",
-      {{deviation.value, 0.1, 0, "1", "a factor that stayed, or grew with the square, is off by 1"},
-       factors,
-       "measured is |exponent + 1| of the last pair"}};
+  return {"stability-sheet.tenth-width.step-ratio-exponent",
+          "The factor between the steps of explicit and mixed methods grows as one over the width "
+          "of a cell.",
+          {{deviation.value, 0.1, 0, "1",
+            "an exponent of 0, if the factor stayed, or of 2 is off by 1"},
+           factors,
+           "measured is |exponent + 1| of the last pair"}};
 }
 
 /// At a tenth the steps are also found by trying: runs of the whole sheet, and for A, which leaves
@@ -169,8 +169,8 @@ NamedFinding by_trying(const Subject& subject, const Integrator& integrator, dou
           "Stepping confirms the steps that " + std::string(integrator.title) +
               " needs at a width of a tenth.",
           {{std::abs(steps / expected - 1), 0.01, 0, "1",
-            "a disturbance grows a thousandfold in 2400 steps from a third of a percent beyond the "
-            "limit on; the bisection ends at a sixth of a percent"},
+            "from a third of a percent beyond the limit on, a disturbance grows a thousandfold in "
+            "2400 steps; the bisection ends at a sixth of a percent"},
            Table{{"steps in a unit of time", "1"}, {"as known", "1"}}.with_row(steps, expected),
            ""}};
 }

@@ -88,14 +88,14 @@ std::vector<NamedFinding> gains_of_one_solve(const Subject& subject, Tier tier) 
            "In steps of a thirtieth of a second, one linear solve a step keeps the energy of a "
            "falling sheet bounded, from soft to nearly inextensible cloth, damped or not.",
            judge_worst(table, "largest gain of energy", 1,
-                       "what a fall by the sheet's side frees: an unstable method gains it many "
-                       "times over within sixty steps",
+                       "the energy that a fall by the sheet's side sets free: an unstable method "
+                       "gains it many times over within sixty steps",
                        "linearised backward Euler with semidefinite elements")},
           {"frame-long-steps.one-solve-adds-energy",
            "In such steps one linear solve a step does add energy to some of these sheets, more "
-           "than a hundredth of what the fall frees.",
+           "than a hundredth of the energy that the fall sets free.",
            {{0.01 / largest, 1, 0, "1",
-             "a hundredth is visible; backward Euler solved to the end only takes energy away"},
+             "a hundredth is visible; backward Euler solved to convergence only takes energy away"},
             table,
             ""}}};
 }
@@ -139,7 +139,7 @@ NamedFinding one_solve_is_coarser(const Subject& subject) {
   const double at_a_frame = table.numbers("one over the other").front();
   return {"frame-long-steps.one-solve-is-less-accurate",
           "In steps of a frame, one linear solve a step has more than twice the error of Newton's "
-          "method to the end.",
+          "method run to convergence.",
           {{2 / at_a_frame, 1, 0, "1",
             "both are of first order: a factor of two is what halving the step would give"},
            table,
@@ -167,14 +167,15 @@ NamedFinding work_grows(const Subject& subject, Tier tier) {
     before_work = work;
     before_particles = particles;
   }
-  return {
-      "frame-long-steps.work-grows-with-the-power-of-three-halves",
-      "At a fixed frame rate, iterations times particles grow with the power 3/2 of the particles.",
-      {{std::abs(last - 1.5), 0.2, 0, "1",
-        "iterations grow with the root of the condition, which grows with the number of cells "
-        "along a side, the root of the particles: 1 + 1/2; two tenths for the start of that range"},
-       table,
-       "counted, not timed: a product costs the same for each particle"}};
+  return {"frame-long-steps.work-grows-with-the-power-of-three-halves",
+          "At a fixed frame rate, iterations times particles grow with the power 3/2 of the number "
+          "of particles.",
+          {{std::abs(last - 1.5), 0.2, 0, "1",
+            "iterations grow with the root of the condition number, and that root with the number "
+            "of cells along a side, the root of the number of particles: 1 + 1/2; two tenths are "
+            "allowed, since these meshes are only at the start of the range in which that holds"},
+           table,
+           "counted, not timed: a product costs the same for each particle"}};
 }
 
 /// Of the motion of a sheet that swings: what is left of its energy, and the price.
@@ -202,7 +203,7 @@ NamedFinding bdf2_costs(const Subject& subject) {
           "BDF2 takes at most a third more iterations than backward Euler, at equal steps.",
           judge_worst(table, "one over the other", 4.0 / 3,
                       "its matrix has the step times 2/3 in it and is better conditioned; a third "
-                      "for motion that it keeps and backward Euler damps out",
+                      "is allowed for motion that it keeps and backward Euler damps out",
                       "all linear iterations of Newton's method, over eight frames")};
 }
 
@@ -223,8 +224,8 @@ StudyResult run_frame_long_steps(const Subject& subject, Tier tier, const Progre
 Study frame_long_steps_study() {
   return {"frame-long-steps",
           "In steps of a frame one linear solve keeps implicit methods bounded, though it may add "
-          "energy and errs more than twice as much as Newton's method; the price grows faster than "
-          "the mesh.",
+          "energy and errs more than twice as much as Newton's method; the cost grows faster than "
+          "the number of particles.",
           "Baraff and Witkin (1998); Choi and Ko (2002)",
           "A sheet held at two corners falls and swings. Steps are a thirtieth of a second, up to "
           "hundreds of times the elastic limit.",

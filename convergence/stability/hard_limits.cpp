@@ -91,13 +91,14 @@ NamedFinding bound_finding(const std::vector<HardSheet>& sheets,
   Table ratios{{"sheet", "1"}, {"elastic limit over 2/omega", "1"}};
   for (size_t i = 0; i < sheets.size(); ++i) ratios.row(sheets[i].words, limits[i].bound);
   const double worst = ratios.worst("elastic limit over 2/omega");
-  return {"hard-limits.bound-is-safe",
-          "The reference's elastic limit is no longer than the largest stable step on hard sheets "
-          "either.",
-          {{worst, 1, 0.01 * worst, "1", "the bound on the frequency must not lie below it"},
-           ratios,
-           "power iteration approaches omega from below, which errs towards passing; the "
-           "uncertainty is the one percent within which runs confirm 2/omega"}};
+  return {
+      "hard-limits.bound-is-safe",
+      "The reference's elastic limit is no longer than the largest stable step on hard sheets "
+      "either.",
+      {{worst, 1, 0.01 * worst, "1", "the bound on the frequency must not lie below the frequency"},
+       ratios,
+       "power iteration approaches omega from below, which errs towards passing; the uncertainty "
+       "is the one percent within which runs confirm 2/omega"}};
 }
 
 // ---- damping

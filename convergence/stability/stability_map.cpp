@@ -173,17 +173,18 @@ NamedFinding as_derived(const Integrator& method, const Springs& springs, const 
       points.rows() == 0
           ? nan
           : largest_deviation(points, "largest stable step over 2/omega", "as derived");
-  return {
-      "stability-sheet.map-follows-the-fastest-mode." + springs.name + "." +
-          std::string(method.name),
-      "Over damping and resolution, with " + springs.words + ", the largest stable step of " +
-          std::string(method.title) + " is that of the oscillator that the fastest mode is.",
-      {{worst, 0.01, 0, "1",
-        "the bisection ends at a relative width of 3e-4, and beyond the limit of A and B, where it "
-        "grows most slowly, the radius exceeds 1 by a few thousandths of the relative excess, and "
-        "1e-6 counts as growth; a limit with another scaling would be off by factors"},
-       points,
-       "measured is the largest relative deviation over the map"}};
+  return {"stability-sheet.map-follows-the-fastest-mode." + springs.name + "." +
+              std::string(method.name),
+          "Over damping and resolution, with " + springs.words + ", the largest stable step of " +
+              std::string(method.title) +
+              " is that of an oscillator with the fastest mode's frequency and damping.",
+          {{worst, 0.01, 0, "1",
+            "the bisection ends at a relative width of 3e-4; beyond the limit of A and B, where "
+            "the radius grows most slowly, it exceeds 1 by a few thousandths of the step's "
+            "relative excess, and 1e-6 counts as growth; a limit with another scaling would be off "
+            "by a large factor"},
+           points,
+           "measured is the largest relative deviation over the map"}};
 }
 
 }  // namespace

@@ -69,8 +69,8 @@ NamedFinding limit_finding(const Integrator& integrator, const Table& row) {
           "The largest stable step of " + title + " on the damped oscillator is " + what + ".",
           {{largest_deviation(row, "largest stable omega h", "as known"), 1e-3, 0, "1",
             "a tenth of a percent tells any two of these formulas apart; a spectral radius of 1 + "
-            "1e-8 counts as growth, which errs by a ten-thousandth at most, where the radius grows "
-            "most slowly"},
+            "1e-8 counts as growth, which puts a limit off by a ten-thousandth at most, where the "
+            "radius grows most slowly"},
            row,
            "measured is the largest relative deviation"}};
 }
@@ -109,7 +109,7 @@ NamedFinding unlimited_finding(const Subject& subject, const Integrator& integra
   Worst worst;
   for (const double radius : radii.numbers(largest)) worst.observe(radius - 1);
   return {"stability-oscillator.has-no-limit." + std::string(integrator.name),
-          std::string(integrator.title) + " is stable on the damped oscillator at every step.",
+          "On the damped oscillator " + std::string(integrator.title) + " is stable at every step.",
           {{worst.value(), threshold, 0, "1", "what counts as growth everywhere in this study"},
            radii,
            "measured is the largest spectral radius, less 1"}};
@@ -161,7 +161,7 @@ StudyResult run_stability_oscillator(const Subject& subject, Tier tier, const Pr
                 {"largest stable omega h", "1", Scale::log},
                 nan,
                 "Measured from step matrices. Methods that are implicit in the elastic forces have "
-                "no limit and no curve; A and B share theirs.",
+                "no limit and no curve; A and B share one.",
                 {}};
   double done = 0;
   for (const Integrator& integrator : integrators()) {
@@ -190,17 +190,17 @@ StudyResult run_stability_oscillator(const Subject& subject, Tier tier, const Pr
 }  // namespace
 
 Study stability_oscillator_study() {
-  return {
-      "stability-oscillator",
-      "On the damped oscillator schemes A and B are stable up to 2/omega for any damping, C "
-      "further the more it is damped; explicit methods lose their step to the damping, implicit "
-      "ones have no limit.",
-      "BMF03 section 3",
-      "One corner of a hinge moves across its plane, three are held: an oscillator whose frequency "
-      "and damping follow by hand. Two unit disturbances, stepped once, make the matrix of a "
-      "method's step (four for BDF2, which looks back two states); bisection finds the step at "
-      "which its spectral radius exceeds 1, which is compared with each method's known limit.",
-      run_stability_oscillator};
+  return {"stability-oscillator",
+          "On the damped oscillator schemes A and B are stable up to 2/omega whatever the damping, "
+          "and C up to longer steps the stronger the damping; damping shortens the stable step of "
+          "explicit methods, and implicit ones have no limit.",
+          "BMF03 section 3",
+          "One corner of a hinge moves across its plane, three are held: an oscillator whose "
+          "frequency and damping can be worked out by hand. Two unit disturbances, stepped once, "
+          "give the matrix of a method's step (four for BDF2, which looks back two states). "
+          "Bisection finds the step at which its spectral radius exceeds 1, and that step is "
+          "compared with the method's known limit.",
+          run_stability_oscillator};
 }
 
 }  // namespace foldproof

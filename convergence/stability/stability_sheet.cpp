@@ -60,30 +60,30 @@ Table damped_limits(const Subject& subject, const Integrator& integrator, const 
 }
 
 const char* const why_percent =
-    "a spectral radius of 1 + 1e-6 counts as growth; where damping is heaviest radii exceed 1 by a "
-    "hundredth of the step's excess, so the limit is found to 1e-3; a limit that fell with the "
-    "damping would be off by factors";
+    "a spectral radius of 1 + 1e-6 counts as growth; where damping is heaviest, the radius exceeds "
+    "1 by only a hundredth of the excess of the step over its limit, so the limit is found to "
+    "1e-3; a limit that fell with the damping would be off by a large factor";
 
 NamedFinding independence(const Integrator& integrator, const Damping& damping,
                           const Table& limits) {
   const std::string name(integrator.name);
-  return {
-      "stability-sheet.limit-does-not-depend-on-damping." + damping.name + "." + name,
-      "On a sheet with " + damping.words + " scheme " + name +
-          " is stable up to 2/omega, the limit without damping, however large the damping.",
-      {{largest_deviation(limits, "largest stable step", "2/omega"), 0.01, 0, "1", why_percent},
-       limits,
-       "measured is the largest relative deviation from 2/omega while the damping rises by 1e4"}};
+  return {"stability-sheet.limit-does-not-depend-on-damping." + damping.name + "." + name,
+          "On a sheet with " + damping.words + ", scheme " + name +
+              " is stable up to 2/omega, the limit without damping, however large the damping.",
+          {{largest_deviation(limits, "largest stable step", "2/omega"), 0.01, 0, "1", why_percent},
+           limits,
+           "measured is the largest relative deviation from 2/omega while the damping rises by a "
+           "factor of 1e4"}};
 }
 
 NamedFinding never_narrower(const Damping& damping, const Table& limits) {
   return {"stability-sheet.damping-never-lowers-the-limit." + damping.name + ".C",
-          "On a sheet with " + damping.words + " scheme C is stable up to 2/omega at least.",
+          "On a sheet with " + damping.words + ", scheme C is stable up to 2/omega at least.",
           {{largest_ratio(limits, "2/omega", "largest stable step"), 1.001, 0, "1",
             "the bisection and the linearised forces leave less than a thousandth"},
            limits,
            "measured is the largest 2/omega over the largest stable step, while the damping rises "
-           "by 1e4"}};
+           "by a factor of 1e4"}};
 }
 
 NamedFinding as_known(const Integrator& integrator, const Damping& damping, const Table& limits) {
@@ -91,14 +91,14 @@ NamedFinding as_known(const Integrator& integrator, const Damping& damping, cons
   const bool mixed = integrator.family == Family::mixed;
   return {
       "stability-sheet.limit-is-as-derived." + damping.name + "." + name,
-      "On a sheet with " + damping.words + " the largest stable step of " +
+      "On a sheet with " + damping.words + ", the largest stable step of " +
           std::string(integrator.title) +
           (mixed ? " is where 4 + 2 h C - h^2 K becomes singular."
                  : " is where its stability polynomial exceeds 1 at one of the sheet's rates: "
                    "damping narrows it."),
       {{largest_deviation(limits, "largest stable step", "as known"), 0.01, 0, "1", why_percent},
        limits,
-       "measured is the largest relative deviation while the damping rises by 1e4"}};
+       "measured is the largest relative deviation while the damping rises by a factor of 1e4"}};
 }
 
 void add_clamped_sheet(const Subject& subject, Tier tier, const Progress& progress,
@@ -106,16 +106,17 @@ void add_clamped_sheet(const Subject& subject, Tier tier, const Progress& progre
   const int points = tier == Tier::quick ? 5 : 13;
   double done = 0;
   for (const Damping& damping : dampings()) {
-    Figure figure{"over-damping-" + damping.name,
-                  "Largest stable step of a clamped sheet, " + damping.words,
-                  {"multiple of the damping constants", "1", Scale::log},
-                  {"largest stable step", "s", Scale::log},
-                  nan,
-                  "The constants are 0.3 N s/m of springs, 0.01 N s of bending. From the spectral "
-                  "radius of the whole sheet's step. A and B keep the undamped limit, C gains, "
-                  "explicit methods lose in proportion to the damping. Forward Euler and explicit "
-                  "midpoint have no stable step at all where some modes are undamped.",
-                  {}};
+    Figure figure{
+        "over-damping-" + damping.name,
+        "Largest stable step of a clamped sheet, " + damping.words,
+        {"multiple of the damping constants", "1", Scale::log},
+        {"largest stable step", "s", Scale::log},
+        nan,
+        "The constants are 0.3 N s/m of springs, 0.01 N s of bending. From the spectral radius of "
+        "the whole sheet's step. A and B keep the undamped limit, that of C grows, and that of "
+        "explicit methods falls in proportion to the damping. Forward Euler and explicit midpoint "
+        "have no stable step at all where some modes are undamped.",
+        {}};
     for (const Integrator& integrator : integrators()) {
       if (integrator.family == Family::fully_implicit) continue;
       if (!damps_all(damping) && grows_undamped(integrator)) continue;
@@ -149,14 +150,15 @@ StudyResult run_stability_sheet(const Subject& subject, Tier tier, const Progres
 
 Study stability_sheet_study() {
   return {"stability-sheet",
-          "On a sheet the largest stable step of A and B does not depend on the damping and that "
-          "of C only gains; explicit methods need h of order dx^2 rho/kd with damped springs, dx^3 "
-          "rho/kd with damped bending.",
+          "On a sheet the largest stable step of A and B does not depend on the damping, and "
+          "damping only lengthens that of C; explicit methods need h of order dx^2 rho/kd with "
+          "damped springs and dx^3 rho/kd with damped bending.",
           "BMF03 section 3",
-          "A small clamped sheet of springs and hinges is stepped from each unit disturbance: the "
-          "matrix of the whole step, whose spectral radius is bisected while the damping rises by "
-          "1e4. Under refinement the largest rate of the damping is found by power iteration. The "
-          "paper's example, cells of a tenth, is computed and confirmed by runs.",
+          "A small clamped sheet of springs and hinges is stepped from each unit disturbance, "
+          "which gives the matrix of the whole step. The step at which its spectral radius exceeds "
+          "1 is found by bisection while the damping rises by a factor of 1e4. Under refinement "
+          "the largest rate of the damping is found by power iteration. The paper's example, cells "
+          "of a tenth, is computed and confirmed by runs.",
           run_stability_sheet};
 }
 

@@ -79,8 +79,8 @@ NamedFinding grows_with_damping(Table table) {
           "Though stable, scheme A amplifies a damped disturbance by at least omega h |h c/2 - 1| "
           "in the energy norm: in proportion to the damping and without bound.",
           {{worst, 1, 1e-9, "1",
-            "its explicit half step moves a particle by h (1 - h c/2) times its velocity: one "
-            "entry of the step matrix, which no norm can be below"},
+            "its explicit half step moves a particle by h (1 - h c/2) times its velocity: that is "
+            "one entry of the step matrix, and no norm of the matrix can be below it"},
            std::move(table),
            "measured is the largest omega h |h c/2 - 1| over the growth"}};
 }
@@ -240,10 +240,10 @@ Study transient_growth_study() {
           "For highly damped material scheme A, though stable, amplifies disturbances in "
           "proportion to the damping; B and C never amplify them more than undamped motion does.",
           "BMF03 section 3",
-          "A step whose spectral radius is at most 1 may still amplify on the way, if its "
-          "eigenvectors are not orthogonal. Measured is the largest norm of the first powers of "
-          "the step matrix in the norm of the energy, in which exact motion never grows: on an "
-          "oscillator, over step and damping, and on a small clamped sheet whose springs and "
+          "A step whose spectral radius is at most 1 may still amplify a disturbance on the way, "
+          "if its eigenvectors are not orthogonal. Measured is the largest norm of the first "
+          "powers of the step matrix in the norm of the energy, in which exact motion never grows: "
+          "on an oscillator, over step and damping, and on a small clamped sheet whose springs and "
           "hinges are damped out of proportion to their stiffness.",
           run_transient_growth};
 }

@@ -37,12 +37,12 @@ NamedFinding resonance_finding(const Subject& subject, const std::string& scheme
                                      stepped_radius(of, long_step, long_step)};
   Worst either;
   for (const double radius : alone) either.observe(radius);
-  const Verdict verdict{
-      either.value() / pair, 0.5, 0, "1",
-      "growth by more than two in each pair of steps is no rounding, and no slow drift"};
+  const Verdict verdict{either.value() / pair, 0.5, 0, "1",
+                        "growth by more than a factor of two in each pair of steps is neither "
+                        "rounding nor slow drift"};
   return {"variable-step-stability.alternating-steps-resonate." + scheme,
           "Undamped, alternating steps of 0.69/omega and 1.99/omega make scheme " + scheme +
-              " grow, though each alone is stable: a step below the limit does not suffice if "
+              " grow, though each alone is stable: to stay below the limit does not suffice if "
               "steps vary.",
           {verdict,
            Table{{"spectral radius of the pair", "1"},
@@ -118,8 +118,8 @@ NamedFinding map_finding(const std::string& scheme, const Map& map) {
           "The spectral radius of two steps in turn of scheme " + scheme +
               " is that of the derived matrices, over step ratios and damping ratios.",
           {{worst.value(), 1e-6, 0, "1",
-            "entries are found to 1e-12 or so; where the two eigenvalues coincide that moves them "
-            "by its root"},
+            "entries are found to 1e-12 or so, which moves the two eigenvalues by the square root "
+            "of that where they coincide"},
            Table{{"points compared", "1"}}.with_row(double(map.values.size())),
            "measured is the largest relative deviation over the map"}};
 }
@@ -176,15 +176,15 @@ void add_sheet_findings(const Subject& subject, const std::string& scheme, Study
   const double damped = sheet_growth(subject, scene, scheme, 0.5);
   result.findings.push_back(
       {"variable-step-stability.undamped-sheet-grows." + scheme,
-       "An undamped sheet grows under scheme " + scheme +
+       "The motion of an undamped sheet grows under scheme " + scheme +
            " with alternating steps of 0.69 and 1.99 over its highest frequency.",
        {{1e3 / undamped, 1, 0, "1",
          "a thousand times its size is beyond what bounded modes can add up to"},
         Table{{"largest size over the start's", "1"}}.with_row(undamped),
         "measured is a thousand over the growth"}});
   result.findings.push_back({"variable-step-stability.damped-sheet-does-not-grow." + scheme,
-                             "A sheet whose highest mode has a damping ratio of a half does not "
-                             "grow under the same steps of scheme " +
+                             "The motion of a sheet whose highest mode has a damping ratio of a "
+                             "half does not grow under the same steps of scheme " +
                                  scheme + ".",
                              {{damped / 10, 1, 0, "1",
                                "a mode near its limit may exceed its start, by 1/sqrt(1 - (omega "
@@ -220,16 +220,17 @@ StudyResult run_variable_step_stability(const Subject& subject, Tier tier,
 }  // namespace
 
 Study variable_step_stability_study() {
-  return {
-      "variable-step-stability",
-      "Steps that are stable alone can resonate when they alternate: undamped, A, B and C more "
-      "than double in each pair of 0.69/omega and 1.99/omega; a damping ratio of a half cures it.",
-      "BMF03 section 3",
-      "The paper asks for a scheme whose step may vary. Two alternating steps are the product of "
-      "two step matrices, found by stepping a hinge whose corner is an oscillator, and compared "
-      "with the derived ones; the same steps are then taken on a sheet. BDF2 has a limit of its "
-      "own: steps must not grow by more than 1 + sqrt(2) each.",
-      run_variable_step_stability};
+  return {"variable-step-stability",
+          "Steps that are stable alone can resonate when they alternate: undamped, a disturbance "
+          "under A, B or C more than doubles in each pair of steps of 0.69/omega and 1.99/omega; a "
+          "damping ratio of a half prevents this.",
+          "BMF03 section 3",
+          "The paper asks for a scheme whose step may vary. The matrix of two steps in turn is the "
+          "product of their two matrices, which are found by stepping a hinge whose corner is an "
+          "oscillator and compared with the derived ones; the same steps are then taken on a "
+          "sheet. BDF2 has a limit of its own: no step may be longer than 1 + sqrt(2) times the "
+          "one before it.",
+          run_variable_step_stability};
 }
 
 }  // namespace foldproof

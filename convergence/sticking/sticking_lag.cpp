@@ -127,8 +127,8 @@ Figure lag_figure(const Table& lags) {
 
 NamedFinding lag_finding(const Table& lags) {
   return {"sticking-lag.lag-is-m-a-over-k",
-          "With forecasts a particle on a turntable lags by m a/|k (1 + i w tau_s) - m w^2|: m a/k "
-          "where it is stiff.",
+          "With forecasts a particle on a turntable lags by m a/|k (1 + i omega tau_s) - m "
+          "omega^2|: m a/k where it is stiff.",
           {{largest_deviation(lags, "with forecasts, lag", "derived"), 2e-3, 0, "1",
             "k falls by 2 (lag/far)^2, at most 6e-4 here, and steps of 0.02/omega err by their "
             "square; another law of k or of a is off by a factor"},
@@ -234,10 +234,11 @@ void add_layers(const Subject& subject, StudyResult& result) {
       {"sticking-lag.stiff-layers-are-stable",
        "Two layers that stick to each other are stable in scheme C with tau_s = h/2, however stiff "
        "their bonds.",
-       judge_worst(layers, "radius less 1 with tau_s = h/2", 1e-3,
-                   "disturbances of 1e-6 m turn a triangle of 0.1 m by 1e-5, whose square times "
-                   "(omega h)^2 is 1e-4 of a step; what is unstable grows manyfold in one",
-                   "measured is the largest spectral radius less 1")});
+       judge_worst(
+           layers, "radius less 1 with tau_s = h/2", 1e-3,
+           "disturbances of 1e-6 m turn a triangle of 0.1 m by 1e-5, whose square times (omega "
+           "h)^2 is 1e-4 of a step; what is unstable grows many times over in one step",
+           "measured is the largest spectral radius less 1")});
   result.findings.push_back(
       {"sticking-lag.stiff-layers-need-forecasts",
        "Without forecasts the same bonds are unstable once omega h exceeds a few.",
@@ -281,7 +282,7 @@ void add_cost(const Subject& subject, Tier tier, StudyResult& result) {
                 {number, "1", Scale::log},
                 {"iterations of a solve", "1", Scale::linear},
                 nan,
-                "A damped sheet whose particles all stick, to a surface or to a second sheet. "
+                "A damped sheet all of whose particles stick, to a surface or to a second sheet. "
                 "Scheme C, tolerance 1e-10.",
                 {}};
   for (const char* to : {"nothing sticks", "to a surface", "to cloth"})
@@ -307,8 +308,9 @@ StudyResult run_sticking_lag(const Subject& subject, Tier tier, const Progress& 
 
 Study sticking_lag_study() {
   return {"sticking-lag",
-          "What sticks lags by m a/k, in scheme C by more the longer the step; forecasts end its "
-          "swinging and, in scheme C, free the step of its stiffness.",
+          "What sticks lags by m a/k, and in scheme C by more the longer the step; forecasts stop "
+          "its swinging and, in scheme C, keep steps of up to twice the forecast time stable "
+          "however stiff the bond.",
           "BMF03 section 6",
           "A bond is a spring of zero rest length between the forecast positions of a particle and "
           "its target. Forecasting both adds damping of their relative velocity, which the schemes "

@@ -105,17 +105,17 @@ NamedFinding growth(const std::string& order, const Table& row) {
   std::vector<double> widths;
   for (const double cells : row.numbers("cells along a side")) widths.push_back(1 / cells);
   const double exponent = -fitted_order({widths, row.numbers("sweeps"), 0});
-  return {
-      "strain-sweeps.grow-quadratically." + order,
-      "Sweeps in the order '" + order +
-          "' that find velocities within the limits grow as the square of the cells along a side.",
-      {{std::abs(exponent - 2), 0.25, 0, "1",
-        "empirical: near the limits a sweep is one of an iteration for a Poisson equation, in "
-        "which a correction spreads like heat, over n cells in n^2 sweeps, and another power is "
-        "off by 1; how far meshes this coarse are from that is known from runs only, which are off "
-        "by .04 to .11"},
-       row,
-       "measured is |exponent - 2|"}};
+  return {"strain-sweeps.grow-quadratically." + order,
+          "In the order '" + order +
+              "' the number of sweeps that find velocities within the limits grows as the square "
+              "of the number of cells along a side.",
+          {{std::abs(exponent - 2), 0.25, 0, "1",
+            "empirical: near the limits a sweep is one iteration for a Poisson equation, in which "
+            "a correction spreads like heat, over n cells in n^2 sweeps, and another power is off "
+            "by 1; how far meshes this coarse are from that is known only from runs, which are off "
+            "by .04 to .11"},
+           row,
+           "measured is |exponent - 2|"}};
 }
 
 NamedFinding mirror_finding(const Table& row) {
@@ -186,9 +186,9 @@ NamedFinding jacobi_is_dearer(const std::vector<Row>& rows) {
     ratios.row(cells[k], at_once, most, 3 * most / at_once);
   }
   return {"strain-sweeps.jacobi-needs-more-than-three-times-as-many",
-          "Sweeps that correct all springs at once are more than three times as many as in any "
-          "other order.",
-          judge_worst(ratios, 1, "three: what the study's sentence says")};
+          "Correcting all springs at once takes more than three times as many sweeps as any other "
+          "order.",
+          judge_worst(ratios, 1, "three: the factor that the study's headline names")};
 }
 
 Curve residuals(const NamedOrder& order, int cells) {
@@ -264,17 +264,17 @@ StudyResult run_strain_sweeps(const Subject&, Tier tier, const Progress& progres
 
 Study strain_sweeps_study() {
   return {"strain-sweeps",
-          "Sweeps of strain limiting grow nearly as the square of the cells along a side, in every "
-          "order; only those that correct all springs at once keep mirror symmetry, and need more "
-          "than three times as many.",
+          "The number of strain-limiting sweeps grows nearly as the square of the number of cells "
+          "along a side, in every order; only sweeps that correct all springs at once keep mirror "
+          "symmetry, and more than three times as many of them are needed.",
           "BMF03 section 3, after Provot 1995",
-          "A square sheet at rest is held along its upper edge. All particles below get the "
-          "velocity that lowers them by 8 % of its height in a step. Limits of 10 % allow nearly "
-          "that much, but only if every row takes its share: corrections must travel from the edge "
-          "to the hem and back, at best one cell a sweep. Springs are corrected in the order of "
-          "the particles, alternately forwards and backwards, colour by colour, or all at once; "
-          "sweeps are counted until no violation exceeds a thousandth of a rest length. It "
-          "measures the reference's own sweeps.",
+          "A square sheet at rest is held along its upper edge. All particles below it get the "
+          "velocity that lowers them by 8 % of the sheet's height in a step. Limits of 10 % allow "
+          "nearly that much, but only if every row takes its share: corrections must travel from "
+          "the edge to the hem and back, at best one cell a sweep. Springs are corrected in the "
+          "order of the particles, alternately forwards and backwards, colour by colour, or all at "
+          "once; sweeps are counted until no violation exceeds a thousandth of a rest length. The "
+          "sweeps are the reference's own.",
           run_strain_sweeps};
 }
 

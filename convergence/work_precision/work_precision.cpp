@@ -44,26 +44,26 @@ const PrecisionCurve& curve_of(const PrecisionScene& scene, std::string_view met
 }
 
 Study work_precision_study() {
-  return {
-      "work-precision",
-      "On heavily damped cloth schemes A and B take steps larger than explicit ones by the ratio "
-      "of the elastic to the damping limit, at one percent of error; C's accuracy asks for shorter "
-      "ones.",
-      "BMF03 section 3",
-      "Which integrator should I use for my scene, at which step, and at what cost? Every method "
-      "of the table runs four motions over a range of constant steps. The error is the largest "
-      "position error at the end over the scene's own motion, which is the largest distance of any "
-      "particle from its start. The truth is from GSL or an extrapolated RK4, and must agree with "
-      "an extrapolated scheme C (on the heavily damped sheet B, which keeps its order there). Work "
-      "is counted in applications of force operators: evaluations of the elastic forces, "
-      "preparations of the damping and of the elastic derivative, and products with either. One "
-      "application visits every spring and hinge once. Applications differ in cost, so processor "
-      "seconds stand beside them, the least of a few runs. Seconds scatter with the load of the "
-      "machine: where they rank methods of similar work differently, believe the work. Solves stop "
-      "at 1e-8. The bound of the elastic limit is the solver's, from sums of rows, and at most "
-      "2/omega. A step beyond it can be cheap on a short, damped motion, in which instability has "
-      "no time to grow; do not use it for a long one.",
-      run_work_precision};
+  return {"work-precision",
+          "At one percent of error on heavily damped cloth, the steps of schemes A and B exceed "
+          "those of explicit methods by the ratio of the elastic limit to the damping limit; C "
+          "needs shorter steps to be as accurate.",
+          "BMF03 section 3",
+          "Which integrator should I use for my scene, at which step, and at what cost? Every "
+          "method of the table runs four motions over a range of constant steps. The error is the "
+          "largest position error at the end, divided by the scene's own motion, which is the "
+          "largest distance of any particle from its start. The truth is from GSL or an "
+          "extrapolated RK4, and must agree with an extrapolated scheme C (on the heavily damped "
+          "sheet B, which keeps its order there). Work is counted in applications of force "
+          "operators: evaluations of the elastic forces, preparations of the damping and of the "
+          "elastic derivative, and products with either of them. One application visits every "
+          "spring and hinge once. Applications differ in cost, so processor seconds stand beside "
+          "them, the least of a few runs. Seconds scatter with the load of the machine: where they "
+          "rank methods of similar work differently, trust the work. Solves stop at 1e-8. The "
+          "elastic limit is the solver's bound, computed from row sums of the stiffness matrix, "
+          "and is at most 2/omega. A step beyond it can be cheap on a short, damped motion, in "
+          "which an instability has no time to grow; do not use such a step for a long motion.",
+          run_work_precision};
 }
 
 }  // namespace foldproof

@@ -11,11 +11,11 @@ namespace {
 /// A tenth of the finest error that prices are read off at.
 NamedFinding reference_is_known(const PrecisionScene& scene) {
   const Verdict verdict{scene.truth.uncertainty, wanted_errors.back() / 10, 0, "1",
-                        "a tenth of the smallest error that a price is read off at, so that it "
-                        "shifts no price by more than a tenth of a run's error"};
+                        "a tenth of the smallest error at which a cost is read off, so that it "
+                        "shifts no cost by more than a tenth of a run's error"};
   return {
       "work-precision.reference-is-accurate." + scene.problem.name,
-      "Two opinions on where " + scene.problem.description +
+      "Two independent answers to where " + scene.problem.description +
           " ends agree to a ten-thousandth of its motion.",
       {verdict,
        Table{{"largest motion", "m"}, {"disagreement and own uncertainty", "1"}}.with_row(
@@ -65,14 +65,14 @@ NamedFinding errors_fall(const PrecisionScene& scene) {
   if (shrinkages.rows() < least_judged) worst.observe(nan);
   const Verdict verdict{
       worst.value(), std::sqrt(0.5), worst_with_uncertainty.value() - worst.value(), "1",
-      "an error of first order is halved with the step, one that does not fall stays 1; the bound "
-      "is half an order, midway between the two in the logarithm"};
+      "where the error is of first order, half of it is left; where it does not fall, all of it; "
+      "the bound is half an order, midway between the two on a logarithmic scale"};
   return {"work-precision.errors-decrease." + scene.problem.name,
           "On " + scene.problem.description +
               ", errors fall with the step at the end of every method's range.",
           {verdict, shrinkages,
-           "measured is the largest ratio of the errors after and before a step is halved, from "
-           "the two finest runs whose error exceeds ten times the reference's" +
+           "measured is the largest ratio of the error after a step is halved to the error before, "
+           "from the two finest runs whose error exceeds ten times the reference's" +
                (left_out.empty() ? "" : "; without two such runs within the budget:" + left_out)}};
 }
 
@@ -120,7 +120,7 @@ NamedFinding mixed_steps_are_larger(const PrecisionScene& scene) {
               "explicit method's by the ratio of the elastic limit to the explicit damping limit.",
           {verdict, steps,
            "measured is the ratio of the limits over the least ratio of the steps at one percent; "
-           "at a tenth of it accuracy, not stability, decides on the steps of A and B"}};
+           "at a tenth of a percent accuracy, not stability, limits the steps of A and B"}};
 }
 
 /// By what the fastest mode grows in a whole run of B with a step h >= 2/omega
@@ -144,8 +144,8 @@ NamedFinding within_the_limit(const PrecisionScene& scene) {
   }
   return {"work-precision.steps-stay-within-the-limit." + scene.problem.name,
           "On " + scene.problem.description +
-              ", the largest step with which B reaches a wanted error is at most 2/omega, as "
-              "nearly as a step is known.",
+              ", the largest step with which B reaches a wanted error is at most 2/omega, within "
+              "the accuracy to which a step is known.",
           {{worst.value(), scene.problem.ratio, 0, "1",
             "beyond 2/omega the fastest mode grows only by about (h^2 omega^2/2 - 2)/a a step, a = "
             "h c/2, and a step is known only to the ratio of neighbouring runs"},
@@ -158,15 +158,16 @@ NamedFinding within_the_limit(const PrecisionScene& scene) {
 NamedFinding C_needs_shorter_steps(const PrecisionScene& scene) {
   const double error = wanted_errors.front(),
                ratio = step_of(scene, "C", error) / step_of(scene, "B", error);
-  return {"work-precision.C-needs-shorter-steps." + scene.problem.name,
-          "On " + scene.problem.description +
-              ", C reaches one percent of error only with steps less than half of B's.",
-          {{ratio, 0.5, 0, "1",
-            "both steps are known to the ratio of neighbouring runs, the root of two"},
-           Table{{"largest step of C", "s"}, {"largest step of B", "s"}}.with_row(
-               step_of(scene, "C", error), step_of(scene, "B", error)),
-           "measured is the ratio of the steps. Where h c is large, C moves positions by h F/c of "
-           "the step's start: its error falls with the first power of h until h c is small"}};
+  return {
+      "work-precision.C-needs-shorter-steps." + scene.problem.name,
+      "On " + scene.problem.description +
+          ", C reaches one percent of error only with steps less than half of B's.",
+      {{ratio, 0.5, 0, "1",
+        "both steps are known to the ratio of neighbouring runs, the root of two"},
+       Table{{"largest step of C", "s"}, {"largest step of B", "s"}}.with_row(
+           step_of(scene, "C", error), step_of(scene, "B", error)),
+       "measured is the ratio of the steps. Where h c is large, C moves positions by h F/c, taken "
+       "at the step's start: its error falls with the first power of h until h c is small"}};
 }
 
 /// C's solves over A's at equal numbers of steps.
@@ -189,7 +190,7 @@ NamedFinding one_more_solve(const std::vector<PrecisionScene>& scenes) {
   const Verdict verdict{ratios.rows() == 0 ? nan : worst.value(), 0, 0, "1",
                         "counted: two solves a step against one"};
   return {"work-precision.C-solves-twice-as-often-as-A",
-          "At equal steps scheme C has two implicit solves where A has one.",
+          "At equal steps scheme C makes two implicit solves where A makes one.",
           {verdict, ratios, "measured is the largest |ratio of the solves - 2|"}};
 }
 

@@ -64,7 +64,7 @@ std::string short_curves(const PrecisionScene& scene) {
             (is_fine ? ": exact enough from its longest stable steps on)"
                      : ": shorter steps exceed the budget)");
   }
-  return list.empty() ? "" : " Fewer than five such runs:" + list + ".";
+  return list.empty() ? "" : " Curves with fewer than five runs above the floor:" + list + ".";
 }
 
 /// A cost that two methods are compared by.
@@ -143,8 +143,9 @@ Table cheapest(const std::vector<PrecisionScene>& scenes) {
                   at.next.*currency.cost / best.*currency.cost, alike(scene, wanted, currency, at));
       }
   return {"cheapest",
-          "The cheapest method for a wanted position error, by counted work and by seconds; alike "
-          "are those that cost more by less than the ratio of two steps that were tried",
+          "The cheapest method for a wanted position error, by counted work and by seconds; "
+          "methods are alike if their costs differ by less than the ratio of two neighbouring "
+          "steps that were tried",
           table};
 }
 

@@ -91,7 +91,8 @@ def _mark_up(value: float, mantissa: str, exponent: int | None) -> Markup:
 def unit_text(unit: str) -> str:
     """A unit for print: m^2 becomes m², N*m becomes N·m; none at all becomes 1."""
     unit = unit.strip() or "1"
-    unit = re.sub(r"\^\(?([-+]?\d+)\)?", lambda found: superscript(found[1]), unit)
+    power = r"\^(?:\(([-+]?\d+)\)|([-+]?\d+))"
+    unit = re.sub(power, lambda found: superscript(found[1] or found[2]), unit)
     return unit.replace("*", "·")
 
 

@@ -192,7 +192,7 @@ def _steps(results: Results) -> Conclusion | None:
     headline = results.guarded(["Damping does not shorten the step of schemes A and B."],
                                results.named("stability-sheet.limit-does-not-depend-on-damping."))
     resonance = results.guarded(
-        ["Undamped, two stable steps in turn can resonate. "],
+        ["Undamped, two stable steps that alternate can resonate. "],
         results.named("variable-step-stability.alternating-steps-resonate."),
     )
     if not headline or not explicit:
@@ -219,7 +219,7 @@ def _mesh(results: Results) -> Conclusion | None:
     finest = max(rows, key=lambda row: float(row[cells]))
     source = "study mesh-error"
     rest: list[Piece] = [
-        "With ", Number(float(finest[cells]), "1", source), " cells a side it errs by ",
+        "With ", Number(float(finest[cells]), "1", source), " cells a side the mesh errs by ",
         Number(float(finest[mesh]), "%", source), ", the step by ",
         Number(float(finest[step]), "%", source), ". "
     ]
@@ -258,7 +258,7 @@ def _contact(results: Results) -> Conclusion | None:
             key: Number(sum(float(row[key]) for row in asked), "1", "study crossing-queries")
             for key in ("asked", "missed")
         }
-        rest += [total["missed"], " of ", total["asked"], " crossing tests missed one. "]
+        rest += [total["missed"], " of ", total["asked"], " crossing tests missed a crossing. "]
     outside = results.named("case.", ".stays-outside")
     if outside:
         deepest = max(outside, key=lambda one: one.measured)
@@ -270,6 +270,6 @@ def _contact(results: Results) -> Conclusion | None:
             ],
             outside,
         )
-    rest += results.guarded(["A pin thinner than an edge comes through. "],
+    rest += results.guarded(["A pin thinner than an edge passes through. "],
                             results.named("pointwise-contact.a-thin-pin-passes-through"))
     return Conclusion(headline, rest, ["Keep edges shorter than an object's details."])

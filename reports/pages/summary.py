@@ -174,15 +174,16 @@ def _scope(judged: Judged) -> list[Piece]:
     if judged.provenance.get("subject") == REFERENCE:
         return [
             (
-                "Tells whether the program does what the paper describes, and where the method"
-                " errs; not whether real cloth moves so, nor whether your solver is right: ask "
+                "Tells whether the program does what the paper describes, and where the method errs."
+                " Tells neither whether real cloth moves like this nor whether your own solver is"
+                " right: for that, run "
             ),
             Quoted("foldproof judge", "command", is_name=True),
             ".",
         ]
     return [
         "Tells whether this solver meets laws that any cloth solver must meet, where its adapter"
-        " offers what they need; not whether real cloth moves so."
+        " offers what they need. Does not tell whether real cloth moves like this."
     ]
 
 
@@ -204,11 +205,11 @@ def _limits(judged: Judged) -> list[list[Piece]]:
         last, particles = ([float(row[key]) for row in ends] for key in ("end", "particles"))
         limits.append(
             [
-                "Integrators were priced on at most ",
+                "Integrators were priced on runs of at most ",
                 Number(max(last), "s", source),
                 " and ",
                 Number(max(particles), "1", source),
-                " particles; others may rank them differently.",
+                " particles; other runs may rank them differently.",
             ]
         )
     if judged.provenance.get("subject") == REFERENCE:
@@ -228,9 +229,9 @@ def _attained(count: int) -> list[Piece]:
     return (
         [
             _count(count, "bounds that are attained"),
-            " more with less than ",
+            " more have less than ",
             Number(100 * (1 - ATTAINED), "%", "this page"),
-            " left, as sharp bounds and exact counts have.",
+            " left, as is usual for sharp bounds and exact counts.",
         ]
         if count
         else []
@@ -264,19 +265,19 @@ def _faults(faults: list[Fault]) -> list[Piece]:
     ]
     if recorded:
         said += [
-            ", on commit ",
+            " (recorded on commit ",
             Quoted(recorded[0][0][:10], "record of faults", is_name=True),
             *([" and others"] if recorded[1:] else []),
-            ", not with these results",
+            ", not with these results)",
         ]
     rest = len(faults) - counted["caught"] - counted["SURVIVED"]
     return [
         *said,
         *(
             [
-                ", ",
+                "; ",
                 _count(rest, "other faults"),
-                " were not run since they were written, or are equivalent",
+                " are equivalent, or were not run since they were written",
             ]
             if rest
             else []

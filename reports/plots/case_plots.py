@@ -38,8 +38,8 @@ def plot_diagnostics(case: Case, name: str, folder: Path) -> list[tuple[str, Plo
         if panels:
             time = case.diagnostics["time"].values
             if len(time) > MOST_POINTS:
-                caption += (". Lines are means, bands span least to largest, "
-                            f"over each {MOST_POINTS}th part of the steps")
+                caption += (". Lines are means, bands run from the least to the largest value, "
+                            f"over each {MOST_POINTS}th of the steps")
             made.append((caption, _plot(time, panels, f"{name}-{part}", folder, caption)))
     return made
 

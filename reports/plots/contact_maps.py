@@ -37,8 +37,8 @@ def plot_contacts(case: Case, name: str, folder: Path) -> list[tuple[str, Plot]]
     distances = every[shown]
     caption = (
         f"Distance to the objects at {number_text(case.frame_times[shown])} s, the frame with the"
-        " most particles nearer than half an edge, over the rest shape laid flat; colours end at"
-        f" half an edge. {_inside(distances)}"
+        " most particles nearer than half an edge, drawn on the rest shape laid flat; colours end"
+        f" at half an edge. {_inside(distances)}"
     )
     triangles = _without_seam(flat, case.triangles)
     return [

@@ -29,6 +29,8 @@ class Pieces(unittest.TestCase):
         for value, text in written.items():
             self.assertEqual(number_text(value), text)
         self.assertEqual(unit_text("kg m^2/s"), "kg m²/s")
+        self.assertEqual(unit_text("m^(-2)"), "m⁻²")
+        self.assertEqual(unit_text("of (1 + a^2) times the size"), "of (1 + a²) times the size")
         self.assertIn("<sup>−9</sup>", quantity_html(1e-9, "N"))
         self.assertEqual((quantity_text(0.5, "m/s"), quantity_text(0.5, "1")), ("0.5 m/s", "0.5"))
 

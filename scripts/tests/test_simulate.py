@@ -306,7 +306,7 @@ step = 0.001
                     "measured": -15.0,
                     "bound": 0.0,
                     "unit": "steps short of 3",
-                    "note": "reached 18 steps; measured is what lacks of 3",
+                    "note": "reached 18 steps; measured is what is missing from 3",
                     "outcome": "holds",
                 }
             ],

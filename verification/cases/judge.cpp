@@ -20,8 +20,8 @@ Verdict verdict_of(const Quantity& quantity, const Expectation& expectation, dou
 
 std::string note_of(const Quantity& quantity, const Expectation& expectation, double value) {
   if (quantity.sense == Sense::at_most) return "";
-  return fmt::format("reached {:.6g} {}; measured is what lacks of {:.6g}", value, quantity.unit,
-                     expectation.bound);
+  return fmt::format("reached {:.6g} {}; measured is what is missing from {:.6g}", value,
+                     quantity.unit, expectation.bound);
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ std::vector<Quantity> sticking_quantities() {
   return {
       {"sticks", "particles", "Particles come to stick.", Sense::at_least, Scope::this_shape,
        stuck_particles, nullptr, without_sticky},
-      {"lets_go", "particles", "At the end no more particles stick than these.", Sense::at_most,
+      {"lets_go", "particles", "At the end no more than this many particles stick.", Sense::at_most,
        Scope::this_shape, nullptr, stuck_at_end, without_sticky},
       {"keeps_hold", "m", "What sticks stays near the place at which it came to stick.",
        Sense::at_most, Scope::any_cloth, slack, nullptr, without_sticky},

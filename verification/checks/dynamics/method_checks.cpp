@@ -374,8 +374,8 @@ std::vector<Check> method_checks() {
        "damped and heavily damped crumpled sheets and of a compressed undamped one.",
        "what BMF03 section 3 expects of a fully implicit method", large_steps_finding},
       {"methods.newton-accepts-cloth-at-rest",
-       "A step of shapes at rest far from the origin is not counted as unfinished: no force need "
-       "vanish below its rounding error.",
+       "A step of shapes at rest far from the origin is not counted as unfinished: forces need not "
+       "vanish beyond their rounding error.",
        "floating-point arithmetic", rest_is_found},
       {"methods.newton-converges-quickly-on-damped-cloth",
        "Newton's method takes at most ten iterations a step on heavily damped cloth that turns and "

@@ -177,13 +177,13 @@ std::vector<Check> momentum_checks() {
                        source,
                        {}},
                       reversal_finding);
-  add_for_each_scheme(
-      list,
-      {"dynamics.linear-momentum-is-conserved",
-       "a free damped sheet keeps its linear momentum to rounding, however loosely it is solved.",
-       source,
-       {}},
-      linear_finding);
+  add_for_each_scheme(list,
+                      {"dynamics.linear-momentum-is-conserved",
+                       "a free damped sheet keeps its linear momentum to rounding, however loose "
+                       "the tolerance of its solves.",
+                       source,
+                       {}},
+                      linear_finding);
   add_for_each_scheme(list,
                       {"dynamics.angular-momentum-is-conserved.undamped",
                        "a free undamped sheet keeps its angular momentum to rounding.",
@@ -191,13 +191,13 @@ std::vector<Check> momentum_checks() {
                        {}},
                       undamped_angular_finding);
   std::vector<Check> damped;
-  add_for_each_scheme(
-      damped,
-      {"dynamics.angular-momentum-is-conserved.damped",
-       "a free damped sheet keeps its angular momentum to rounding, however loosely it is solved.",
-       source,
-       {}},
-      damped_angular_finding);
+  add_for_each_scheme(damped,
+                      {"dynamics.angular-momentum-is-conserved.damped",
+                       "a free damped sheet keeps its angular momentum to rounding, however loose "
+                       "the tolerance of its solves.",
+                       source,
+                       {}},
+                      damped_angular_finding);
   // C moves x with one velocity and carries momentum with another: its drift is O(h^2); a
   // study measures it
   std::erase_if(damped, [](const Check& check) { return check.name.ends_with(".C"); });

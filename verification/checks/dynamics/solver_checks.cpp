@@ -291,7 +291,7 @@ std::vector<Check> solver_checks() {
        "damping.",
        source, eigenvalue_finding},
       {"solver.large-cloth-is-solved",
-       "Cloth of many particles, which the reference solves block by block, is solved to the "
+       "Cloth with many particles, which the reference solves block by block, is solved to the "
        "tolerance.",
        "algebra", large_finding},
       {"solver.iteration-cap-is-reported",

@@ -91,8 +91,8 @@ Finding capstan_finding(const Subject& subject) {
 
 std::vector<Check> capstan_checks() {
   return {{"contact.a-drum-obeys-the-capstan-equation",
-           "In a strip that slides round a drum by an angle, the pulled side has e^(mu angle) "
-           "times the tension of the other.",
+           "In a strip that slides over a drum, round which it is wrapped by an angle, the pulled "
+           "side has e^(mu angle) times the tension of the other.",
            "Euler and Eytelwein", capstan_finding}};
 }
 

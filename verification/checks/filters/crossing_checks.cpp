@@ -146,17 +146,18 @@ Finding weights_lead_across(const Subject&) {
 
 std::vector<Check> crossing_checks() {
   const char* source = "Bridson, Fedkiw and Anderson (2002), section 6";
-  return {{"nearness.distance-is-exact",
-           "The distance of a vertex to a triangle, and of two edges, is the least of all points, "
-           "degenerate or not.",
-           source, distance_is_exact},
-          {"nearness.distance-is-exact-for-thin-features",
-           "The same holds for arbitrarily thin triangles and arbitrarily parallel edges.", source,
-           thin_ones_are_as_good},
-          {"nearness.weights-locate-the-nearest-points",
-           "The weights give a point on each feature; these two points are the distance apart, "
-           "along the normal.",
-           source, weights_lead_across}};
+  return {
+      {"nearness.distance-is-exact",
+       "The distance of a vertex to a triangle, and of two edges, is the least of all points, "
+       "degenerate or not.",
+       source, distance_is_exact},
+      {"nearness.distance-is-exact-for-thin-features",
+       "The distance is as exact for arbitrarily thin triangles and arbitrarily parallel edges.",
+       source, thin_ones_are_as_good},
+      {"nearness.weights-locate-the-nearest-points",
+       "The weights give a point on each feature; these two points are the distance apart, along "
+       "the normal.",
+       source, weights_lead_across}};
 }
 
 }  // namespace foldproof

@@ -152,13 +152,14 @@ Finding turntable_finding(const Subject& subject, const std::string& integrator)
 
 std::vector<Check> friction_checks() {
   std::vector<Check> list;
-  add_for_each_scheme(list,
-                      {"contact.a-block-on-a-slope-sticks-or-slides",
-                       "a block on a slope of angle al stays to rounding if tan(al) <= mu, and "
-                       "slides by g (sin(al) - mu cos(al)) t^2/2 otherwise.",
-                       "mechanics",
-                       {}},
-                      resting_slope);
+  add_for_each_scheme(
+      list,
+      {"contact.a-block-on-a-slope-sticks-or-slides",
+       "a block on a slope of angle alpha stays in its place, to rounding, if tan(alpha) <= mu, "
+       "and slides by g (sin(alpha) - mu cos(alpha)) t^2/2 otherwise.",
+       "mechanics",
+       {}},
+      resting_slope);
   add_for_each_scheme(list,
                       {"contact.a-block-on-a-moving-slope-sticks-or-slides",
                        "the same on a slope that moves at a constant velocity.",

@@ -190,8 +190,8 @@ std::vector<Check> object_checks() {
        "a thin board.",
        "BMF03 section 5.2", convex_finding},
       {"contact.nothing-tunnels-below-the-limit",
-       "At 0.9 of half an object's thickness a step, nothing passes through one that turns or is "
-       "concave.",
+       "At 0.9 of half an object's thickness a step, nothing passes through an object that turns "
+       "or is concave.",
        "BMF03 section 5.2", limit_finding},
   };
 }

@@ -320,8 +320,8 @@ std::vector<Check> repulsion_checks() {
        "Bridson, Fedkiw, Anderson 2002 section 6", pairs_finding},
       {"self-collision.a-stack-on-a-slope-obeys-coulomb",
        "Where tan(angle) is below the friction, sheets of a stack on a slope slip by less than a "
-       "tenth of a fall without friction; where it is not, the stack slides as Coulomb says, to a "
-       "tenth.",
+       "tenth of what they would slide without friction; where it is not, the stack slides as "
+       "Coulomb says, to a tenth.",
        "BMF03 section 5.2; Bridson, Fedkiw, Anderson 2002 section 7.1", slope_finding},
   };
 }

@@ -255,7 +255,7 @@ std::vector<Check> strain_limit_checks() {
          [order = named.order](const Subject& subject) { return limits_finding(subject, order); }});
   for (const Check& check : std::vector<Check>{
            {"strain.momentum-is-conserved",
-            "One correction changes neither the linear nor the angular momentum of a free cloth.",
+            "A correction changes neither the linear nor the angular momentum of a free cloth.",
             source, momentum_finding},
            {"strain.prescribed-particles-are-left-alone",
             "Velocities of particles with prescribed motion are unchanged, bit for bit.", source,

@@ -202,10 +202,10 @@ std::vector<Check> bending_alternative_checks() {
                                 "BMF03 section 4", paper_keeps_all}};
   checks.push_back(
       {"bending.discrete-shells-is-the-papers-at-small-angles",
-       "Discrete Shells with k_b = ke/24 has the paper's forces, but for the square of the angle.",
+       "Discrete Shells with k_b = ke/24 has the paper's forces, up to the square of the angle.",
        "Grinspun, Hirani, Desbrun, Schroeder 2003", discrete_shells_is_close});
   checks.push_back({"bending.quadratic-is-the-papers-at-small-angles",
-                    "Folded without stretch, quadratic bending has the paper's energy, but for the "
+                    "Folded without stretch, quadratic bending has the paper's energy, up to the "
                     "square of the angle.",
                     "Bergou, Wardetzky, Harmon, Zorin, Grinspun 2006", quadratic_is_close});
   for (const BendingAlternative& model : bending_alternatives())

@@ -200,8 +200,8 @@ std::vector<Check> differential_checks() {
        "angle.",
        what, hinge_is_second_derivative},
       {"elastic-differential.whole-matches-force-differences",
-       "The reference's elastic derivative is that of the subject's forces, for springs, both "
-       "bending laws, and their sum.",
+       "The reference's elastic derivative is the derivative of the subject's forces, for springs, "
+       "both bending laws, and their sum.",
        what, matches_differences},
       {"elastic-differential.is-symmetric", "The reference's elastic derivative is symmetric.",
        what, is_symmetric},

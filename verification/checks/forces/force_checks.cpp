@@ -292,7 +292,7 @@ std::vector<Check> force_checks() {
            "far a hinge is from its rest angle.",
            "Gershgorin's theorem; the automatic step rests on it", rows_are_covered},
           {"forces.row-bounds-swap-with-the-sides-of-a-hinge",
-           "A hinge whose particles are exchanged in pairs (seen from the other side) has the same "
+           "A hinge seen from the other side, its particles exchanged in pairs, has the same "
            "bounds, exchanged.",
            "the angle about an edge does not depend on the direction of view along it",
            rows_follow_their_particles},

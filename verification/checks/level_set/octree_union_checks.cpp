@@ -170,7 +170,8 @@ std::vector<Check> octree_union_checks() {
        "A union's phi errs by at most twice the tolerance, even at its creases.", source,
        union_misses_by_its_tolerance},
       {"octree.union-flags-pinched-points",
-       "A point inside two or more parts is reported, with the parts.", source, pinch_is_flagged},
+       "A point inside two or more parts of a union is reported, with those parts.", source,
+       pinch_is_flagged},
       {"octree.union-is-continuous", "A union's phi jumps nowhere.", source, union_jumps_nowhere}};
 }
 

@@ -125,8 +125,8 @@ Finding uncertainties_are_small(const Subject&) {
   for (const Comparison& comparison : comparisons)
     largest.row(comparison.name, largest_uncertainty(comparison.answers()));
   return judge_worst(largest, 1e-5,
-                     "two answers may agree because one is very uncertain: the crudest, by "
-                     "differences in double precision, is good to five digits");
+                     "two answers may agree merely because one of them is very uncertain: the "
+                     "crudest, by differences in double precision, is good to five digits");
 }
 
 }  // namespace

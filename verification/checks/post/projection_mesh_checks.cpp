@@ -130,7 +130,7 @@ std::vector<Check> projection_mesh_checks() {
            no_particle_is_left_inside},
           {"projection.no-triangle-is-left-in-a-mesh",
            "With an eps that suits its edges, no triangle of cloth that was projected out of a "
-           "triangle mesh meets it.",
+           "triangle mesh meets that mesh.",
            source, no_triangle_is_left_inside}};
 }
 

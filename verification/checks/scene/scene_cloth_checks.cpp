@@ -361,7 +361,7 @@ std::vector<Check> scene_cloth_checks() {
        "Folds without a direction, or longer than the cloth, are refused.", source,
        folded_rejected_finding},
       {"scene.self-collision-is-read",
-       "A case's settings of self-collision are read as written, and built.", source,
+       "A case's settings of self-collision are read as written, and take effect.", source,
        self_collision_finding},
       {"scene.invalid-self-collision-is-rejected",
        "Self-collision with a thickness that the mesh cannot resolve, or with cloth that starts "

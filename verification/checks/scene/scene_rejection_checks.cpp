@@ -196,8 +196,8 @@ std::vector<Check> scene_rejection_checks() {
   const std::string source = "good practice";
   return {
       {"scene.unknown-keys-are-rejected",
-       "A case of the reference with an unknown key is refused, with file, line and the keys known "
-       "there.",
+       "A case of the reference with an unknown key is refused, with the file, the line and the "
+       "keys known there.",
        source, unknown_finding},
       {"scene.wrong-types-are-rejected",
        "A case of the reference with a value of the wrong type is refused, with file, line and the "
