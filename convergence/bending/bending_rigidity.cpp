@@ -254,7 +254,7 @@ StudyResult run_bending_rigidity(const Subject& subject, Tier tier, const Progre
 
 Study bending_rigidity_study() {
   return {"bending-rigidity",
-          "For a given ke the flexural rigidity of a sheet does not depend on the size of its "
+          "For a given ke the flexural rigidity inside a sheet does not depend on the size of its "
           "triangles, but it does depend on their pattern and on the direction, and refinement "
           "does not remove that.",
           "BMF03 section 4: |E|^2/(|N1| + |N2|) makes the cloth's look independent of remeshing",

@@ -139,7 +139,8 @@ NamedFinding ball_finding(const Table& folds) {
   const std::vector<double>& angles = folds.numbers("mean fold");
   return {
       "folding-inside-objects.same-folds-over-a-ball",
-      "Cloth that falls on a ball from outside folds as much with every forecast time.",
+      "Cloth that falls on a ball from outside folds as much with the shortest forecast time tried "
+      "as with the longest.",
       {{std::abs(angles.back() / angles.front() - 1), 0.1, 0, "1",
         "which folds form is chance; the mean over some four hundred hinges, whose angles scatter "
         "by as much as their mean, is known to a twentieth, and the ratio of two means to less "

@@ -92,8 +92,8 @@ std::vector<NamedFinding> gains_of_one_solve(const Subject& subject, Tier tier) 
                        "gains it many times over within sixty steps",
                        "linearised backward Euler with semidefinite elements")},
           {"frame-long-steps.one-solve-adds-energy",
-           "In such steps one linear solve a step does add energy to some of these sheets, more "
-           "than a hundredth of the energy that the fall sets free.",
+           "In such steps one linear solve a step does add energy to at least one of these sheets, "
+           "more than a hundredth of the energy that the fall sets free.",
            {{0.01 / largest, 1, 0, "1",
              "a hundredth is visible; backward Euler solved to convergence only takes energy away"},
             table,

@@ -116,8 +116,8 @@ NamedFinding second_order(const std::vector<MeshRun>& meshes) {
                         "midway between the orders one and two; the border, whose springs and "
                         "hinges lack a neighbour, leaves no more on meshes this coarse"};
   return {"mesh-error.order-is-nearer-two-than-one",
-          "Positions of a smooth motion converge with an order in the cells' width that is nearer "
-          "two than one.",
+          "On the finest meshes tried, positions of a smooth motion converge with an order in the "
+          "cells' width that is nearer two than one.",
           {verdict, std::move(evidence),
            "measured is |order - 2| of the last pair, at the particles of the coarsest mesh"}};
 }

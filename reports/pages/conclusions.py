@@ -189,7 +189,7 @@ def _steps(results: Results) -> Conclusion | None:
         for name, value in finest.items()
         if name not in ("width of a cell", "schemes A and B")
     ]
-    headline = results.guarded(["Damping does not shorten the step of schemes A and B."],
+    headline = results.guarded(["Damping does not shorten the stable step of schemes A and B."],
                                results.named("stability-sheet.limit-does-not-depend-on-damping."))
     resonance = results.guarded(
         ["Undamped, two stable steps that alternate can resonate. "],
@@ -202,7 +202,8 @@ def _steps(results: Results) -> Conclusion | None:
         [
             "With cells of ", Number(float(finest["width of a cell"]), "1", source),
             " of a side, they take ", Number(float(finest["schemes A and B"]), "1", source),
-            " steps where explicit methods take ", *_range(explicit, source), ". ", *resonance
+            " steps in a unit of time, and explicit methods ", *_range(explicit, source), ". ",
+            *resonance
         ],
         ["Keep undamped steps equal."] if resonance else [],
     )
@@ -212,7 +213,7 @@ def _mesh(results: Results) -> Conclusion | None:
     """The mesh's error against the step's, and bending that depends on the pattern."""
     cells, mesh, step = "cells along a side", "error of the mesh", "error of the step"
     rows = results.rows("mesh-error", cells, mesh, step)
-    headline = results.guarded(["The mesh, not the step, sets the error."],
+    headline = results.guarded(["On a smooth motion the mesh, not the step, sets the error."],
                                results.named("mesh-error.usual-step-error-is-below-a-tenth-of-it"))
     if not rows or not headline:
         return None
@@ -250,8 +251,22 @@ def _contact(results: Results) -> Conclusion | None:
         "In ",
         Number(sum(one.outcome == "holds" for one in never), "1", "findings never-crosses-itself"),
         " of ", Number(len(never), "1", "findings never-crosses-itself"),
-        " cases nothing crosses in any frame. "
+        " cases that promise it nothing crosses in any frame. "
     ]
+    kept = {finding.name.rsplit(".", 1)[0] for finding in never}
+    others = [
+        finding
+        for finding in results.named("case.", ".ends-untangled")
+        if finding.name.rsplit(".", 1)[0] not in kept
+    ]
+    if others:
+        rest += results.guarded(
+            [
+                Number(len(others), "1", "findings ends-untangled"),
+                " more may cross on the way and end untangled. "
+            ],
+            others,
+        )
     asked = results.rows("crossing-queries", "asked", "missed")
     if asked:
         total = {
@@ -264,9 +279,10 @@ def _contact(results: Results) -> Conclusion | None:
         deepest = max(outside, key=lambda one: one.measured)
         rest += results.guarded(
             [
-                "No particle is deeper than ",
+                "In ", Number(len(outside), "1", "findings stays-outside"),
+                " cases that promise to stay outside objects, no particle is deeper than ",
                 Number(deepest.measured, deepest.unit, f"finding {deepest.name}"),
-                " inside an object. "
+                ". "
             ],
             outside,
         )
