@@ -19,13 +19,16 @@ struct PrecisionTrial {
   std::string method;
   int parts = 1;      // >= 1
   double budget = 0;  // of the run [visits]
+  int times = 1;      // the run's length over the case's [1]
 };
 
-/// Of long runs only some frames are kept.
+/// Of long runs only some frames are kept; of runs longer than the case only the
+/// first and the last.
 struct TrialRun : FramedRun {
   long steps = 0;
   Work work;
   double part = 0;         // of the time that it was to reach [1]
+  double kinetic = 0;      // the largest energy of the free particles in any frame [J]
   double over_budget = 0;  // the budget at which it was ended [visits]; 0: it was not
 };
 
@@ -33,7 +36,7 @@ struct TrialRun : FramedRun {
 /// about alike for each [1].
 double visits(const Scene& scene, const Work& work);
 
-/// The scene with the trial's method and step.
+/// The scene with the trial's method, step and length.
 Scene scene_of(const Scene& scene, const PrecisionTrial& trial);
 
 /// Runs the trial. It ends at the first frame at which it has taken more visits than its budget. Of

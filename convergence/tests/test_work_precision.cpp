@@ -1,5 +1,6 @@
 // The cheapest method of a motion: ties are printed as ties, on costs that are known.
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <stdexcept>
 
 #include "convergence/work_precision/work_precision.h"
@@ -43,4 +44,42 @@ TEST_CASE("methods nearer in cost than two tried steps are alike", "[work-precis
       cheapest_of(scene_of({costing("A", 310), costing("B", 170), costing("C", 100)}));
   CHECK(won.texts("cheapest method").front() == "C");
   CHECK(won.texts("alike").front().empty());
+}
+
+TEST_CASE("a step lasts whose energy is at most twice that of half the step", "[work-precision]") {
+  CHECK(lasts({0.01, 1.9, 1}));
+  CHECK(lasts({0.01, 0, 0}));
+  CHECK_FALSE(lasts({0.01, 2.1, 1}));
+  CHECK_FALSE(lasts({0.01, nan, 1}));
+  CHECK_FALSE(lasts({0.01, 1, nan}));
+  CHECK_FALSE(lasts({0.01, INFINITY, INFINITY}));
+}
+
+TEST_CASE("a price rests on no step that a longer run shows to be unstable", "[work-precision]") {
+  // errors of second order; steps of 0.04, 0.02, 0.01 and 0.005 s
+  PrecisionCurve curve{integrator_named("B"),
+                       {{20, 0.016, 20, 0.2, 1, {}},
+                        {40, 0.004, 40, 0.4, 1, {}},
+                        {80, 0.001, 80, 0.8, 1, {}},
+                        {160, 0.00025, 160, 1.6, 1, {}}}};
+  constexpr double end = 0.8, wanted = 0.008;
+  const double step = price_at(curve, end, wanted).step;
+  CHECK(step == Approx(0.04 / std::sqrt(2.)));
+  curve.longer = {{step, 3, 1}};
+  CHECK(price_at(curve, end, wanted).step == Approx(0.02));
+  CHECK(price_at(curve, end, wanted).applications == 40);
+  CHECK(price_at(curve, end, wanted).limit == LimitedBy::longer_run);
+  CHECK(price_at(curve, end, 0.002).limit == LimitedBy::accuracy);
+  curve.longer.push_back({0.02, nan, 1});
+  CHECK(price_at(curve, end, wanted).step == Approx(0.01));
+  curve.longer.push_back({0.005, nan, nan});
+  CHECK(price_at(curve, end, wanted).limit == LimitedBy::not_reached);
+}
+
+TEST_CASE("the cheapest method of a motion is one whose step lasts", "[work-precision]") {
+  PrecisionCurve unstable = costing("A", 100), stable = costing("B", 310);
+  unstable.longer = {{0.02, 5, 1}};
+  stable.longer = {{0.02, 1, 1}};
+  const PrecisionScene scene = scene_of({unstable, stable});
+  CHECK(cheapest_of(scene).texts("cheapest method").front() == "B");
 }

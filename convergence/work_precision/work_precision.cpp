@@ -21,6 +21,7 @@ StudyResult run_work_precision(const Subject& subject, Tier tier, const Progress
     progress(++done / parts);
     for (const Integrator& integrator : integrators()) {
       scene.curves.push_back(precision_curve(subject, problem, scene.truth, integrator, finest));
+      ask_longer_runs(subject, problem, scene.curves.back());
       progress(++done / parts);
     }
     scenes.push_back(std::move(scene));

@@ -67,42 +67,6 @@ std::string short_curves(const PrecisionScene& scene) {
   return list.empty() ? "" : " Fewer than five such runs:" + list + ".";
 }
 
-/// A cost that two methods are compared by.
-struct Currency {
-  std::string name;
-  double Price::*cost;
-};
-
-const std::array<Currency, 2> currencies = {
-    {{"work", &Price::applications}, {"seconds", &Price::seconds}}};
-
-/// The two best of a scene.
-struct Podium {
-  std::string first = "none", second = "none";
-  Price best{LimitedBy::not_reached, nan, nan, nan, nan}, next = best, scheme_C = best;
-};
-
-Podium podium(const PrecisionScene& scene, double wanted, const Currency& currency) {
-  Podium podium;
-  for (const PrecisionCurve& curve : scene.curves) {
-    const Price price = price_at(curve, scene.problem.end, wanted);
-    const std::string name(curve.integrator.name);
-    if (name == "C") podium.scheme_C = price;
-    const double cost = price.*currency.cost;
-    if (std::isnan(cost)) continue;
-    if (!(cost >= podium.best.*currency.cost)) {
-      podium.next = podium.best;
-      podium.second = podium.first;
-      podium.best = price;
-      podium.first = name;
-    } else if (!(cost >= podium.next.*currency.cost)) {
-      podium.next = price;
-      podium.second = name;
-    }
-  }
-  return podium;
-}
-
 /// The other methods whose cost is within the ratio of two steps that were tried: runs that far
 /// apart do not tell them from the cheapest.
 std::string alike(const PrecisionScene& scene, double wanted, const Currency& currency,
@@ -238,7 +202,56 @@ Table all_runs(const std::vector<PrecisionScene>& scenes) {
   return {"runs", "Every run; no error where it diverged", table};
 }
 
+/// Every step that was asked whether it lasts.
+Table longer_runs(const std::vector<PrecisionScene>& scenes) {
+  Table table{{"scene", "1"},
+              {"method", "1"},
+              {"step", "s"},
+              {"step over bound of elastic limit", "1"},
+              {"largest kinetic energy", "J"},
+              {"with half the step", "J"},
+              {"energy over that of half the step", "1"},
+              {"lasts", "1"}};
+  for (const PrecisionScene& scene : scenes)
+    for (const PrecisionCurve& curve : scene.curves)
+      for (const LongerRun& run : curve.longer)
+        table.row(scene.problem.description, curve.integrator.name, run.step,
+                  run.step / scene.truth.elastic_limit, run.kinetic, run.allowed, energy_gain(run),
+                  lasts(run) ? "yes" : "no");
+  return {"longer-runs",
+          "Which steps are stable in a run three times as long. No energy: the run came to no end",
+          table};
+}
+
 }  // namespace
+
+Podium podium(const PrecisionScene& scene, double wanted, const Currency& currency) {
+  Podium podium;
+  for (const PrecisionCurve& curve : scene.curves) {
+    const Price price = price_at(curve, scene.problem.end, wanted);
+    const std::string name(curve.integrator.name);
+    if (name == "C") podium.scheme_C = price;
+    const double cost = price.*currency.cost;
+    if (std::isnan(cost)) continue;
+    if (!(cost >= podium.best.*currency.cost)) {
+      podium.next = podium.best;
+      podium.second = podium.first;
+      podium.best = price;
+      podium.first = name;
+    } else if (!(cost >= podium.next.*currency.cost)) {
+      podium.next = price;
+      podium.second = name;
+    }
+  }
+  return podium;
+}
+
+LongerRun longer_run_at(const PrecisionScene& scene, const std::string& method, double wanted) {
+  const PrecisionCurve& curve = curve_of(scene, method);
+  const double step = price_at(curve, scene.problem.end, wanted).step;
+  const LongerRun* run = longer_run_of(curve.longer, step);
+  return run ? *run : LongerRun{step, nan, nan};
+}
 
 std::vector<Figure> precision_figures(const PrecisionScene& scene) {
   std::vector<Figure> figures;
@@ -264,7 +277,8 @@ std::vector<Figure> precision_figures(const PrecisionScene& scene) {
 }
 
 std::vector<Table> precision_tables(const std::vector<PrecisionScene>& scenes) {
-  return {cheapest(scenes), prices(scenes), scales(scenes), coverage(scenes), all_runs(scenes)};
+  return {cheapest(scenes), prices(scenes),   longer_runs(scenes),
+          scales(scenes),   coverage(scenes), all_runs(scenes)};
 }
 
 }  // namespace foldproof
