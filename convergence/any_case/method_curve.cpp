@@ -36,7 +36,9 @@ std::string how_filters_act(const TrialLevels& levels) {
 /// Of each step that was asked, with half of it.
 std::vector<LongerRun> longer_runs_of(const PrecisionPlan& plan, const TrialLevels& levels) {
   std::vector<LongerRun> asked;
-  const auto energy = [](const TrialRun& run) { return is_whole(run) ? run.kinetic : nan; };
+  const auto energy = [](const TrialRun& run) {
+    return is_whole(run) ? run.energy : LongerEnergy{nan, nan};
+  };
   for (const auto& [parts, run] : levels)
     if (const auto half = levels.find(2 * parts); half != levels.end())
       asked.push_back({frame_of(plan) / parts, energy(run), energy(half->second)});

@@ -118,7 +118,7 @@ struct MethodPrice {
   double spacing = nan;    // of the steps between which it lies [1]
   double over_best = nan;  // its work over the cheapest one's [1]
   bool is_tied = false;    // with the cheapest: closer than the spacing of what was tried
-  // of the run `longer` times as long, over that of half the step [1]; NaN: it was not asked
+  // of the run `longer` times as long [1]; NaN: it was not asked
   double energy_gain = nan;
   std::string because = "";  // why there is none; or ""
 };

@@ -102,7 +102,7 @@ Table price_table(const PrecisionAnswer& answer) {
               {"over the cheapest", "1"},
               {"tied with it", "1"},
               {"processor time", "s"},
-              {"longer run, energy over that of half the step", "1"},
+              {"energy gain of a longer run", "1"},
               {"why no price", "1"}};
   for (const PriceList& list : answer.lists)
     for (const MethodPrice& price : list.prices)
@@ -131,15 +131,18 @@ Table method_table(const PrecisionAnswer& answer) {
 Table longer_run_table(const PrecisionAnswer& answer) {
   Table table{{"method", "1"},
               {"step", "s"},
-              {"largest kinetic energy", "J"},
+              {"largest kinetic energy of the added time", "J"},
               {"with half the step", "J"},
+              {"at any time", "J"},
+              {"energy gain", "1"},
               {"lasts", "1"}};
   for (const MethodCurve& curve : answer.curves)
     for (const LongerRun& run : curve.curve.longer)
-      table.row(curve.method, run.step, run.kinetic, run.allowed, lasts(run) ? "yes" : "no");
+      table.row(curve.method, run.step, run.with_step.added, run.with_half.added,
+                run.with_half.largest, energy_gain(run), lasts(run) ? "yes" : "no");
   return {"longer-runs",
-          "Are the steps of the cheapest methods stable in a run three times as long? No energy: "
-          "the run came to no end",
+          "Are the steps of the cheapest methods stable in a run three times as long? The gain is "
+          "the energy over that with half the step; no energy: the run came to no end",
           table};
 }
 
@@ -197,8 +200,8 @@ StudyRecord precision_record(const PrecisionAnswer& answer, double seconds) {
       "constant steps, halved from run to run. Work is counted in applications of force operators; "
       "contact and strain limits are not among them; seconds include them. Prices are interpolated "
       "in logarithms between the two runs that bracket the error, never beyond them. The steps of "
-      "the cheapest methods are stable in a run three times as long: its kinetic energy is at most "
-      "twice that with half the step. " +
+      "the cheapest methods are stable in a run three times as long: its kinetic energy there is "
+      "at most twice that with half the step. " +
       truth_in_words(answer) + ".";
   for (const CostAxis& cost : cost_axes()) record.figures.push_back(figure_of(answer, cost));
   record.tables = {price_table(answer), method_table(answer), longer_run_table(answer),

@@ -39,14 +39,16 @@ TrialRun watched_trial(const Scene& scene, const PrecisionTrial& trial, const Bu
   Schedule schedule = scene.schedule;
   schedule.max_steps =
       std::min(schedule.max_steps, std::lround(std::ceil(budget / elements(scene))));
+  const double case_end = scene.schedule.end / trial.times;
   const long stride = stride_of(scene, trial.times);
   long frame = 0;
   double reached = 0;
   Observer observer;
   observer.frame = [&](const State& s) {
     reached = s.time;
-    run.kinetic =
-        std::max(run.kinetic, 0.5 * s.v.colwise().squaredNorm().dot(free_mass.transpose()));
+    const double kinetic = 0.5 * s.v.colwise().squaredNorm().dot(free_mass.transpose());
+    run.energy.largest = std::max(run.energy.largest, kinetic);
+    if (s.time > case_end * (1 + 1e-9)) run.energy.added = std::max(run.energy.added, kinetic);
     if (frame++ % stride != 0 && s.time < schedule.end) return;
     run.times.push_back(s.time);
     run.x.push_back(s.x);
@@ -85,7 +87,9 @@ StoredResult packed_trial(const TrialRun& run) {
   std::vector<double> work;
   for_each_counter(run.work, [&](auto value) { work.push_back(double(value)); });
   kept.arrays.insert(
-      {{"work", work}, {"end", {double(run.steps), run.part, run.over_budget, run.kinetic}}});
+      {{"work", work},
+       {"end",
+        {double(run.steps), run.part, run.over_budget, run.energy.largest, run.energy.added}}});
   return kept;
 }
 
@@ -98,7 +102,7 @@ std::optional<TrialRun> unpacked_trial(const StoredResult& kept, double budget) 
   const std::vector<double> work = array_of(kept, "work"), end = array_of(kept, "end");
   size_t counters = 0;
   for_each_counter(run.work, [&](auto&) { ++counters; });
-  if (!unpack_frames(kept, particles, run) || work.size() != counters || end.size() != 4) return {};
+  if (!unpack_frames(kept, particles, run) || work.size() != counters || end.size() != 5) return {};
   size_t next = 0;
   for_each_counter(run.work, [&](auto& value) {
     value = std::remove_reference_t<decltype(value)>(work[next++]);
@@ -106,7 +110,7 @@ std::optional<TrialRun> unpacked_trial(const StoredResult& kept, double budget) 
   run.steps = long(end[0]);
   run.part = end[1];
   run.over_budget = end[2];
-  run.kinetic = end[3];
+  run.energy = {end[3], end[4]};
   if (run.over_budget > 0 && run.over_budget < budget) return {};
   return run;
 }

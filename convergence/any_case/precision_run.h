@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "convergence/any_case/framed_run.h"
+#include "convergence/work_precision/longer_run.h"
 #include "reference/bodies/level_set_provider.h"
 #include "reference/dynamics/simulate.h"
 #include "verification/cases/expectations.h"
@@ -28,7 +29,7 @@ struct TrialRun : FramedRun {
   long steps = 0;
   Work work;
   double part = 0;         // of the time that it was to reach [1]
-  double kinetic = 0;      // the largest energy of the free particles in any frame [J]
+  LongerEnergy energy{};   // of the free particles, in frames
   double over_budget = 0;  // the budget at which it was ended [visits]; 0: it was not
 };
 

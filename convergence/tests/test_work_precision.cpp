@@ -47,12 +47,19 @@ TEST_CASE("methods nearer in cost than two tried steps are alike", "[work-precis
 }
 
 TEST_CASE("a step lasts whose energy is at most twice that of half the step", "[work-precision]") {
-  CHECK(lasts({0.01, 1.9, 1}));
-  CHECK(lasts({0.01, 0, 0}));
-  CHECK_FALSE(lasts({0.01, 2.1, 1}));
-  CHECK_FALSE(lasts({0.01, nan, 1}));
-  CHECK_FALSE(lasts({0.01, 1, nan}));
-  CHECK_FALSE(lasts({0.01, INFINITY, INFINITY}));
+  const double none = std::nan("");
+  const auto is_stable = [](const LongerEnergy& with_step, const LongerEnergy& with_half) {
+    return lasts({0.01, with_step, with_half});
+  };
+  CHECK(is_stable({7, 1.9}, {7, 1}));
+  CHECK_FALSE(is_stable({7, 2.1}, {7, 1}));
+  CHECK(is_stable({0, 0}, {0, 0}));
+  // at rest, but for a hundredth of the largest velocity
+  CHECK(is_stable({7, 1e-4}, {7, 1e-9}));
+  CHECK_FALSE(is_stable({7, 2e-3}, {7, 1e-9}));
+  CHECK_FALSE(is_stable({none, none}, {7, 1}));
+  CHECK_FALSE(is_stable({7, 1}, {none, none}));
+  CHECK_FALSE(is_stable({INFINITY, INFINITY}, {INFINITY, INFINITY}));
 }
 
 TEST_CASE("a price rests on no step that a longer run shows to be unstable", "[work-precision]") {
@@ -65,21 +72,22 @@ TEST_CASE("a price rests on no step that a longer run shows to be unstable", "[w
   constexpr double end = 0.8, wanted = 0.008;
   const double step = price_at(curve, end, wanted).step;
   CHECK(step == Approx(0.04 / std::sqrt(2.)));
-  curve.longer = {{step, 3, 1}};
+  const LongerEnergy allowed{1, 1}, gained{3, 3}, none{std::nan(""), std::nan("")};
+  curve.longer = {{step, gained, allowed}};
   CHECK(price_at(curve, end, wanted).step == Approx(0.02));
   CHECK(price_at(curve, end, wanted).applications == 40);
   CHECK(price_at(curve, end, wanted).limit == LimitedBy::longer_run);
   CHECK(price_at(curve, end, 0.002).limit == LimitedBy::accuracy);
-  curve.longer.push_back({0.02, nan, 1});
+  curve.longer.push_back({0.02, none, allowed});
   CHECK(price_at(curve, end, wanted).step == Approx(0.01));
-  curve.longer.push_back({0.005, nan, nan});
+  curve.longer.push_back({0.005, none, none});
   CHECK(price_at(curve, end, wanted).limit == LimitedBy::not_reached);
 }
 
 TEST_CASE("the cheapest method of a motion is one whose step lasts", "[work-precision]") {
   PrecisionCurve unstable = costing("A", 100), stable = costing("B", 310);
-  unstable.longer = {{0.02, 5, 1}};
-  stable.longer = {{0.02, 1, 1}};
+  unstable.longer = {{0.02, {5, 5}, {1, 1}}};
+  stable.longer = {{0.02, {1, 1}, {1, 1}}};
   const PrecisionScene scene = scene_of({unstable, stable});
   CHECK(cheapest_of(scene).texts("cheapest method").front() == "B");
 }

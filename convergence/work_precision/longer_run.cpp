@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string>
 
 #include "convergence/work_precision/work_precision.h"
 
@@ -11,36 +13,55 @@ namespace {
 
 constexpr double same_step = 1e-9;  // steps that differ by less are the same one [1]
 
-/// The largest kinetic energy in a run with steps of at most `step`, `longer` times as long as the
-/// problem's [J]; NaN where it comes to no end.
-double largest_kinetic_energy(const Subject& subject, const PrecisionProblem& problem,
-                              const Scene& scene, double step) {
+/// Of a run with steps of at most `step`.
+LongerEnergy longer_energy(const Subject& subject, const PrecisionProblem& problem,
+                           const Scene& scene, double step) {
   const PerParticle mass = build_system(scene).mass;
   const double end = longer * problem.end;
-  Worst kinetic;
+  Worst largest, added;
   // a run within the budget takes at most so much with half the step
   RunPlan plan{end, int(std::ceil(end / step * (1 - same_step))), INFINITY,
                2 * longer * problem.budget};
   plan.seen = [&](const State& s) {
-    kinetic.observe(0.5 * s.v.colwise().squaredNorm().dot(mass.transpose()));
+    const double kinetic = 0.5 * s.v.colwise().squaredNorm().dot(mass.transpose());
+    largest.observe(kinetic);
+    if (s.time > problem.end * (1 + same_step)) added.observe(kinetic);
   };
-  const PlannedRun run = run_planned(subject, scene, plan);
-  return run.ending == Ending::reached ? kinetic.value() : nan;
+  if (run_planned(subject, scene, plan).ending != Ending::reached) return {nan, nan};
+  return {largest.value(), added.value()};
 }
 
 LongerRun longer_run(const Subject& subject, const PrecisionProblem& problem,
                      const Integrator& integrator, double step) {
   Scene scene = problem.scene;
   scene.integrator = std::string(integrator.name);
-  return {step, largest_kinetic_energy(subject, problem, scene, step),
-          largest_kinetic_energy(subject, problem, scene, step / 2)};
+  return {step, longer_energy(subject, problem, scene, step),
+          longer_energy(subject, problem, scene, step / 2)};
+}
+
+/// The methods whose prices are told beside each other: the cheapest, the next, and those that cost
+/// about as much as the cheapest.
+std::set<std::string> told_together(const PrecisionScene& scene, double wanted) {
+  std::set<std::string> told;
+  for (const Currency& currency : currencies) {
+    const Podium at = podium(scene, wanted, currency);
+    for (const PrecisionCurve& curve : scene.curves) {
+      const std::string name(curve.integrator.name);
+      const double cost = price_at(curve, scene.problem.end, wanted).*currency.cost;
+      if (name == at.second || cost <= scene.problem.ratio * (at.best.*currency.cost))
+        told.insert(name);
+    }
+  }
+  return told;
 }
 
 }  // namespace
 
 double energy_gain(const LongerRun& run) {
-  if (!std::isfinite(run.kinetic) || !std::isfinite(run.allowed)) return INFINITY;
-  return run.kinetic == run.allowed ? 1 : run.kinetic / run.allowed;
+  const double energy = run.with_step.added,
+               allowed = run.with_half.added + small_energy * run.with_half.largest;
+  if (!std::isfinite(energy) || !std::isfinite(allowed)) return INFINITY;
+  return energy == 0 ? 0 : energy / allowed;
 }
 
 bool lasts(const LongerRun& run) { return energy_gain(run) <= most_energy_gain; }
@@ -58,14 +79,21 @@ const LongerRun* longer_run_of(const std::vector<LongerRun>& runs, double step) 
   return nullptr;
 }
 
-void ask_longer_runs(const Subject& subject, const PrecisionProblem& problem,
-                     PrecisionCurve& curve) {
-  for (const double wanted : wanted_errors)
-    for (;;) {
-      const double step = price_at(curve, problem.end, wanted).step;
-      if (std::isnan(step) || longer_run_of(curve.longer, step)) break;
-      curve.longer.push_back(longer_run(subject, problem, curve.integrator, step));
+void ask_longer_runs(const Subject& subject, PrecisionScene& scene) {
+  bool is_asked = true;
+  while (is_asked) {
+    is_asked = false;
+    for (const double wanted : wanted_errors) {
+      const std::set<std::string> told = told_together(scene, wanted);
+      for (PrecisionCurve& curve : scene.curves) {
+        if (!told.count(std::string(curve.integrator.name))) continue;
+        const double step = price_at(curve, scene.problem.end, wanted).step;
+        if (longer_run_of(curve.longer, step)) continue;
+        curve.longer.push_back(longer_run(subject, scene.problem, curve.integrator, step));
+        is_asked = true;
+      }
     }
+  }
 }
 
 }  // namespace foldproof

@@ -9,19 +9,27 @@ namespace foldproof {
 /// A step lasts if it stays stable in a run of so many times the length [1].
 constexpr int longer = 3;
 
-/// Two runs of `longer` times the length. Half the step shows how much energy the scene itself
-/// allows, whatever gravity, contact and prescribed motion bring in and damping takes out.
-struct LongerRun {
-  double step;     // s
-  double kinetic;  // largest kinetic energy [J]; NaN: the run came to no end
-  double allowed;  // the same with half the step [J]
+/// Kinetic energy of a run `longer` times as long [J]; NaN: it came to no end.
+struct LongerEnergy {
+  double largest;  // at any time
+  double added;    // the largest in the added time, after the end of the shorter run
 };
+
+/// Two such runs. Half the step shows how much energy the scene itself allows, whatever gravity,
+/// contact and prescribed motion bring in and damping takes out.
+struct LongerRun {
+  double step;  // s
+  LongerEnergy with_step, with_half;
+};
+
+/// Of the largest energy: that of a velocity that is a hundredth of the largest one [1].
+constexpr double small_energy = 1e-4;
 
 /// Above it the method puts more energy into the motion than the scene does [1].
 constexpr double most_energy_gain = 2;
 
-/// Largest kinetic energy over that with half the step [1]; infinite if one of the two runs
-/// came to no end.
+/// Energy of the added time over that with half the step, to which a small one is added: motions
+/// that have come to rest are not asked [1]. Infinite if one of the two runs came to no end.
 double energy_gain(const LongerRun& run);
 
 /// It came to its end, and its energy is the scene's.

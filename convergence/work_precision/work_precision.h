@@ -74,11 +74,6 @@ struct Price {
 /// Steps that a longer run showed to be unstable have no price: the next shorter run has it.
 Price price_at(const PrecisionCurve& curve, double end, double wanted);
 
-/// Asks of the step of each wanted error whether it lasts; if not, of the next shorter one, until
-/// one does or none is left.
-void ask_longer_runs(const Subject& subject, const PrecisionProblem& problem,
-                     PrecisionCurve& curve);
-
 // Measurements passed between the parts of the work-precision study.
 
 /// One motion, what is known of it, and every method on it.
@@ -111,8 +106,12 @@ struct Podium {
 
 Podium podium(const PrecisionScene& scene, double wanted, const Currency& currency);
 
-/// The longer run of the step with which the method reaches the wanted error; without one of that
-/// step: one that came to no end.
+/// Asks whether the steps last with which the cheapest methods, and those told beside them, reach
+/// each wanted error; where one does not, a shorter one, or another method, is asked in its place.
+void ask_longer_runs(const Subject& subject, PrecisionScene& scene);
+
+/// The longer run of the step with which the method reaches the wanted error; NaN if
+/// it was not asked.
 LongerRun longer_run_at(const PrecisionScene& scene, const std::string& method, double wanted);
 
 std::vector<NamedFinding> precision_findings(const std::vector<PrecisionScene>& scenes);

@@ -195,25 +195,27 @@ NamedFinding one_more_solve(const std::vector<PrecisionScene>& scenes) {
 
 /// By work and by seconds, at each wanted error.
 NamedFinding cheapest_steps_last(const std::vector<PrecisionScene>& scenes) {
-  Table steps{{"scene", "1"},    {"error", "1"},
-              {"by", "1"},       {"cheapest method", "1"},
-              {"its step", "s"}, {"energy over that of half the step", "1"}};
+  Table steps{{"scene", "1"},           {"error", "1"},    {"by", "1"},
+              {"cheapest method", "1"}, {"its step", "s"}, {"energy gain", "1"}};
   for (const PrecisionScene& scene : scenes)
     for (const double wanted : wanted_errors)
       for (const Currency& currency : currencies) {
         const Podium at = podium(scene, wanted, currency);
         if (std::isnan(at.best.step)) continue;
-        steps.row(scene.problem.description, wanted, currency.name, at.first, at.best.step,
-                  energy_gain(longer_run_at(scene, at.first, wanted)));
+        const double gain = energy_gain(longer_run_at(scene, at.first, wanted));
+        // clocks name different winners from run to run: those that last are left out
+        if (currency.name == "seconds" && lasts(longer_run_at(scene, at.first, wanted))) continue;
+        steps.row(scene.problem.description, wanted, currency.name, at.first, at.best.step, gain);
       }
   return {"work-precision.cheapest-steps-last",
           "The step of each cheapest method is stable in a run three times as long, too.",
-          judge_worst(std::move(steps), 2,
-                      "an unstable mode grows with every step until it is most of the motion; "
-                      "where it is not, the energy is that of half the step but for an error that "
-                      "is small where positions are right",
-                      "measured is the largest kinetic energy of the longer run over that with "
-                      "half the step; infinite if the run comes to no end")};
+          judge_worst(
+              std::move(steps), 2,
+              "an unstable mode grows with every step until it is most of the motion; without one "
+              "the energy is that of half the step, but for an error that is small where positions "
+              "are right",
+              "measured is the largest kinetic energy of the added time over that with half the "
+              "step and a ten-thousandth of the largest; infinite if the run comes to no end")};
 }
 
 }  // namespace

@@ -121,14 +121,16 @@ Table prices(const std::vector<PrecisionScene>& scenes) {
               {"step limited by", "1"},
               {"operator applications", "1"},
               {"processor time", "s"},
-              {"unfinished solves", "1"}};
+              {"unfinished solves", "1"},
+              {"asked whether it lasts", "1"}};
   for (const PrecisionScene& scene : scenes)
     for (double wanted : wanted_errors)
       for (const PrecisionCurve& curve : scene.curves) {
         const Price price = price_at(curve, scene.problem.end, wanted);
         table.row(scene.problem.description, percent * wanted, curve.integrator.name, price.step,
                   price.step / scene.truth.elastic_limit, name_of(price.limit), price.applications,
-                  price.seconds, price.unfinished);
+                  price.seconds, price.unfinished,
+                  longer_run_of(curve.longer, price.step) ? "yes" : "no");
       }
   return {"prices", "What a position error costs with each method", table};
 }
@@ -208,18 +210,20 @@ Table longer_runs(const std::vector<PrecisionScene>& scenes) {
               {"method", "1"},
               {"step", "s"},
               {"step over bound of elastic limit", "1"},
-              {"largest kinetic energy", "J"},
+              {"largest kinetic energy of the added time", "J"},
               {"with half the step", "J"},
-              {"energy over that of half the step", "1"},
+              {"at any time", "J"},
+              {"energy gain", "1"},
               {"lasts", "1"}};
   for (const PrecisionScene& scene : scenes)
     for (const PrecisionCurve& curve : scene.curves)
       for (const LongerRun& run : curve.longer)
         table.row(scene.problem.description, curve.integrator.name, run.step,
-                  run.step / scene.truth.elastic_limit, run.kinetic, run.allowed, energy_gain(run),
-                  lasts(run) ? "yes" : "no");
+                  run.step / scene.truth.elastic_limit, run.with_step.added, run.with_half.added,
+                  run.with_half.largest, energy_gain(run), lasts(run) ? "yes" : "no");
   return {"longer-runs",
-          "Which steps are stable in a run three times as long. No energy: the run came to no end",
+          "Are the steps of the cheapest methods stable in a run three times as long? The gain is "
+          "the energy over that with half the step; no energy: the run came to no end",
           table};
 }
 
@@ -250,7 +254,7 @@ LongerRun longer_run_at(const PrecisionScene& scene, const std::string& method, 
   const PrecisionCurve& curve = curve_of(scene, method);
   const double step = price_at(curve, scene.problem.end, wanted).step;
   const LongerRun* run = longer_run_of(curve.longer, step);
-  return run ? *run : LongerRun{step, nan, nan};
+  return run ? *run : LongerRun{step, {nan, nan}, {nan, nan}};
 }
 
 std::vector<Figure> precision_figures(const PrecisionScene& scene) {

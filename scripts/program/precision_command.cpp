@@ -105,7 +105,7 @@ void print(const PrecisionAnswer& answer) {
         fmt::print("{} at {:.3g} %: {}\n", price.method, 100 * list.wanted, price.because);
   fmt::print(
       "\nprice: applications of force operators, and seconds of the processor; stable, not: the "
-      "largest stable step\nfound, and the next longer one, which is not.\n");
+      "longest step that\nis stable in this run, and the next longer one, which is not.\n");
 }
 
 json to_json(const Opinion& opinion) {
@@ -142,8 +142,9 @@ json to_json(const MethodCurve& curve) {
   json longer_runs = json::array();
   for (const LongerRun& run : curve.curve.longer)
     longer_runs.push_back({{"step", run.step},
-                           {"kinetic_energy", run.kinetic},
-                           {"kinetic_energy_with_half_the_step", run.allowed},
+                           {"kinetic_energy", run.with_step.added},
+                           {"kinetic_energy_with_half_the_step", run.with_half.added},
+                           {"energy_gain", energy_gain(run)},
                            {"lasts", lasts(run)}});
   return {{"method", curve.method},
           {"order", curve.bar.order},
