@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <string>
 
 #include "convergence/work_precision/work_precision.h"
@@ -39,22 +38,6 @@ LongerRun longer_run(const Subject& subject, const PrecisionProblem& problem,
           longer_energy(subject, problem, scene, step / 2)};
 }
 
-/// The methods whose prices are told beside each other: the cheapest, the next, and those that cost
-/// about as much as the cheapest.
-std::set<std::string> told_together(const PrecisionScene& scene, double wanted) {
-  std::set<std::string> told;
-  for (const Currency& currency : currencies) {
-    const Podium at = podium(scene, wanted, currency);
-    for (const PrecisionCurve& curve : scene.curves) {
-      const std::string name(curve.integrator.name);
-      const double cost = price_at(curve, scene.problem.end, wanted).*currency.cost;
-      if (name == at.second || cost <= scene.problem.ratio * (at.best.*currency.cost))
-        told.insert(name);
-    }
-  }
-  return told;
-}
-
 }  // namespace
 
 double energy_gain(const LongerRun& run) {
@@ -83,16 +66,15 @@ void ask_longer_runs(const Subject& subject, PrecisionScene& scene) {
   bool is_asked = true;
   while (is_asked) {
     is_asked = false;
-    for (const double wanted : wanted_errors) {
-      const std::set<std::string> told = told_together(scene, wanted);
-      for (PrecisionCurve& curve : scene.curves) {
-        if (!told.count(std::string(curve.integrator.name))) continue;
-        const double step = price_at(curve, scene.problem.end, wanted).step;
-        if (longer_run_of(curve.longer, step)) continue;
-        curve.longer.push_back(longer_run(subject, scene.problem, curve.integrator, step));
-        is_asked = true;
-      }
-    }
+    for (const double wanted : wanted_errors)
+      for (const Currency& currency : currencies)
+        for (const size_t k : contenders(scene, wanted, currency)) {
+          PrecisionCurve& curve = scene.curves[k];
+          const double step = price_at(curve, scene.problem.end, wanted).step;
+          if (longer_run_of(curve.longer, step)) continue;
+          curve.longer.push_back(longer_run(subject, scene.problem, curve.integrator, step));
+          is_asked = true;
+        }
   }
 }
 

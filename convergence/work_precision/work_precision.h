@@ -106,13 +106,14 @@ struct Podium {
 
 Podium podium(const PrecisionScene& scene, double wanted, const Currency& currency);
 
-/// Asks whether the steps last with which the cheapest methods, and those told beside them, reach
-/// each wanted error; where one does not, a shorter one, or another method, is asked in its place.
+/// Asks whether the steps last with which the contenders reach each wanted error; where one does
+/// not, a shorter one, or another method, is asked in its place.
 void ask_longer_runs(const Subject& subject, PrecisionScene& scene);
 
-/// The longer run of the step with which the method reaches the wanted error; NaN if
-/// it was not asked.
-LongerRun longer_run_at(const PrecisionScene& scene, const std::string& method, double wanted);
+/// The curves of the cheapest method, of the next, and of those that cost about as much as the
+/// cheapest: less than the ratio of two steps that were tried.
+std::vector<size_t> contenders(const PrecisionScene& scene, double wanted,
+                               const Currency& currency);
 
 std::vector<NamedFinding> precision_findings(const std::vector<PrecisionScene>& scenes);
 

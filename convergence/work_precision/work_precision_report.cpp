@@ -250,11 +250,17 @@ Podium podium(const PrecisionScene& scene, double wanted, const Currency& curren
   return podium;
 }
 
-LongerRun longer_run_at(const PrecisionScene& scene, const std::string& method, double wanted) {
-  const PrecisionCurve& curve = curve_of(scene, method);
-  const double step = price_at(curve, scene.problem.end, wanted).step;
-  const LongerRun* run = longer_run_of(curve.longer, step);
-  return run ? *run : LongerRun{step, {nan, nan}, {nan, nan}};
+std::vector<size_t> contenders(const PrecisionScene& scene, double wanted,
+                               const Currency& currency) {
+  const Podium at = podium(scene, wanted, currency);
+  std::vector<size_t> found;
+  for (size_t k = 0; k < scene.curves.size(); ++k) {
+    const double cost = price_at(scene.curves[k], scene.problem.end, wanted).*currency.cost;
+    if (scene.curves[k].integrator.name == at.second ||
+        cost <= scene.problem.ratio * (at.best.*currency.cost))
+      found.push_back(k);
+  }
+  return found;
 }
 
 std::vector<Figure> precision_figures(const PrecisionScene& scene) {
