@@ -33,6 +33,18 @@ std::string how_filters_act(const TrialLevels& levels) {
   return words;
 }
 
+/// Of each step that was asked, with half of it.
+std::vector<LongerRun> longer_runs_of(const PrecisionPlan& plan, const TrialLevels& levels) {
+  std::vector<LongerRun> asked;
+  const auto energy = [](const TrialRun& run) {
+    return is_whole(run) ? run.energy : LongerEnergy{nan, nan};
+  };
+  for (const auto& [parts, run] : levels)
+    if (const auto half = levels.find(2 * parts); half != levels.end())
+      asked.push_back({frame_of(plan) / parts, energy(run), energy(half->second)});
+  return asked;
+}
+
 MethodCurve method_curve(const PrecisionPlan& plan, const std::string& method,
                          const TrialLevels& levels, const CaseTruth& truth) {
   MethodCurve curve{
@@ -63,13 +75,35 @@ MethodCurve method_curve(const PrecisionPlan& plan, const std::string& method,
 
 }  // namespace
 
-std::vector<MethodCurve> method_curves(const PrecisionPlan& plan, const TrialRuns& runs,
+TrialRun& run_of(Trials& trials, const PrecisionTrial& trial) {
+  return (trial.times > 1 ? trials.longer : trials.runs)[trial.method][trial.parts];
+}
+
+int asked_parts(const PrecisionPlan& plan, double step) {
+  return int(std::ceil(frame_of(plan) / step * (1 - 1e-9)));
+}
+
+Bracket bracket_of(const PrecisionPlan& plan, const MethodCurve& curve, double wanted) {
+  const double step = price_at(curve.curve, plan.input_case.scene.schedule.end, wanted).step;
+  if (std::isnan(step)) return {};
+  const auto fine = std::ranges::find_if(
+      curve.parts, [&](int parts) { return parts >= asked_parts(plan, step); });
+  if (fine == curve.parts.begin() || fine == curve.parts.end()) return {};
+  const double unstable = shortest_unstable_step(curve.curve.longer);
+  const int too_few = std::isfinite(unstable) ? int(std::lround(frame_of(plan) / unstable)) : 0;
+  return {std::max(*std::prev(fine), too_few), *fine};
+}
+
+std::vector<MethodCurve> method_curves(const PrecisionPlan& plan, const Trials& trials,
                                        const CaseTruth& truth) {
+  const auto levels_of = [](const TrialRuns& runs, const std::string& method) {
+    const auto levels = runs.find(method);
+    return levels == runs.end() ? TrialLevels() : levels->second;
+  };
   std::vector<MethodCurve> curves;
   for (const std::string& method : all_methods(plan)) {
-    const auto levels = runs.find(method);
-    curves.push_back(
-        method_curve(plan, method, levels == runs.end() ? TrialLevels() : levels->second, truth));
+    curves.push_back(method_curve(plan, method, levels_of(trials.runs, method), truth));
+    curves.back().curve.longer = longer_runs_of(plan, levels_of(trials.longer, method));
   }
   return curves;
 }

@@ -32,8 +32,17 @@ PrecisionPlan precision_plan(const Case& input_case, std::vector<std::string> me
                              std::vector<double> wanted, double budget,
                              const LevelSetProvider& level_sets);
 
-/// All runs so far, by method and steps a frame.
+/// Runs by method and steps a frame.
 using TrialRuns = std::map<std::string, std::map<int, TrialRun>>;
+
+/// All runs so far.
+struct Trials {
+  TrialRuns runs;    // as long as the case
+  TrialRuns longer;  // `longer` times as long: do the steps that would win last?
+};
+
+/// Where the trial's run belongs.
+TrialRun& run_of(Trials& trials, const PrecisionTrial& trial);
 
 /// One method's best estimate of the positions: its finest run, or Richardson's extrapolation of
 /// its last two where their order is asymptotic.
@@ -74,18 +83,31 @@ struct MethodCurve {
   double stable_step = nan, unstable_step = nan;
 };
 
+/// Steps a frame with which a step is asked whether it lasts: the fewest whose step is no longer.
+int asked_parts(const PrecisionPlan& plan, double step);
+
 /// The curves of all methods, those for the truth last.
-std::vector<MethodCurve> method_curves(const PrecisionPlan& plan, const TrialRuns& runs,
+std::vector<MethodCurve> method_curves(const PrecisionPlan& plan, const Trials& trials,
                                        const CaseTruth& truth);
+
+/// The steps a frame between which the price of a wanted error lies: with `few` the error is
+/// larger, or the step is unstable, if only in a longer run. few 0: there is no price, or
+/// none was tried.
+struct Bracket {
+  int few = 0, many = 0;
+};
+
+Bracket bracket_of(const PrecisionPlan& plan, const MethodCurve& curve, double wanted);
 
 /// The runs to make next; none when all is answered, or exceeds the budget. A method's steps are
 /// doubled until they are unstable (those of fully implicit methods, until they miss the largest
-/// wanted error), and halved until its error is the least wanted one and three runs came to an
-/// end; unless the next wanted error, by the order that it showed, costs more than the budget, or
-/// `dearest` times what the cheapest method pays. Then both opinions on the truth are refined
-/// until they agree. Then brackets of prices of methods that might be cheapest are narrowed to a
-/// quarter of a step.
-std::vector<PrecisionTrial> next_trials(const PrecisionPlan& plan, const TrialRuns& runs);
+/// wanted error), and halved until its error is the least wanted one and three runs came to an end;
+/// unless the next wanted error, by the order that it showed, costs more than the budget, or
+/// `dearest` times what the cheapest method pays. Then both opinions on the truth are refined until
+/// they agree. Then brackets of prices of methods that might be cheapest are narrowed to a quarter
+/// of a step. Then the steps of the cheapest methods are asked whether they last; where one does
+/// not, the search goes on.
+std::vector<PrecisionTrial> next_trials(const PrecisionPlan& plan, const Trials& trials);
 
 constexpr double dearest = 16;
 
@@ -93,9 +115,11 @@ constexpr double dearest = 16;
 struct MethodPrice {
   std::string method;
   Price price;
-  double spacing = nan;      // of the work of the runs between which it lies [1]
-  double over_best = nan;    // its work over the cheapest one's [1]
-  bool is_tied = false;      // with the cheapest: closer than the spacing of what was tried
+  double spacing = nan;    // of the steps between which it lies [1]
+  double over_best = nan;  // its work over the cheapest one's [1]
+  bool is_tied = false;    // with the cheapest: closer than the spacing of what was tried
+  // of the run `longer` times as long [1]; NaN: it was not asked
+  double energy_gain = nan;
   std::string because = "";  // why there is none; or ""
 };
 
@@ -106,6 +130,12 @@ struct PriceList {
   std::vector<MethodPrice> prices;
 };
 
+PriceList price_list(const PrecisionPlan& plan, const CaseTruth& truth,
+                     const std::vector<MethodCurve>& curves, double wanted);
+
+/// The methods that win, or tie, by work or by seconds.
+std::vector<const MethodPrice*> winners(const PriceList& list);
+
 struct PrecisionAnswer {
   PrecisionPlan plan;
   CaseTruth truth;
@@ -113,6 +143,6 @@ struct PrecisionAnswer {
   std::vector<PriceList> lists;
 };
 
-PrecisionAnswer precision_answer(const PrecisionPlan& plan, const TrialRuns& runs);
+PrecisionAnswer precision_answer(const PrecisionPlan& plan, const Trials& trials);
 
 }  // namespace foldproof

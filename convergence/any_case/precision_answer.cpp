@@ -5,22 +5,15 @@
 #include <cmath>
 
 #include "convergence/any_case/precision.h"
+#include "convergence/any_case/trial_ladder.h"
 
 namespace foldproof {
 
 namespace {
 
-/// Work of the run that reaches the error over that of the next coarser one, which does not; 1
-/// if there is none.
-double spacing_at(const PrecisionCurve& curve, double wanted) {
-  const std::vector<PrecisionRun>& runs = curve.runs;
-  size_t first = runs.size();
-  while (first > 0 && runs[first - 1].error <= wanted) --first;
-  if (first == 0 || first == runs.size()) return 1;
-  return double(runs[first].steps) / runs[first - 1].steps;
-}
-
-std::string why_not_reached(const MethodCurve& curve) {
+std::string why_not_reached(const MethodCurve& curve, double wanted) {
+  if (!curve.curve.runs.empty() && curve.curve.runs.back().error <= wanted)
+    return "no step that was tried is stable in a run three times as long";
   for (size_t k = curve.stopped.size(); k-- > 0;)
     if (const double error = curve.curve.runs[k].error; !std::isnan(error))
       return fmt::format(
@@ -33,19 +26,31 @@ std::string why_not_reached(const MethodCurve& curve) {
                       : "no run comes to its end: " + last;
 }
 
+/// The longer run of a price's step; nullptr: it was not asked.
+const LongerRun* asked_run(const PrecisionPlan& plan, const MethodCurve& curve, double step) {
+  if (std::isnan(step)) return nullptr;
+  return longer_run_of(curve.curve.longer, frame_of(plan) / asked_parts(plan, step));
+}
+
 MethodPrice price_of_method(const MethodCurve& curve, const PrecisionPlan& plan, double wanted) {
+  const Bracket bracket = bracket_of(plan, curve, wanted);
   MethodPrice price{curve.method, price_at(curve.curve, plan.input_case.scene.schedule.end, wanted),
-                    spacing_at(curve.curve, wanted)};
-  if (price.price.limit == LimitedBy::not_reached) price.because = why_not_reached(curve);
+                    bracket.few == 0 ? 1 : double(bracket.many) / bracket.few};
+  if (const LongerRun* run = asked_run(plan, curve, price.price.step))
+    price.energy_gain = energy_gain(*run);
+  if (price.price.limit == LimitedBy::not_reached) price.because = why_not_reached(curve, wanted);
   return price;
 }
 
-PriceList price_list(const PrecisionAnswer& answer, double wanted) {
+}  // namespace
+
+PriceList price_list(const PrecisionPlan& plan, const CaseTruth& truth,
+                     const std::vector<MethodCurve>& curves, double wanted) {
   PriceList list{wanted, {}};
-  const bool is_known = wanted >= least_error(answer.truth);
-  for (const MethodCurve& curve : answer.curves) {
-    if (!std::ranges::count(answer.plan.methods, curve.method)) continue;
-    MethodPrice price = price_of_method(curve, answer.plan, wanted);
+  const bool is_known = wanted >= least_error(truth);
+  for (const MethodCurve& curve : curves) {
+    if (!std::ranges::count(plan.methods, curve.method)) continue;
+    MethodPrice price = price_of_method(curve, plan, wanted);
     if (!is_known) {
       price.price = {LimitedBy::not_reached, nan, nan, nan, nan};
       price.because = "the truth is not known to a tenth of this error";
@@ -65,12 +70,23 @@ PriceList price_list(const PrecisionAnswer& answer, double wanted) {
   return list;
 }
 
-}  // namespace
+std::vector<const MethodPrice*> winners(const PriceList& list) {
+  std::vector<const MethodPrice*> found;
+  const MethodPrice* fastest = nullptr;
+  for (const MethodPrice& price : list.prices) {
+    if (std::isnan(price.price.applications)) continue;
+    if (found.empty() || price.is_tied) found.push_back(&price);
+    if (!fastest || price.price.seconds < fastest->price.seconds) fastest = &price;
+  }
+  if (fastest && !std::ranges::count(found, fastest)) found.push_back(fastest);
+  return found;
+}
 
-PrecisionAnswer precision_answer(const PrecisionPlan& plan, const TrialRuns& runs) {
-  PrecisionAnswer answer{plan, case_truth(plan, runs), {}, {}};
-  answer.curves = method_curves(plan, runs, answer.truth);
-  for (const double wanted : plan.wanted) answer.lists.push_back(price_list(answer, wanted));
+PrecisionAnswer precision_answer(const PrecisionPlan& plan, const Trials& trials) {
+  PrecisionAnswer answer{plan, case_truth(plan, trials.runs), {}, {}};
+  answer.curves = method_curves(plan, trials, answer.truth);
+  for (const double wanted : plan.wanted)
+    answer.lists.push_back(price_list(plan, answer.truth, answer.curves, wanted));
   return answer;
 }
 

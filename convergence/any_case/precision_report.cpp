@@ -102,12 +102,13 @@ Table price_table(const PrecisionAnswer& answer) {
               {"over the cheapest", "1"},
               {"tied with it", "1"},
               {"processor time", "s"},
+              {"energy gain of a longer run", "1"},
               {"why no price", "1"}};
   for (const PriceList& list : answer.lists)
     for (const MethodPrice& price : list.prices)
       table.row(percent * list.wanted, price.method, price.price.step, name_of(price.price.limit),
                 price.price.applications, price.over_best, price.is_tied ? "yes" : "no",
-                price.price.seconds, price.because);
+                price.price.seconds, price.energy_gain, price.because);
   return {"prices", "What a position error costs with each method, the cheapest by work first",
           table};
 }
@@ -124,6 +125,25 @@ Table method_table(const PrecisionAnswer& answer) {
     table.row(curve.method, curve.curve.integrator.order, curve.bar.order,
               name_of(curve.bar.reading), curve.bar.reason, curve.stable_step, curve.unstable_step);
   return {"methods", "Order and largest stable step of each method on this case", table};
+}
+
+/// Every step that was asked whether it lasts.
+Table longer_run_table(const PrecisionAnswer& answer) {
+  Table table{{"method", "1"},
+              {"step", "s"},
+              {"largest kinetic energy of the added time", "J"},
+              {"with half the step", "J"},
+              {"at any time", "J"},
+              {"energy gain", "1"},
+              {"lasts", "1"}};
+  for (const MethodCurve& curve : answer.curves)
+    for (const LongerRun& run : curve.curve.longer)
+      table.row(curve.method, run.step, run.with_step.added, run.with_half.added,
+                run.with_half.largest, energy_gain(run), lasts(run) ? "yes" : "no");
+  return {"longer-runs",
+          "Are the steps of the cheapest methods stable in a run three times as long? The gain is "
+          "the energy over that with half the step; no energy: the run came to no end",
+          table};
 }
 
 Table run_table(const PrecisionAnswer& answer) {
@@ -179,10 +199,13 @@ StudyRecord precision_record(const PrecisionAnswer& answer, double seconds) {
       "Which integrator is cheapest for this case at a wanted error? Every method runs it with "
       "constant steps, halved from run to run. Work is counted in applications of force operators; "
       "contact and strain limits are not among them; seconds include them. Prices are interpolated "
-      "in logarithms between the two runs that bracket the error, never beyond them. " +
+      "in logarithms between the two runs that bracket the error, never beyond them. The steps of "
+      "the cheapest methods are stable in a run three times as long: its kinetic energy there is "
+      "at most twice that with half the step. " +
       truth_in_words(answer) + ".";
   for (const CostAxis& cost : cost_axes()) record.figures.push_back(figure_of(answer, cost));
-  record.tables = {price_table(answer), method_table(answer), run_table(answer)};
+  record.tables = {price_table(answer), method_table(answer), longer_run_table(answer),
+                   run_table(answer)};
   return record;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "convergence/any_case/framed_run.h"
+#include "convergence/work_precision/longer_run.h"
 #include "reference/bodies/level_set_provider.h"
 #include "reference/dynamics/simulate.h"
 #include "verification/cases/expectations.h"
@@ -19,13 +20,16 @@ struct PrecisionTrial {
   std::string method;
   int parts = 1;      // >= 1
   double budget = 0;  // of the run [visits]
+  int times = 1;      // the run's length over the case's [1]
 };
 
-/// Of long runs only some frames are kept.
+/// Of long runs only some frames are kept; of runs longer than the case only the
+/// first and the last.
 struct TrialRun : FramedRun {
   long steps = 0;
   Work work;
   double part = 0;         // of the time that it was to reach [1]
+  LongerEnergy energy{};   // of the free particles, in frames
   double over_budget = 0;  // the budget at which it was ended [visits]; 0: it was not
 };
 
@@ -33,7 +37,7 @@ struct TrialRun : FramedRun {
 /// about alike for each [1].
 double visits(const Scene& scene, const Work& work);
 
-/// The scene with the trial's method and step.
+/// The scene with the trial's method, step and length.
 Scene scene_of(const Scene& scene, const PrecisionTrial& trial);
 
 /// Runs the trial. It ends at the first frame at which it has taken more visits than its budget. Of

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <set>
 
 #include "convergence/any_case/precision.h"
 #include "convergence/any_case/trial_ladder.h"
@@ -21,7 +22,7 @@ constexpr double contender = 2.5;     // of a price over the cheapest whose brac
 /// The input of next_trials.
 struct Survey {
   const PrecisionPlan& plan;
-  const TrialRuns& runs;
+  const Trials& trials;
   CaseTruth truth;
   std::vector<MethodCurve> curves;
 };
@@ -72,7 +73,7 @@ double expected_cost(const TrialLevels& levels, Family family, double parts, con
 bool is_affordable(const Survey& survey, const std::string& method, double parts, double most_work,
                    double budget) {
   const Scene& scene = survey.plan.input_case.scene;
-  const TrialLevels& levels = survey.runs.at(method);
+  const TrialLevels& levels = survey.trials.runs.at(method);
   const Family family = family_of(method);
   const auto whole = [](const TrialRun& run) { return std::max(run.part, 1e-3); };
   return expected_cost(levels, family, parts,
@@ -94,16 +95,17 @@ double seen_order(const MethodCurve& curve, const std::string& method) {
 }
 
 /// Steps a frame with which the method would reach the largest wanted error that it has not, by the
-/// order that it showed; 0 if it has reached them all.
+/// order that it showed; 0 if it has reached them all, with a step that lasts as far as is known.
 double parts_needed(const Survey& survey, const std::string& method, int parts, double error) {
   const double order = seen_order(curve_of(survey, method), method);
   for (const double wanted : survey.plan.wanted)
     if (std::isnan(error) || error > wanted) return parts * std::pow(error / wanted, 1 / order);
-  return 0;
+  const double unstable = shortest_unstable_step(curve_of(survey, method).curve.longer);
+  return frame_of(survey.plan) / parts < unstable * (1 - 1e-9) ? 0 : 2. * parts;
 }
 
 bool needs_halving(const Survey& survey, const std::string& method, double most_work) {
-  const TrialLevels& levels = survey.runs.at(method);
+  const TrialLevels& levels = survey.trials.runs.at(method);
   const auto [parts, run] = finest(levels);
   const int first = survey.plan.first.at(method);
   if (2 * parts > most_parts) return false;
@@ -126,7 +128,7 @@ bool needs_halving(const Survey& survey, const std::string& method, double most_
 /// The longest step that came to an end is not known to be the longest: for a fully implicit method
 /// that matters only where it is exact enough.
 bool needs_coarser(const Survey& survey, const std::string& method) {
-  const auto& [coarsest, run] = *survey.runs.at(method).begin();
+  const auto& [coarsest, run] = *survey.trials.runs.at(method).begin();
   if (!is_whole(run) || coarsest % 2 != 0) return false;
   const double error = curve_of(survey, method).curve.runs.front().error;
   return error <= (family_of(method) == Family::fully_implicit ? survey.plan.wanted.front()
@@ -135,8 +137,9 @@ bool needs_coarser(const Survey& survey, const std::string& method) {
 
 /// The method's next run on its ladder of halved steps; parts 0: none.
 PrecisionTrial next_on_ladder(const Survey& survey, const std::string& method, double most_work) {
-  const auto found = survey.runs.find(method);
-  if (found == survey.runs.end()) return {method, survey.plan.first.at(method), survey.plan.budget};
+  const auto found = survey.trials.runs.find(method);
+  if (found == survey.trials.runs.end())
+    return {method, survey.plan.first.at(method), survey.plan.budget};
   if (needs_coarser(survey, method))
     return {method, found->second.begin()->first / 2, survey.plan.budget};
   if (needs_halving(survey, method, most_work))
@@ -149,22 +152,13 @@ std::vector<PrecisionTrial> refined_truth(const Survey& survey) {
   if (survey.truth.uncertainty <= truth_part * survey.plan.wanted.back()) return trials;
   for (const Opinion* opinion : {&survey.truth.first, &survey.truth.second}) {
     if (opinion->parts == 0) continue;
-    const TrialLevels& levels = survey.runs.at(opinion->method);
+    const TrialLevels& levels = survey.trials.runs.at(opinion->method);
     const auto [parts, run] = finest(levels);
     const double budget = truth_budget * survey.plan.budget;
     if (is_whole(*run) && is_affordable(survey, opinion->method, 2. * parts, INFINITY, budget))
       trials.push_back({opinion->method, 2 * parts, budget});
   }
   return trials;
-}
-
-/// The runs between which a wanted error's price lies: the index of the finer
-/// one; 0: there are no two.
-size_t bracket(const MethodCurve& curve, double wanted) {
-  const std::vector<PrecisionRun>& runs = curve.curve.runs;
-  size_t first = runs.size();
-  while (first > 0 && runs[first - 1].error <= wanted) --first;
-  return first == runs.size() ? 0 : first;
 }
 
 std::vector<PrecisionTrial> narrowed_brackets(const Survey& survey) {
@@ -177,10 +171,9 @@ std::vector<PrecisionTrial> narrowed_brackets(const Survey& survey) {
       if (work < least) least = work;
     }
     for (const MethodCurve& curve : survey.curves) {
-      const size_t fine = bracket(curve, wanted);
-      if (fine == 0 || !(price_of(survey, curve, wanted).applications <= contender * least))
+      const auto [few, many] = bracket_of(survey.plan, curve, wanted);
+      if (few == 0 || !(price_of(survey, curve, wanted).applications <= contender * least))
         continue;
-      const int few = curve.parts[fine - 1], many = curve.parts[fine];
       const PrecisionTrial middle{curve.method, (few + many) / 2, survey.plan.budget};
       if (many > narrow * few && many - few > 1 &&
           std::ranges::none_of(trials, [&](const PrecisionTrial& t) {
@@ -192,25 +185,45 @@ std::vector<PrecisionTrial> narrowed_brackets(const Survey& survey) {
   return trials;
 }
 
+/// Longer runs of the steps that win or tie, and of half of them.
+std::vector<PrecisionTrial> longer_trials(const Survey& survey) {
+  std::map<std::string, std::set<int>> asked;
+  for (const auto& [method, levels] : survey.trials.longer)
+    for (const auto& [parts, run] : levels) asked[method].insert(parts);
+  std::vector<PrecisionTrial> trials;
+  for (const double wanted : survey.plan.wanted) {
+    const PriceList list = price_list(survey.plan, survey.truth, survey.curves, wanted);
+    for (const MethodPrice* price : winners(list))
+      for (const int halves : {1, 2}) {
+        const int parts = halves * asked_parts(survey.plan, price->price.step);
+        const double budget = halves * longer * truth_budget * survey.plan.budget;
+        if (asked[price->method].insert(parts).second)
+          trials.push_back({price->method, parts, budget, longer});
+      }
+  }
+  return trials;
+}
+
 }  // namespace
 
-std::vector<PrecisionTrial> next_trials(const PrecisionPlan& plan, const TrialRuns& runs) {
-  const CaseTruth truth = case_truth(plan, runs);
-  const Survey survey{plan, runs, truth, method_curves(plan, runs, truth)};
+std::vector<PrecisionTrial> next_trials(const PrecisionPlan& plan, const Trials& trials) {
+  const CaseTruth truth = case_truth(plan, trials.runs);
+  const Survey survey{plan, trials, truth, method_curves(plan, trials, truth)};
   const double most_work = dearest * cheapest_work(survey);
-  std::vector<PrecisionTrial> trials;
+  std::vector<PrecisionTrial> next;
   // whose steps are dear; by then it is known how dear
   for (const bool is_implicit : {false, true}) {
-    if (!trials.empty()) break;
+    if (!next.empty()) break;
     for (const std::string& method : all_methods(plan)) {
       if ((family_of(method) == Family::fully_implicit) != is_implicit) continue;
       const PrecisionTrial trial = next_on_ladder(survey, method, most_work);
-      if (trial.parts > 0) trials.push_back(trial);
+      if (trial.parts > 0) next.push_back(trial);
     }
   }
-  if (trials.empty()) trials = refined_truth(survey);
-  if (trials.empty()) trials = narrowed_brackets(survey);
-  return trials;
+  if (next.empty()) next = refined_truth(survey);
+  if (next.empty()) next = narrowed_brackets(survey);
+  if (next.empty()) next = longer_trials(survey);
+  return next;
 }
 
 }  // namespace foldproof

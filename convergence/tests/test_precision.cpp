@@ -28,18 +28,22 @@ Case falling(bool with_held_particles) {
 }
 
 /// How a made-up method errs: by coefficient * parts^-order of the motion, plus a bias that no step
-/// removes; with fewer than `least_parts` steps a frame it diverges halfway.
+/// removes; with fewer than `least_parts` steps a frame it diverges halfway. In a longer run its
+/// energy is that of the scene with `lasting_parts` or more, and else grows with the step.
 struct Law {
   double coefficient, order;
   int least_parts;
   long work_of_step;
   double bias = 0;
+  int lasting_parts = 1;
 };
 
 /// The run that the law makes of the trial. Free particles move by t, from 0 to 0.7 m.
 TrialRun run_by(const Law& law, const PrecisionTrial& trial, const PrecisionPlan& plan) {
   TrialRun run;
-  run.steps = long(frames) * trial.parts;
+  run.steps = long(frames) * trial.parts * trial.times;
+  const bool grows = trial.parts < law.lasting_parts;
+  run.energy = {0.9, grows ? 0.7 * std::exp(double(law.lasting_parts) / trial.parts) : 0.7};
   run.part = 1;
   if (trial.parts < law.least_parts) {
     run.stopped = "divergence";
@@ -62,7 +66,7 @@ TrialRun run_by(const Law& law, const PrecisionTrial& trial, const PrecisionPlan
 
 struct MadeUp {
   PrecisionPlan plan;
-  TrialRuns runs;
+  Trials trials;
 };
 
 /// All trials that are asked for, made by their laws.
@@ -72,11 +76,12 @@ MadeUp made_by(const std::map<std::string, Law>& laws, std::vector<double> wante
   for (const auto& [method, law] : laws) methods.push_back(method);
   MadeUp made{precision_plan(falling(true), methods, wanted, budget, computing_provider()), {}};
   made.plan.for_truth.clear();
-  for (auto trials = next_trials(made.plan, made.runs); !trials.empty();
-       trials = next_trials(made.plan, made.runs))
-    for (const PrecisionTrial& trial : trials) {
-      REQUIRE(made.runs[trial.method].count(trial.parts) == 0);
-      made.runs[trial.method][trial.parts] = run_by(laws.at(trial.method), trial, made.plan);
+  for (auto next = next_trials(made.plan, made.trials); !next.empty();
+       next = next_trials(made.plan, made.trials))
+    for (const PrecisionTrial& trial : next) {
+      TrialRun& run = run_of(made.trials, trial);
+      REQUIRE(run.steps == 0);
+      run = run_by(laws.at(trial.method), trial, made.plan);
     }
   return made;
 }
@@ -100,7 +105,7 @@ const std::map<std::string, Law> two_good_methods = {{"B", {0.3, 2, 1, 5}},
 
 TEST_CASE("prices are those of the methods' own laws of error") {
   const MadeUp made = made_by(two_good_methods, {1e-2, 1e-3});
-  const PrecisionAnswer answer = precision_answer(made.plan, made.runs);
+  const PrecisionAnswer answer = precision_answer(made.plan, made.trials);
   CHECK(answer.truth.motion == Approx(end_time).epsilon(1e-5));
   CHECK(answer.truth.first.is_extrapolated);
   CHECK(answer.truth.second.is_extrapolated);
@@ -120,22 +125,22 @@ TEST_CASE("prices are those of the methods' own laws of error") {
 
 TEST_CASE("the sentence names the fastest method where it is not the one of least work") {
   MadeUp made = made_by(two_good_methods, {1e-2});
-  CHECK(precision_sentences(precision_answer(made.plan, made.runs))[0].find("by seconds") ==
+  CHECK(precision_sentences(precision_answer(made.plan, made.trials))[0].find("by seconds") ==
         std::string::npos);
-  const auto prices = precision_answer(made.plan, made.runs).lists[0].prices;
+  const auto prices = precision_answer(made.plan, made.trials).lists[0].prices;
   const auto other = std::ranges::find(prices, "RK4", &MethodPrice::method);
   const double to_tie = other->price.seconds / prices.front().price.seconds;
-  for (auto& [parts, run] : made.runs.at("B")) run.seconds *= 1.02 * to_tie;
-  CHECK(precision_sentences(precision_answer(made.plan, made.runs))[0].find("by seconds") ==
+  for (auto& [parts, run] : made.trials.runs.at("B")) run.seconds *= 1.02 * to_tie;
+  CHECK(precision_sentences(precision_answer(made.plan, made.trials))[0].find("by seconds") ==
         std::string::npos);
-  for (auto& [parts, run] : made.runs.at("B")) run.seconds *= 10;
-  const PrecisionAnswer answer = precision_answer(made.plan, made.runs);
+  for (auto& [parts, run] : made.trials.runs.at("B")) run.seconds *= 10;
+  const PrecisionAnswer answer = precision_answer(made.plan, made.trials);
   CHECK(precision_sentences(answer)[0].find("; by seconds RK4 with h = ") != std::string::npos);
 }
 
 TEST_CASE("each method's observed order is that of its own halved steps") {
   const MadeUp made = made_by(two_good_methods, {1e-3});
-  const PrecisionAnswer answer = precision_answer(made.plan, made.runs);
+  const PrecisionAnswer answer = precision_answer(made.plan, made.trials);
   CHECK(curve_of(answer, "B").bar.order == Approx(2).margin(0.01));
   CHECK(curve_of(answer, "RK4").bar.order == Approx(4).margin(0.01));
   CHECK(curve_of(answer, "B").bar.reading == Reading::asymptotic);
@@ -145,7 +150,7 @@ TEST_CASE("the largest stable step of an unstable method is bracketed") {
   std::map<std::string, Law> laws = two_good_methods;
   laws["A"] = {1e-5, 2, 11, 3};
   const MadeUp made = made_by(laws, {1e-2});
-  const PrecisionAnswer answer = precision_answer(made.plan, made.runs);
+  const PrecisionAnswer answer = precision_answer(made.plan, made.trials);
   const MethodCurve& curve = curve_of(answer, "A");
   const double frame = end_time / frames;
   CHECK(curve.stable_step <= frame / 11 * (1 + 1e-12));
@@ -155,12 +160,61 @@ TEST_CASE("the largest stable step of an unstable method is bracketed") {
   CHECK(price_of(answer, 0, "A").price.step == curve.stable_step);
 }
 
+TEST_CASE("a step that gains energy in a longer run has no price, and the next shorter one does") {
+  std::map<std::string, Law> laws = two_good_methods;
+  laws["A"] = {1e-5, 2, 2, 3, 0, 11};
+  const MadeUp made = made_by(laws, {1e-2});
+  const PrecisionAnswer answer = precision_answer(made.plan, made.trials);
+  const double frame = end_time / frames;
+  const MethodPrice& price = price_of(answer, 0, "A");
+  CHECK(price.price.limit == LimitedBy::longer_run);
+  CHECK(price.price.step <= frame / 11 * (1 + 1e-12));
+  CHECK(price.price.step > frame / (11 * 1.31));
+  CHECK(price.spacing <= 1.31);
+  const double work_of_one = price.price.applications / std::round(end_time / price.price.step);
+  CHECK(work_of_one == Approx(3));
+  CHECK(curve_of(answer, "A").stable_step == Approx(frame / 2));
+}
+
+TEST_CASE("only steps that win or tie are asked whether they last") {
+  std::map<std::string, Law> laws = two_good_methods;
+  laws["C"] = {0.9, 2, 1, 20};
+  const MadeUp made = made_by(laws, {1e-2});
+  CHECK(made.trials.longer.count("B") == 1);
+  CHECK(made.trials.longer.count("C") == 0);
+  const PrecisionAnswer answer = precision_answer(made.plan, made.trials);
+  CHECK(price_of(answer, 0, "B").energy_gain == Approx(1).epsilon(1e-3));
+  CHECK(std::isnan(price_of(answer, 0, "C").energy_gain));
+}
+
+TEST_CASE("a method that lasts with none of the steps that the budget allows has no price") {
+  std::map<std::string, Law> laws = two_good_methods;
+  for (auto& [method, law] : laws) law.lasting_parts = 1 << 30;
+  const MadeUp made = made_by(laws, {1e-2}, 1e5);
+  const PrecisionAnswer answer = precision_answer(made.plan, made.trials);
+  for (const MethodPrice& price : answer.lists[0].prices) {
+    CHECK(std::isnan(price.price.applications));
+    CHECK(price.because == "no step that was tried is stable in a run three times as long");
+  }
+}
+
+TEST_CASE("a longer run keeps its step and its largest energy") {
+  const Case input_case = falling(false);
+  const TrialRun run = run_trial(input_case, {"RK4", 4, 1e6, longer}, computing_provider());
+  CHECK(run.steps == longer * frames * 4);
+  CHECK(run.times.back() == Approx(longer * end_time));
+  CHECK(run.energy.added == run.energy.largest);
+  const double mass = run.energy.added * 2 / std::pow(9 * longer * end_time, 2);
+  const PrecisionPlan plan = precision_plan(input_case, {"RK4"}, {1}, 1, computing_provider());
+  CHECK(mass == Approx(plan.mass.sum()));
+}
+
 TEST_CASE("a method that is never stable has no price and says why") {
   std::map<std::string, Law> laws = two_good_methods;
   laws["forward-euler"] = {1, 1, 1 << 30, 3};
   const MadeUp made = made_by(laws, {1e-2});
-  CHECK(made.runs.at("forward-euler").rbegin()->first <= 64);
-  const PrecisionAnswer answer = precision_answer(made.plan, made.runs);
+  CHECK(made.trials.runs.at("forward-euler").rbegin()->first <= 64);
+  const PrecisionAnswer answer = precision_answer(made.plan, made.trials);
   CHECK(std::isnan(price_of(answer, 0, "forward-euler").price.applications));
   CHECK(price_of(answer, 0, "forward-euler").because == "no run comes to its end: divergence");
   CHECK(precision_sentences(answer)[0].ends_with(
@@ -171,7 +225,7 @@ TEST_CASE("errors below ten times the distance of the two opinions have no price
   std::map<std::string, Law> laws = two_good_methods;
   laws["RK4"].bias = 4e-4;
   const MadeUp made = made_by(laws, {1e-2, 1e-3}, 1e6);
-  const PrecisionAnswer answer = precision_answer(made.plan, made.runs);
+  const PrecisionAnswer answer = precision_answer(made.plan, made.trials);
   CHECK(answer.truth.uncertainty == Approx(4e-4).epsilon(0.02));
   CHECK(least_error(answer.truth) == Approx(4e-3).epsilon(0.02));
   CHECK(!std::isnan(price_of(answer, 0, "B").price.applications));
@@ -184,7 +238,7 @@ TEST_CASE("opinions on the truth are of two families, however well their own agr
   laws["A"] = {0.3, 2, 1, 5};
   laws["RK4"] = {0.9, 1.5, 1, 13, 2e-5};
   const MadeUp made = made_by(laws, {1e-2});
-  const CaseTruth truth = case_truth(made.plan, made.runs);
+  const CaseTruth truth = case_truth(made.plan, made.trials.runs);
   CHECK(truth.first.method != "RK4");
   CHECK(truth.second.method == "RK4");
   const PrecisionPlan one =
@@ -197,7 +251,7 @@ TEST_CASE("methods whose prices are closer than the steps tried are tied") {
   laws["A"] = {0.33, 2, 1, 5};
   laws["C"] = {0.6, 2, 1, 7};
   const MadeUp made = made_by(laws, {1e-3});
-  const PrecisionAnswer answer = precision_answer(made.plan, made.runs);
+  const PrecisionAnswer answer = precision_answer(made.plan, made.trials);
   const std::string best = answer.lists[0].prices.front().method;
   CHECK(best == "RK4");
   CHECK(price_of(answer, 0, "B").over_best == Approx(5. / 13 * 17.32 / 5.477).epsilon(0.02));
@@ -214,11 +268,11 @@ TEST_CASE("a method is not refined beyond sixteen times the cheapest or the budg
   laws["forward-euler"] = {0.9, 1, 1, 3};
   const MadeUp made = made_by(laws, {1e-2, 1e-3});
   const double cheapest =
-      precision_answer(made.plan, made.runs).lists[1].prices.front().price.applications;
-  for (const auto& [parts, run] : made.runs.at("forward-euler"))
+      precision_answer(made.plan, made.trials).lists[1].prices.front().price.applications;
+  for (const auto& [parts, run] : made.trials.runs.at("forward-euler"))
     CHECK(operator_applications(run.work) <= dearest * cheapest);
   const MadeUp poor = made_by(two_good_methods, {1e-2, 1e-6}, 3e3);
-  for (const auto& [method, levels] : poor.runs)
+  for (const auto& [method, levels] : poor.trials.runs)
     for (const auto& [parts, run] : levels)
       CHECK(visits(poor.plan.input_case.scene, run.work) <= 2.5 * 3e3);
 }
@@ -227,11 +281,11 @@ TEST_CASE("forward Euler's error in free fall is the step over the time") {
   const Case input_case = falling(false);
   const PrecisionPlan plan =
       precision_plan(input_case, {"forward-euler", "B"}, {0.02}, 1e8, computing_provider());
-  TrialRuns runs;
-  for (auto trials = next_trials(plan, runs); !trials.empty(); trials = next_trials(plan, runs))
-    for (const PrecisionTrial& trial : trials)
-      runs[trial.method][trial.parts] = run_trial(input_case, trial, computing_provider());
-  const PrecisionAnswer answer = precision_answer(plan, runs);
+  Trials trials;
+  for (auto next = next_trials(plan, trials); !next.empty(); next = next_trials(plan, trials))
+    for (const PrecisionTrial& trial : next)
+      run_of(trials, trial) = run_trial(input_case, trial, computing_provider());
+  const PrecisionAnswer answer = precision_answer(plan, trials);
   CHECK(answer.truth.motion == Approx(9 * end_time * end_time / 2));
   for (const PrecisionRun& run : curve_of(answer, "forward-euler").curve.runs)
     CHECK(run.error == Approx(1. / run.steps).epsilon(1e-6));
@@ -241,11 +295,11 @@ TEST_CASE("forward Euler's error in free fall is the step over the time") {
 
 TEST_CASE("a case in which nothing moves has no truth and no price") {
   MadeUp made = made_by(two_good_methods, {1e-2});
-  for (auto& [method, levels] : made.runs)
+  for (auto& [method, levels] : made.trials.runs)
     for (auto& [parts, run] : levels)
       for (PerParticle3& x : run.x)
         x = made.plan.input_case.scene.x + 1e-17 / parts * PerParticle3::Ones(3, x.cols());
-  const PrecisionAnswer answer = precision_answer(made.plan, made.runs);
+  const PrecisionAnswer answer = precision_answer(made.plan, made.trials);
   CHECK(std::isnan(answer.truth.uncertainty));
   CHECK(std::isnan(answer.lists[0].prices.front().price.applications));
   CHECK(truth_in_words(answer).starts_with("truth: unknown; nothing moves"));
@@ -253,7 +307,8 @@ TEST_CASE("a case in which nothing moves has no truth and no price") {
 
 TEST_CASE("held particles do not dilute errors") {
   const MadeUp made = made_by(two_good_methods, {1e-2});
-  const auto curves = method_curves(made.plan, made.runs, case_truth(made.plan, made.runs));
+  const auto curves =
+      method_curves(made.plan, made.trials, case_truth(made.plan, made.trials.runs));
   const MethodCurve& curve = curves.front();
   CHECK(curve.curve.runs[0].error == Approx(0.3 / std::pow(curve.parts[0], 2)).epsilon(1e-3));
   Case all_held = falling(false);

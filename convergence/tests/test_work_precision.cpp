@@ -1,5 +1,6 @@
 // The cheapest method of a motion: ties are printed as ties, on costs that are known.
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <stdexcept>
 
 #include "convergence/work_precision/work_precision.h"
@@ -43,4 +44,50 @@ TEST_CASE("methods nearer in cost than two tried steps are alike", "[work-precis
       cheapest_of(scene_of({costing("A", 310), costing("B", 170), costing("C", 100)}));
   CHECK(won.texts("cheapest method").front() == "C");
   CHECK(won.texts("alike").front().empty());
+}
+
+TEST_CASE("a step lasts whose energy is at most twice that of half the step", "[work-precision]") {
+  const double none = std::nan("");
+  const auto is_stable = [](const LongerEnergy& with_step, const LongerEnergy& with_half) {
+    return lasts({0.01, with_step, with_half});
+  };
+  CHECK(is_stable({7, 1.9}, {7, 1}));
+  CHECK_FALSE(is_stable({7, 2.1}, {7, 1}));
+  CHECK(is_stable({0, 0}, {0, 0}));
+  // at rest, but for a hundredth of the largest velocity
+  CHECK(is_stable({7, 1e-4}, {7, 1e-9}));
+  CHECK_FALSE(is_stable({7, 2e-3}, {7, 1e-9}));
+  CHECK_FALSE(is_stable({none, none}, {7, 1}));
+  CHECK_FALSE(is_stable({7, 1}, {none, none}));
+  CHECK_FALSE(is_stable({INFINITY, INFINITY}, {INFINITY, INFINITY}));
+}
+
+TEST_CASE("a price rests on no step that a longer run shows to be unstable", "[work-precision]") {
+  // errors of second order; steps of 0.04, 0.02, 0.01 and 0.005 s
+  PrecisionCurve curve{integrator_named("B"),
+                       {{20, 0.016, 20, 0.2, 1, {}},
+                        {40, 0.004, 40, 0.4, 1, {}},
+                        {80, 0.001, 80, 0.8, 1, {}},
+                        {160, 0.00025, 160, 1.6, 1, {}}}};
+  constexpr double end = 0.8, wanted = 0.008;
+  const double step = price_at(curve, end, wanted).step;
+  CHECK(step == Approx(0.04 / std::sqrt(2.)));
+  const LongerEnergy allowed{1, 1}, gained{3, 3}, none{std::nan(""), std::nan("")};
+  curve.longer = {{step, gained, allowed}};
+  CHECK(price_at(curve, end, wanted).step == Approx(0.02));
+  CHECK(price_at(curve, end, wanted).applications == 40);
+  CHECK(price_at(curve, end, wanted).limit == LimitedBy::longer_run);
+  CHECK(price_at(curve, end, 0.002).limit == LimitedBy::accuracy);
+  curve.longer.push_back({0.02, none, allowed});
+  CHECK(price_at(curve, end, wanted).step == Approx(0.01));
+  curve.longer.push_back({0.005, none, none});
+  CHECK(price_at(curve, end, wanted).limit == LimitedBy::not_reached);
+}
+
+TEST_CASE("the cheapest method of a motion is one whose step lasts", "[work-precision]") {
+  PrecisionCurve unstable = costing("A", 100), stable = costing("B", 310);
+  unstable.longer = {{0.02, {5, 5}, {1, 1}}};
+  stable.longer = {{0.02, {1, 1}, {1, 1}}};
+  const PrecisionScene scene = scene_of({unstable, stable});
+  CHECK(cheapest_of(scene).texts("cheapest method").front() == "B");
 }

@@ -31,6 +31,26 @@ double expected_work(const PrecisionCurve& curve, int steps) {
                                  (last.steps - before.steps) * (steps - last.steps);
 }
 
+constexpr Price price_of_none{LimitedBy::not_reached, nan, nan, nan, nan};
+
+Price price_of_run(const PrecisionRun& run, double end, LimitedBy limit) {
+  return {limit, end / run.steps, run.applications, run.seconds,
+          double(run.work.unfinished_solves)};
+}
+
+/// The price between the first run that reaches the error and the one before it.
+Price price_between(const PrecisionCurve& curve, size_t first, double end, double wanted) {
+  const PrecisionRun& fine = curve.runs[first];
+  if (first == 0) return price_of_run(fine, end, LimitedBy::not_tried);
+  const PrecisionRun& coarse = curve.runs[first - 1];
+  Price price = price_of_run(fine, end, LimitedBy::stability);
+  if (std::isnan(coarse.error)) return price;
+  const double part = std::log(coarse.error / wanted) / std::log(coarse.error / fine.error);
+  return {LimitedBy::accuracy, log_between(end / coarse.steps, price.step, part),
+          log_between(coarse.applications, fine.applications, part),
+          log_between(coarse.seconds, fine.seconds, part), price.unfinished};
+}
+
 }  // namespace
 
 Mark mark_of(const PrecisionRun& run) {
@@ -71,6 +91,8 @@ std::string_view name_of(LimitedBy limit) {
       return "accuracy";
     case LimitedBy::stability:
       return "stability";
+    case LimitedBy::longer_run:
+      return "stability of longer runs";
     case LimitedBy::not_tried:
       return "longer steps not tried";
     case LimitedBy::not_reached:
@@ -83,17 +105,13 @@ Price price_at(const PrecisionCurve& curve, double end, double wanted) {
   const std::vector<PrecisionRun>& runs = curve.runs;
   size_t first = runs.size();
   while (first > 0 && runs[first - 1].error <= wanted) --first;
-  if (first == runs.size()) return {LimitedBy::not_reached, nan, nan, nan, nan};
-  const PrecisionRun& fine = runs[first];
-  const double step = end / fine.steps, unfinished = double(fine.work.unfinished_solves);
-  if (first == 0) return {LimitedBy::not_tried, step, fine.applications, fine.seconds, unfinished};
-  const PrecisionRun& coarse = runs[first - 1];
-  if (std::isnan(coarse.error))
-    return {LimitedBy::stability, step, fine.applications, fine.seconds, unfinished};
-  const double part = std::log(coarse.error / wanted) / std::log(coarse.error / fine.error);
-  return {LimitedBy::accuracy, log_between(end / coarse.steps, step, part),
-          log_between(coarse.applications, fine.applications, part),
-          log_between(coarse.seconds, fine.seconds, part), unfinished};
+  if (first == runs.size()) return price_of_none;
+  const double unstable = shortest_unstable_step(curve.longer);
+  const Price price = price_between(curve, first, end, wanted);
+  if (price.step < unstable) return price;
+  while (first < runs.size() && !(end / runs[first].steps < unstable * (1 - 1e-9))) ++first;
+  return first == runs.size() ? price_of_none
+                              : price_of_run(runs[first], end, LimitedBy::longer_run);
 }
 
 }  // namespace foldproof

@@ -74,6 +74,7 @@ PlannedRun run_planned(const Subject& subject, const Scene& scene, const RunPlan
       ++run.steps;
       history.advance(step(*prepared, history.past(), plan.end / plan.steps, run.work));
       farthest.observe(largest_distance_from(scene.x, history.now().x));
+      if (plan.seen) plan.seen(history.now());
       if (!(farthest.value() <= plan.farthest)) run.ending = Ending::diverged;
       if (operator_applications(run.work) > plan.budget) run.ending = Ending::over_budget;
     }

@@ -2,6 +2,7 @@
 // at which price.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,7 @@ struct RunPlan {
   int steps;        // >= 1
   double farthest;  // a particle farther from its start than this ends the run as diverged [m]
   double budget;    // work at which the run ends [operator applications]
+  std::function<void(const State&)> seen = {};  // called after each step
 };
 
 enum class Ending { reached, diverged, over_budget };

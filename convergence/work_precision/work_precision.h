@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "convergence/study.h"
+#include "convergence/work_precision/longer_run.h"
 #include "convergence/work_precision/precision_problem.h"
 #include "reference/dynamics/integrator.h"
 #include "verification/subject.h"
@@ -37,7 +38,8 @@ Mark mark_of(const PrecisionRun& run);
 
 struct PrecisionCurve {
   Integrator integrator;
-  std::vector<PrecisionRun> runs;  // coarse to fine
+  std::vector<PrecisionRun> runs;      // coarse to fine
+  std::vector<LongerRun> longer = {};  // of steps that were asked whether they last
 };
 
 /// A run whose error exceeds the motion itself counts as diverged.
@@ -52,8 +54,9 @@ PrecisionCurve precision_curve(const Subject& subject, const PrecisionProblem& p
                                const PrecisionTruth& truth, const Integrator& integrator,
                                double finest_error);
 
-/// Why a step cannot be longer at a wanted error.
-enum class LimitedBy { accuracy, stability, not_tried, not_reached };
+/// Why a step cannot be longer at a wanted error. longer_run: longer steps reach it, but are
+/// unstable in a longer run.
+enum class LimitedBy { accuracy, stability, longer_run, not_tried, not_reached };
 
 std::string_view name_of(LimitedBy limit);
 
@@ -68,6 +71,7 @@ struct Price {
 
 /// From the coarsest run from which on all errors are at most `wanted` [1]; between it and the next
 /// coarser one the price is interpolated, linearly in the logarithms, unless that one diverged.
+/// Steps that a longer run showed to be unstable have no price: the next shorter run has it.
 Price price_at(const PrecisionCurve& curve, double end, double wanted);
 
 // Measurements passed between the parts of the work-precision study.
@@ -85,12 +89,38 @@ constexpr std::array<double, 2> wanted_errors = {0.01, 0.001};
 /// The method of a scene by its name; InputError if it has not run.
 const PrecisionCurve& curve_of(const PrecisionScene& scene, std::string_view method);
 
+/// A cost that methods are compared by.
+struct Currency {
+  std::string name;
+  double Price::*cost;
+};
+
+const std::array<Currency, 2> currencies = {
+    {{"work", &Price::applications}, {"seconds", &Price::seconds}}};
+
+/// The two cheapest methods of a scene at a wanted error, and scheme C.
+struct Podium {
+  std::string first = "none", second = "none";
+  Price best{LimitedBy::not_reached, nan, nan, nan, nan}, next = best, scheme_C = best;
+};
+
+Podium podium(const PrecisionScene& scene, double wanted, const Currency& currency);
+
+/// Asks whether the steps last with which the contenders reach each wanted error; where one does
+/// not, a shorter one, or another method, is asked in its place.
+void ask_longer_runs(const Subject& subject, PrecisionScene& scene);
+
+/// The curves of the cheapest method, of the next, and of those that cost about as much as the
+/// cheapest: less than the ratio of two steps that were tried.
+std::vector<size_t> contenders(const PrecisionScene& scene, double wanted,
+                               const Currency& currency);
+
 std::vector<NamedFinding> precision_findings(const std::vector<PrecisionScene>& scenes);
 
 /// Error against step, work and seconds of one scene.
 std::vector<Figure> precision_figures(const PrecisionScene& scene);
 
-/// Which method is cheapest; every method's price; every run.
+/// Which method is cheapest; every method's price; which steps last; every run.
 std::vector<Table> precision_tables(const std::vector<PrecisionScene>& scenes);
 
 }  // namespace foldproof

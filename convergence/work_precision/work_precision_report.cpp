@@ -67,42 +67,6 @@ std::string short_curves(const PrecisionScene& scene) {
   return list.empty() ? "" : " Curves with fewer than five runs above the floor:" + list + ".";
 }
 
-/// A cost that two methods are compared by.
-struct Currency {
-  std::string name;
-  double Price::*cost;
-};
-
-const std::array<Currency, 2> currencies = {
-    {{"work", &Price::applications}, {"seconds", &Price::seconds}}};
-
-/// The two best of a scene.
-struct Podium {
-  std::string first = "none", second = "none";
-  Price best{LimitedBy::not_reached, nan, nan, nan, nan}, next = best, scheme_C = best;
-};
-
-Podium podium(const PrecisionScene& scene, double wanted, const Currency& currency) {
-  Podium podium;
-  for (const PrecisionCurve& curve : scene.curves) {
-    const Price price = price_at(curve, scene.problem.end, wanted);
-    const std::string name(curve.integrator.name);
-    if (name == "C") podium.scheme_C = price;
-    const double cost = price.*currency.cost;
-    if (std::isnan(cost)) continue;
-    if (!(cost >= podium.best.*currency.cost)) {
-      podium.next = podium.best;
-      podium.second = podium.first;
-      podium.best = price;
-      podium.first = name;
-    } else if (!(cost >= podium.next.*currency.cost)) {
-      podium.next = price;
-      podium.second = name;
-    }
-  }
-  return podium;
-}
-
 /// The other methods whose cost is within the ratio of two steps that were tried: runs that far
 /// apart do not tell them from the cheapest.
 std::string alike(const PrecisionScene& scene, double wanted, const Currency& currency,
@@ -158,14 +122,16 @@ Table prices(const std::vector<PrecisionScene>& scenes) {
               {"step limited by", "1"},
               {"operator applications", "1"},
               {"processor time", "s"},
-              {"unfinished solves", "1"}};
+              {"unfinished solves", "1"},
+              {"asked whether it lasts", "1"}};
   for (const PrecisionScene& scene : scenes)
     for (double wanted : wanted_errors)
       for (const PrecisionCurve& curve : scene.curves) {
         const Price price = price_at(curve, scene.problem.end, wanted);
         table.row(scene.problem.description, percent * wanted, curve.integrator.name, price.step,
                   price.step / scene.truth.elastic_limit, name_of(price.limit), price.applications,
-                  price.seconds, price.unfinished);
+                  price.seconds, price.unfinished,
+                  longer_run_of(curve.longer, price.step) ? "yes" : "no");
       }
   return {"prices", "What a position error costs with each method", table};
 }
@@ -239,7 +205,64 @@ Table all_runs(const std::vector<PrecisionScene>& scenes) {
   return {"runs", "Every run; no error where it diverged", table};
 }
 
+/// Every step that was asked whether it lasts.
+Table longer_runs(const std::vector<PrecisionScene>& scenes) {
+  Table table{{"scene", "1"},
+              {"method", "1"},
+              {"step", "s"},
+              {"step over bound of elastic limit", "1"},
+              {"largest kinetic energy of the added time", "J"},
+              {"with half the step", "J"},
+              {"at any time", "J"},
+              {"energy gain", "1"},
+              {"lasts", "1"}};
+  for (const PrecisionScene& scene : scenes)
+    for (const PrecisionCurve& curve : scene.curves)
+      for (const LongerRun& run : curve.longer)
+        table.row(scene.problem.description, curve.integrator.name, run.step,
+                  run.step / scene.truth.elastic_limit, run.with_step.added, run.with_half.added,
+                  run.with_half.largest, energy_gain(run), lasts(run) ? "yes" : "no");
+  return {"longer-runs",
+          "Are the steps of the cheapest methods stable in a run three times as long? The gain is "
+          "the energy over that with half the step; no energy: the run came to no end",
+          table};
+}
+
 }  // namespace
+
+Podium podium(const PrecisionScene& scene, double wanted, const Currency& currency) {
+  Podium podium;
+  for (const PrecisionCurve& curve : scene.curves) {
+    const Price price = price_at(curve, scene.problem.end, wanted);
+    const std::string name(curve.integrator.name);
+    if (name == "C") podium.scheme_C = price;
+    const double cost = price.*currency.cost;
+    if (std::isnan(cost)) continue;
+    if (!(cost >= podium.best.*currency.cost)) {
+      podium.next = podium.best;
+      podium.second = podium.first;
+      podium.best = price;
+      podium.first = name;
+    } else if (!(cost >= podium.next.*currency.cost)) {
+      podium.next = price;
+      podium.second = name;
+    }
+  }
+  return podium;
+}
+
+std::vector<size_t> contenders(const PrecisionScene& scene, double wanted,
+                               const Currency& currency) {
+  const Podium at = podium(scene, wanted, currency);
+  std::vector<size_t> found;
+  for (size_t k = 0; k < scene.curves.size(); ++k) {
+    const double cost = price_at(scene.curves[k], scene.problem.end, wanted).*currency.cost;
+    if (scene.curves[k].integrator.name == at.second ||
+        cost <= scene.problem.ratio * (at.best.*currency.cost))
+      found.push_back(k);
+  }
+  return found;
+}
 
 std::vector<Figure> precision_figures(const PrecisionScene& scene) {
   std::vector<Figure> figures;
@@ -265,7 +288,8 @@ std::vector<Figure> precision_figures(const PrecisionScene& scene) {
 }
 
 std::vector<Table> precision_tables(const std::vector<PrecisionScene>& scenes) {
-  return {cheapest(scenes), prices(scenes), scales(scenes), coverage(scenes), all_runs(scenes)};
+  return {cheapest(scenes), prices(scenes),   longer_runs(scenes),
+          scales(scenes),   coverage(scenes), all_runs(scenes)};
 }
 
 }  // namespace foldproof

@@ -38,13 +38,13 @@ PrecisionPlan plan_of(const Options& options, const LevelSetProvider& level_sets
 }
 
 /// Makes what is missing, round by round, until nothing is.
-TrialRuns all_trials(const PrecisionPlan& plan, const LevelSetProvider& level_sets,
-                     ResultStore& store, const JobSettings& running) {
+Trials all_trials(const PrecisionPlan& plan, const LevelSetProvider& level_sets, ResultStore& store,
+                  const JobSettings& running) {
   const std::string program = program_identity();
-  TrialRuns runs;
+  Trials all;
   for (int round = 1;; ++round) {
-    const std::vector<PrecisionTrial> trials = next_trials(plan, runs);
-    if (trials.empty()) return runs;
+    const std::vector<PrecisionTrial> trials = next_trials(plan, all);
+    if (trials.empty()) return all;
     std::vector<TrialRun> made(trials.size());
     std::vector<Job> jobs;
     for (size_t k = 0; k < trials.size(); ++k)
@@ -57,8 +57,7 @@ TrialRuns all_trials(const PrecisionPlan& plan, const LevelSetProvider& level_se
     run_jobs(jobs, fmt::format("round {}: {} runs", round, trials.size()), running, of_errors);
     if (!of_errors.records.empty())
       throw std::runtime_error(of_errors.records.front().finding.note);
-    for (size_t k = 0; k < trials.size(); ++k)
-      runs[trials[k].method][trials[k].parts] = std::move(made[k]);
+    for (size_t k = 0; k < trials.size(); ++k) run_of(all, trials[k]) = std::move(made[k]);
   }
 }
 
@@ -87,17 +86,26 @@ void print_methods(const PrecisionAnswer& answer) {
   }
 }
 
+/// Steps that are stable in the run that is asked about, but not in a longer one.
+void print_unstable(const PrecisionAnswer& answer) {
+  for (const MethodCurve& curve : answer.curves)
+    if (const double step = shortest_unstable_step(curve.curve.longer); std::isfinite(step))
+      fmt::print("{}: no price from steps of {:.3g} s on, unstable in a run three times as long\n",
+                 curve.method, step);
+}
+
 void print(const PrecisionAnswer& answer) {
   for (const std::string& sentence : precision_sentences(answer)) fmt::print("{}\n", sentence);
   fmt::print("{}\n", truth_in_words(answer));
   print_methods(answer);
+  print_unstable(answer);
   for (const PriceList& list : answer.lists)
     for (const MethodPrice& price : list.prices)
       if (!price.because.empty() && list.wanted >= least_error(answer.truth))
         fmt::print("{} at {:.3g} %: {}\n", price.method, 100 * list.wanted, price.because);
   fmt::print(
       "\nprice: applications of force operators, and seconds of the processor; stable, not: the "
-      "largest stable step\nfound, and the next longer one, which is not.\n");
+      "longest step that\nis stable in this run, and the next longer one, which is not.\n");
 }
 
 json to_json(const Opinion& opinion) {
@@ -115,6 +123,7 @@ json to_json(const MethodPrice& price) {
           {"seconds", price.price.seconds},
           {"over_cheapest", price.over_best},
           {"tied", price.is_tied},
+          {"longer_run_energy_gain", price.energy_gain},
           {"because", price.because}};
 }
 
@@ -130,6 +139,13 @@ json to_json(const MethodCurve& curve) {
                     {"unfinished_solves", run.work.unfinished_solves},
                     {"stopped", curve.stopped[k]}});
   }
+  json longer_runs = json::array();
+  for (const LongerRun& run : curve.curve.longer)
+    longer_runs.push_back({{"step", run.step},
+                           {"kinetic_energy", run.with_step.added},
+                           {"kinetic_energy_with_half_the_step", run.with_half.added},
+                           {"energy_gain", energy_gain(run)},
+                           {"lasts", lasts(run)}});
   return {{"method", curve.method},
           {"order", curve.bar.order},
           {"orders", curve.bar.orders},
@@ -137,7 +153,8 @@ json to_json(const MethodCurve& curve) {
           {"because", curve.bar.reason},
           {"stable_step", curve.stable_step},
           {"unstable_step", curve.unstable_step},
-          {"runs", runs}};
+          {"runs", runs},
+          {"longer_runs", longer_runs}};
 }
 
 json to_json(const PrecisionAnswer& answer) {

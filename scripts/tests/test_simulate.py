@@ -185,7 +185,16 @@ step = 0.001
         ]
         told = json.loads(first.stdout)
         runs = [run for method in told["methods"] for run in method["runs"]]
-        self.assertEqual(len(starts), len(runs))
+        # the steps that win or tie are asked of a longer run, and so is half of each
+        longer = {
+            (method["method"], round(run["step"] / part, 9))
+            for method in told["methods"]
+            for run in method["longer_runs"]
+            for part in (1, 2)
+        }
+        self.assertEqual(len(starts), len(runs) + len(longer))
+        winner = told["prices"][0]["methods"][0]
+        self.assertAlmostEqual(winner["longer_run_energy_gain"], 1, delta=0.1)
         self.assertEqual(
             [method["method"] for method in told["methods"]], ["A", "RK4", "backward-euler"]
         )

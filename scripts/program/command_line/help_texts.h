@@ -295,7 +295,8 @@ error   distance from the truth, divided by the motion. The distance is the root
 truth   two methods of different families, each extrapolated where its order has settled. An error
         less than ten times their distance gets no price.
 price   interpolated between the two runs that bracket the error. Methods are tied if their prices
-        are closer than the steps tried.
+        are closer than the steps tried. The steps of the cheapest methods must also be stable in a
+        run three times as long: its kinetic energy is at most twice that with half the step.
 
 Examples:
   foldproof precision hinge --until 0.2
