@@ -46,6 +46,23 @@ std::string heading(const Judgement& judgement, const SolverCommand& command) {
   return text;
 }
 
+/// The tables of the laws of calibration: effective moduli, for the page of several solvers.
+nlohmann::json calibration_json(const std::vector<Record>& records) {
+  using nlohmann::json;
+  json tables = json::array();
+  for (const Record& record : records) {
+    if (!record.name.starts_with("calibration.") || record.finding.evidence.rows() == 0) continue;
+    json columns = json::array();
+    for (const Column& column : record.finding.evidence.columns()) {
+      json values;
+      std::visit([&](const auto& all) { values = all; }, column.values);
+      columns.push_back({{"name", column.name}, {"unit", column.unit}, {"values", values}});
+    }
+    tables.push_back({{"law", record.name}, {"columns", columns}});
+  }
+  return tables;
+}
+
 /// What the solver says of itself, and how it was asked; empty texts if it did not start.
 std::string solver_json(const Judgement& judgement, const SolverCommand& command) {
   using nlohmann::json;
@@ -64,7 +81,8 @@ std::string solver_json(const Judgement& judgement, const SolverCommand& command
                {"solve_tolerance", d.solve_tolerance},
                {"command", command.command},
                {"settings", json::object()},
-               {"mapping", json::object()}};
+               {"mapping", json::object()},
+               {"calibration", calibration_json(judgement.records)}};
   for (const auto& [key, value] : command.settings) said["settings"][key] = value;
   for (const auto& [key, value] : judgement.mapping) {
     json& words = said["mapping"][key];  // scenes may be mapped otherwise

@@ -32,10 +32,14 @@ std::string changes_text(const BaselineChanges& changes) {
                             changes.better.size());
 }
 
-void write_results(const std::string& folder, const TrialOutput& trial) {
+void write_results(const std::string& folder, const TrialOutput& trial,
+                   const std::optional<BaselineChanges>& changes) {
   if (folder.empty()) return;
   write_run(folder + "/run.h5", trial.run);
-  write_verdicts(folder, trial.run);
+  if (changes)
+    write_verdicts_since(folder, trial.run, *changes);
+  else
+    write_verdicts(folder, trial.run);
   write_text(folder + "/solver.json", trial.facts);
 }
 
@@ -49,16 +53,17 @@ std::optional<std::vector<KeptVerdict>> baseline_of(const Options& options) {
 int finish_trial(const TrialOutput& trial, const std::optional<std::vector<KeptVerdict>>& baseline,
                  const Options& options) {
   const RunRecord& run = trial.run;
-  write_results(options.out, trial);
+  std::optional<BaselineChanges> changes;
+  if (baseline) changes = changes_since(*baseline, run.records);
+  write_results(options.out, trial, changes);
   if (options.json)
     fmt::print("{}", verdicts_json(run));
   else
     fmt::print("{}{}{}{}{}\n", trial.heading, listing(run), failure_notes(run.records), trial.below,
                summary(run));
-  if (!baseline) return exit_code(run);
-  const BaselineChanges changes = changes_since(*baseline, run.records);
-  fmt::print(options.json ? stderr : stdout, "{}", changes_text(changes));
-  return changes.worse.empty() ? all_hold : some_fail;
+  if (!changes) return exit_code(run);
+  fmt::print(options.json ? stderr : stdout, "{}", changes_text(*changes));
+  return changes->worse.empty() ? all_hold : some_fail;
 }
 
 }  // namespace foldproof
