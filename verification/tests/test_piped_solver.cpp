@@ -274,10 +274,12 @@ TEST_CASE("subject: the conformance test accepts the toys and names the first br
   CHECK(rows.back().demand == "advance returns the state");
 }
 
-TEST_CASE("subject: the toy in C++ meets every law") {
+TEST_CASE("subject: the toy in C++ meets every law that it does not decline") {
   for (const Record& record : judge_solver({TOY_SOLVER, {}, {}}, portable_laws(), ignore).records) {
     INFO(record.name << " " << record.finding.note);
-    CHECK(record.outcome == Outcome::holds);
+    const bool is_offered = !record.name.starts_with("contact.") &&
+                            record.name != "calibration.bending-rigidity-is-the-scene-s";
+    CHECK(record.outcome == (is_offered ? Outcome::holds : Outcome::not_applicable));
   }
 }
 
