@@ -86,7 +86,24 @@ def _facts(path: Path) -> dict[str, Any]:
             "capabilities": [str(one) for one in facts["capabilities"]],
             "order": int(facts["order"]),
             "solve_tolerance": float(facts["solve_tolerance"]),
+            "calibration": [_calibration(one) for one in facts.get("calibration", [])],
         }
+
+
+def _calibration(table: dict[str, Any]) -> dict[str, Any]:
+    """Effective moduli that a law measured: columns with units; null: no number."""
+    columns = [
+        {
+            "name": str(one["name"]),
+            "unit": str(one["unit"]),
+            "values": [
+                value if value is None or isinstance(value, str) else float(value)
+                for value in one["values"]
+            ],
+        }
+        for one in table["columns"]
+    ]
+    return {"law": str(table["law"]), "columns": columns}
 
 
 def _answer(row: dict[str, Any]) -> Answer:

@@ -79,6 +79,28 @@ def count(trial: Trial) -> list[tuple[str, int]]:
     return [(outcome, counted[outcome]) for outcome in (*OUTCOMES, *others)]
 
 
+@dataclass(frozen=True)
+class Calibration:
+    """The effective moduli that one law measured, solver by solver."""
+
+    name: str
+    columns: list[dict[str, Any]]
+    rows: list[tuple[str, list[Any]]]  # label of the solver, cells
+
+
+def calibrations(said: Trials) -> list[Calibration]:
+    """Tables of the solvers under one heading; those with other columns are left out of it."""
+    found: dict[str, Calibration] = {}
+    for trial, label in zip(said.trials, said.labels):
+        for table in trial.facts["calibration"]:
+            columns = table["columns"]
+            known = found.setdefault(table["law"], Calibration(table["law"], columns, []))
+            if [one["name"] for one in columns] == [one["name"] for one in known.columns]:
+                cells = zip(*(one["values"] for one in columns))
+                known.rows.extend((label, list(row)) for row in cells)
+    return list(found.values())
+
+
 def trials_json(said: Trials) -> str:
     """The page for other programs; null: no number, or not asked."""
     return (
@@ -119,5 +141,5 @@ def _answer_json(answer: Answer | None) -> dict[str, Any] | None:
 def render_trials(said: Trials) -> str:
     """The page as one HTML text."""
     environment = new_environment()
-    environment.globals.update(count=count, reason=reason)
+    environment.globals.update(count=count, reason=reason, calibrations=calibrations)
     return environment.get_template("trials.html.j2").render(said=said)

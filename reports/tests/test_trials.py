@@ -51,6 +51,15 @@ def put_trial(folder: Path, subject: str, findings: list[dict[str, Any]]) -> Pat
         "command": "./adapter",
         "settings": {"iterations": "20"},
         "mapping": {"stretch": HOSTILE},
+        "calibration": [
+            {
+                "law": "calibration.modulus",
+                "columns": [
+                    {"name": "along", "unit": "", "values": ["x", HOSTILE]},
+                    {"name": "modulus", "unit": "N/m", "values": [4.75, None]},
+                ],
+            }
+        ],
     }
     (folder / "verdicts.json").write_text(json.dumps({"program": program, "findings": findings}))
     (folder / "solver.json").write_text(json.dumps(facts))
@@ -112,6 +121,9 @@ class JudgedSolvers(unittest.TestCase):
             "stopped by an error: crashed",
             "order not claimed",
             "not asked",
+            "calibration.modulus",
+            "modulus [N/m]",
+            "4.75",
         ):
             self.assertIn(words, text)
         self.assertNotIn(HOSTILE, text)

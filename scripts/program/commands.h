@@ -25,7 +25,8 @@ int run_bench(const Options& options);
 int show_crossings(const Options& options);  // crossings_command.cpp
 int compare_frames(const Options& options);  // compare_command.cpp
 int evaluate_queries(const Options& options);
-int judge_another_solver(const Options& options);  // judge_command.cpp, as the next two
+int judge_another_solver(const Options& options);    // judge_command.cpp, as the next two
+int judge_frames_of_a_case(const Options& options);  // judge_frames_command.cpp
 int check_subject(const Options& options);
 int serve(const Options& options);
 int show_claims(const Options& options);  // claims_command.cpp

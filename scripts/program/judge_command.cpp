@@ -1,7 +1,6 @@
 // foldproof judge, subject, serve: another solver on trial, its adapter, and the reference as one.
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -10,9 +9,8 @@
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
 #include "scripts/program/run_all.h"
-#include "verification/files/atomic_file.h"
+#include "scripts/program/trial_output.h"
 #include "verification/files/baseline_file.h"
-#include "verification/files/verdicts_file.h"
 #include "verification/subjects/served/reference_server.h"
 #include "verification/subjects/suite/conformance.h"
 #include "verification/subjects/suite/laws.h"
@@ -48,23 +46,21 @@ std::string heading(const Judgement& judgement, const SolverCommand& command) {
   return text;
 }
 
-/// Failures of the solver itself have words instead of a number.
-std::string failure_notes(const std::vector<Record>& records) {
-  std::string text;
-  for (const Record& record : records)
-    if (record.outcome == Outcome::fails && !record.finding.note.empty())
-      text += fmt::format("{}: {}\n", record.name, record.finding.note);
-  return text;
-}
-
-std::string changes_text(const BaselineChanges& changes) {
-  std::string text;
-  for (const auto& [word, lines] : {std::pair("worse", &changes.worse),
-                                    {"better", &changes.better},
-                                    {"neither worse nor better", &changes.other}})
-    for (const std::string& line : *lines) text += fmt::format("{}: {}\n", word, line);
-  return text + fmt::format("against the baseline: {} worse, {} better\n", changes.worse.size(),
-                            changes.better.size());
+/// The tables of the laws of calibration: effective moduli, for the page of several solvers.
+nlohmann::json calibration_json(const std::vector<Record>& records) {
+  using nlohmann::json;
+  json tables = json::array();
+  for (const Record& record : records) {
+    if (!record.name.starts_with("calibration.") || record.finding.evidence.rows() == 0) continue;
+    json columns = json::array();
+    for (const Column& column : record.finding.evidence.columns()) {
+      json values;
+      std::visit([&](const auto& all) { values = all; }, column.values);
+      columns.push_back({{"name", column.name}, {"unit", column.unit}, {"values", values}});
+    }
+    tables.push_back({{"law", record.name}, {"columns", columns}});
+  }
+  return tables;
 }
 
 /// What the solver says of itself, and how it was asked; empty texts if it did not start.
@@ -85,20 +81,14 @@ std::string solver_json(const Judgement& judgement, const SolverCommand& command
                {"solve_tolerance", d.solve_tolerance},
                {"command", command.command},
                {"settings", json::object()},
-               {"mapping", json::object()}};
+               {"mapping", json::object()},
+               {"calibration", calibration_json(judgement.records)}};
   for (const auto& [key, value] : command.settings) said["settings"][key] = value;
   for (const auto& [key, value] : judgement.mapping) {
     json& words = said["mapping"][key];  // scenes may be mapped otherwise
     words = words.is_null() ? value : words.get<std::string>() + "; " + value;
   }
   return said.dump(1, ' ', false, json::error_handler_t::replace) + "\n";
-}
-
-void write_results(const std::string& folder, const RunRecord& run, const std::string& solver) {
-  if (folder.empty()) return;
-  write_run(folder + "/run.h5", run);
-  write_verdicts(folder, run);
-  write_text(folder + "/solver.json", solver);
 }
 
 RunRecord run_of(const Judgement& judgement, const Options& options) {
@@ -118,25 +108,20 @@ constexpr const char* smoke_failed =
 }  // namespace
 
 int judge_another_solver(const Options& options) {
-  std::optional<std::vector<KeptVerdict>> baseline;
-  if (!options.baseline.empty()) baseline = read_baseline(options.baseline);
+  if (!options.frames.empty()) return judge_frames_of_a_case(options);
+  if (options.solver.empty())
+    throw InputError("judge needs --solver CMD, or --frames DIR with --case CASE");
+  const auto baseline = baseline_of(options);
   const OutFolder folder(options.out);
   const SolverCommand command = solver_command(options);
   const Judgement judgement = judge_solver(command, portable_laws(), [](const Record& record) {
     if (record.outcome != Outcome::holds && record.outcome != Outcome::not_applicable)
       log_line(fmt::format("{} {}", outcome_text(record), record.name));
   });
-  const RunRecord run = run_of(judgement, options);
-  write_results(options.out, run, solver_json(judgement, command));
-  if (options.json)
-    fmt::print("{}", verdicts_json(run));
-  else
-    fmt::print("{}{}{}{}{}\n", heading(judgement, command), listing(run),
-               failure_notes(run.records), judgement.smoke_holds ? "" : smoke_failed, summary(run));
-  if (!baseline) return exit_code(run);
-  const BaselineChanges changes = changes_since(*baseline, run.records);
-  fmt::print(options.json ? stderr : stdout, "{}", changes_text(changes));
-  return changes.worse.empty() ? all_hold : some_fail;
+  const std::string below = judgement.smoke_holds ? "" : smoke_failed;
+  return finish_trial({run_of(judgement, options), solver_json(judgement, command),
+                       heading(judgement, command), below},
+                      baseline, options);
 }
 
 int check_subject(const Options& options) {

@@ -25,21 +25,21 @@ struct Options {
   double reach = 0, eps = 0;       // of project [m]
   // of project [m]; NaN: the deepest in the run
   double deepest = std::numeric_limits<double>::quiet_NaN();
-  std::string kind;                  // of evaluate crossings: of pair; of export: of file
-  std::string field, size, fps;      // of film: as its script takes them
-  double keep = 1e-6;                // of evaluate crossings [m]
-  int count = 10;                    // of golden: rows
-  unsigned seed = 1;                 // of golden
-  unsigned seed_shift = 0;           // of check, study and verify (verification/seeds.h)
-  JobSettings running;               // of check, study and verify
-  int cells = 64;                    // of inspect: along the longest side
-  int subdivisions = 0;              // of project
-  int levels = 4;                    // of converge: runs
-  double hours = 0;                  // of converge: of the clock, for all runs; 0: no limit
-  std::string frames, times;         // of compare: a folder, a file of times
-  double rate = 0, first_time = 0;   // of compare: frames a second, time of the first one [s]
-  double fraction = 0.1;             // of converge: of the motion, at which twin runs have parted
-  int ensemble = 4;                  // of converge: runs with disturbed starts; 0: none
+  std::string kind;                 // of evaluate crossings: of pair; of export: of file
+  std::string field, size, fps;     // of film: as its script takes them
+  double keep = 1e-6;               // of evaluate crossings [m]
+  int count = 10;                   // of golden: rows
+  unsigned seed = 1;                // of golden
+  unsigned seed_shift = 0;          // of check, study and verify (verification/seeds.h)
+  JobSettings running;              // of check, study and verify
+  int cells = 64;                   // of inspect: along the longest side
+  int subdivisions = 0;             // of project
+  int levels = 4;                   // of converge: runs
+  double hours = 0;                 // of converge: of the clock, for all runs; 0: no limit
+  std::string frames, times;        // of compare, judge: a folder, a file of times
+  double rate = 0, first_time = 0;  // of compare, judge: frames a second, time of the first one [s]
+  double fraction = 0.1;            // of converge: of the motion, at which twin runs have parted
+  int ensemble = 4;                 // of converge: runs with disturbed starts; 0: none
   std::vector<std::string> methods;  // of converge and precision: integrators
   std::string in = "time";           // of converge: time, space or both
   bool refines_objects = false;      // of converge: level sets with the cloth

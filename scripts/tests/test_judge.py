@@ -103,7 +103,7 @@ class Judge(unittest.TestCase):
         out = self.path / "toy"
         done = run("judge", "--solver", TOY, "--name", "my toy", "--out", str(out))
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-        self.assertRegex(done.stdout, r"\d\d hold, 0 fail, 0 inconclusive, 0 not applicable")
+        self.assertRegex(done.stdout, r"\d\d hold, 0 fail, 0 inconclusive, 4 not applicable")
         self.assertIn("mapping of stretch: a spring per edge", done.stdout)
         self.assertEqual(
             {path.name for path in out.iterdir()},
@@ -114,7 +114,22 @@ class Judge(unittest.TestCase):
                 (file.attrs["subject"], file.attrs["subject_version"]), ("my toy", "1.0")
             )
         verdicts = json.loads((out / "verdicts.json").read_text(encoding="utf-8"))
-        self.assertEqual({row["outcome"] for row in verdicts["findings"]}, {"holds"})
+        declined = {
+            row["name"] for row in verdicts["findings"] if row["outcome"] == "not applicable"
+        }
+        self.assertEqual(
+            declined,
+            {
+                "calibration.bending-rigidity-is-the-scene-s", "contact.sheet-rests-on-a-plane",
+                "contact.resting-sheet-is-still", "contact.slides-as-coulomb-says"
+            },
+        )
+        facts = json.loads((out / "solver.json").read_text(encoding="utf-8"))
+        self.assertEqual(
+            [table["law"] for table in facts["calibration"]],
+            ["calibration.young-s-modulus-is-the-scene-s",
+             "calibration.modulus-survives-refinement"],
+        )
 
     def test_the_reference_can_be_asked_like_any_other(self) -> None:
         done = run(
@@ -170,11 +185,11 @@ class Judge(unittest.TestCase):
         page = self.path / "reference" / "compare.html"
         self.assertEqual(done.stdout.strip(), str(page))
         said = json.loads(page.with_suffix(".json").read_text(encoding="utf-8"))
-        self.assertEqual(len(said["laws"]), 23)
+        self.assertEqual(len(said["laws"]), 32)
         for solver, (command, setting) in zip(said["solvers"], solvers.values()):
             self.assertEqual(solver["command"], command)
             self.assertEqual(solver["settings"], dict([setting.split("=")]))
-        self.assertEqual([one["counts"]["fails"] for one in said["solvers"]], [0, 0, 3, 23, 0])
+        self.assertEqual([one["counts"]["fails"] for one in said["solvers"]], [0, 0, 3, 32, 0])
         self.assertEqual(said["solvers"][0]["version"], "1.0")
         for number, name in enumerate(solvers):
             verdicts = json.loads((self.path / name / "verdicts.json").read_text(encoding="utf-8"))
@@ -184,8 +199,8 @@ class Judge(unittest.TestCase):
                 for key in ("outcome", "measured", "bound", "unit", "note"):
                     self.assertEqual(answer[key], row[key])
         text = page.read_text(encoding="utf-8")
-        self.assertIn('Differences from a law <span class="quiet">26</span>', text)
-        for words in ("5 solvers on trial", "f4", "a spring per edge", "iterations</b> 20"):
+        self.assertIn('Differences from a law <span class="quiet">35</span>', text)
+        for words in ("5 solvers on trial", "f4", "a spring per edge", "iterations</b> 20", "calibration.modulus-survives-refinement"):
             self.assertIn(words, text)
 
     def test_folders_that_are_not_all_trials_are_refused(self) -> None:

@@ -81,14 +81,6 @@ void read_ablation(const KeyTable& ablation, Case& input_case) {
       input_case.declared.push_back(read_declared(ablation, key));
 }
 
-bool is_driven(const Scene& scene) {
-  for (const PrescribedParticle& p : scene.prescribed)
-    if (p.motion.velocity.norm() > 0 || p.motion.amplitude.norm() > 0 ||
-        p.motion.angular_velocity.norm() > 0)
-      return true;
-  return false;
-}
-
 bool is_stated(std::string_view key, const std::vector<Expectation>& all) {
   return std::any_of(all.begin(), all.end(),
                      [&](const Expectation& stated) { return stated.key == key; });
@@ -141,6 +133,14 @@ Case with_usual_expectations(Case input_case) {
                               "passes through itself, add [self_collision]"},
       input_case.expectations);
   return input_case;
+}
+
+bool is_driven(const Scene& scene) {
+  for (const PrescribedParticle& p : scene.prescribed)
+    if (p.motion.velocity.norm() > 0 || p.motion.amplitude.norm() > 0 ||
+        p.motion.angular_velocity.norm() > 0)
+      return true;
+  return false;
 }
 
 std::string finding_name(const Scene& scene, const Expectation& expectation) {

@@ -50,6 +50,9 @@ Case read_case(const std::string& path, const std::vector<std::string>& override
 /// and that the cloth crosses itself in no frame, unless tangle_does_not_grow is stated.
 Case with_usual_expectations(Case input_case);
 
+/// Whether some prescribed particle moves.
+bool is_driven(const Scene& scene);
+
 /// The name of the finding: "case.<scene>.<key>", with hyphens.
 std::string finding_name(const Scene& scene, const Expectation& expectation);
 

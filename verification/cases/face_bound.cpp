@@ -63,12 +63,14 @@ double enclosing_radius(const Vector3& a, const Vector3& b, const Vector3& c) {
   return std::sqrt(squared[0] * squared[1] * squared[2]) / (2 * doubled_area);
 }
 
+double usual_particle_depth(const Scene& scene) { return largest_enclosing_radius(scene) / 10; }
+
 std::optional<Expectation> expected_faces_outside(const Scene& scene,
                                                   const std::vector<Expectation>& stated) {
   const Expectation* particles = stated_as("stays_outside", stated);
   if (scene.objects.empty() || (!particles && stated_as("lies_inside", stated))) return {};
   const double r = largest_enclosing_radius(scene);
-  const double d = particles ? particles->bound : r / 10;
+  const double d = particles ? particles->bound : usual_particle_depth(scene);
   double bound = d;
   for (const SceneObject& part : scene.objects)
     bound = std::max(bound, depth_in_body(part.object.body, d, r));

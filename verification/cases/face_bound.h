@@ -13,6 +13,10 @@ namespace foldproof {
 /// angles are acute.
 double enclosing_radius(const Vector3& a, const Vector3& b, const Vector3& c);
 
+/// How deep particles may be where nothing is stated: a tenth of the enclosing radius of the
+/// largest triangle, stretched by a quarter or, if it has one, by its strain limit [m].
+double usual_particle_depth(const Scene& scene);
+
 /// The bound on `faces_outside` that follows from the particles' depth and the triangles' size,
 /// with its reason. None without objects, and none where particles are meant to lie inside: the
 /// case expects lies_inside and not stays_outside.

@@ -101,6 +101,7 @@ BaselineChanges changes_since(const std::vector<KeptVerdict>& kept,
     const KeptVerdict& was = old.mapped();
     const Change change = change_of(was, now);
     if (change == Change::none) continue;
+    if (change == Change::worse) changes.worse_names.insert(now.name);
     auto& lines = change == Change::worse    ? changes.worse
                   : change == Change::better ? changes.better
                                              : changes.other;

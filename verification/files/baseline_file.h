@@ -1,6 +1,7 @@
 // Kept verdicts of a run, and what a newer run has worse.
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,7 @@ std::vector<KeptVerdict> read_baseline(const std::string& path);
 /// A line for each finding that differs; the others are as they were.
 struct BaselineChanges {
   std::vector<std::string> worse, better, other;
+  std::set<std::string> worse_names;  // of the findings that are worse
 };
 
 /// Worse is

@@ -65,20 +65,28 @@ nlohmann::json to_json(const ClaimRecord& record) {
           {"decided_by", deciders}};
 }
 
-std::string junit_case(const Record& record) {
+/// What JUnit makes of a finding: "" where it holds or was only measured.
+///   changes   since a baseline; nullptr: there is none
+const char* junit_kind(const Record& record, const BaselineChanges* changes) {
+  if (did_not_run(record)) return "error";
+  if (changes && changes->worse_names.contains(record.name)) return "failure";
+  if (!record.outcome || record.outcome == Outcome::holds) return "";
+  return changes || record.outcome == Outcome::not_applicable ? "skipped" : "failure";
+}
+
+std::string junit_case(const Record& record, const BaselineChanges* changes) {
   const Verdict& v = record.finding.verdict;
   std::string text = fmt::format("  <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\"",
                                  record.kind, xml_text(record.name), record.seconds);
   const std::string message = xml_text(
       fmt::format("measured {:.6g}, uncertainty {:.3g}, bound {:.6g} [{}]. {} {}", v.measured,
                   v.uncertainty, v.bound, v.unit, record.claim, record.finding.note));
-  if (record.outcome == Outcome::holds || (!record.outcome && !did_not_run(record)))
-    return text + "/>\n";
-  const char* kind = record.outcome == Outcome::not_applicable ? "skipped"
-                     : did_not_run(record)                     ? "error"
-                                                               : "failure";
-  return text + fmt::format(">\n    <{0} message=\"{1}: {2}\"/>\n  </testcase>\n", kind,
-                            outcome_text(record), message);
+  const std::string kind = junit_kind(record, changes);
+  if (kind.empty()) return text + "/>\n";
+  const bool is_known = changes && kind == "skipped" && record.outcome != Outcome::not_applicable;
+  return text + fmt::format(">\n    <{} message=\"{}{}: {}\"/>\n  </testcase>\n", kind,
+                            outcome_text(record), is_known ? ", no worse than the baseline" : "",
+                            message);
 }
 
 std::string junit_case(const ClaimRecord& record) {
@@ -92,14 +100,13 @@ std::string junit_case(const ClaimRecord& record) {
                      name_of(record.claim.recorded), xml_text(record.claim.statement));
 }
 
-std::string junit_xml(const RunRecord& run) {
+std::string junit_xml(const RunRecord& run, const BaselineChanges* changes) {
   size_t failures = 0, errors = 0, skipped = 0;
   std::string cases;
   for (const Record& record : run.records) {
-    failures += record.outcome == Outcome::fails || record.outcome == Outcome::inconclusive;
-    errors += did_not_run(record);
-    skipped += record.outcome == Outcome::not_applicable;
-    cases += junit_case(record);
+    const std::string kind = junit_kind(record, changes);
+    failures += kind == "failure", errors += kind == "error", skipped += kind == "skipped";
+    cases += junit_case(record, changes);
   }
   for (const ClaimRecord& claim : run.claims) {
     failures += outcome_of(claim) == Outcome::fails;
@@ -170,7 +177,13 @@ std::string xml_text(const std::string& text) {
 
 void write_verdicts(const std::string& folder, const RunRecord& run) {
   write_text(folder + "/verdicts.json", verdicts_json(run));
-  write_text(folder + "/junit.xml", junit_xml(run));
+  write_text(folder + "/junit.xml", junit_xml(run, nullptr));
+}
+
+void write_verdicts_since(const std::string& folder, const RunRecord& run,
+                          const BaselineChanges& changes) {
+  write_text(folder + "/verdicts.json", verdicts_json(run));
+  write_text(folder + "/junit.xml", junit_xml(run, &changes));
 }
 
 }  // namespace foldproof

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "verification/files/baseline_file.h"
 #include "verification/files/results_file.h"
 
 namespace foldproof {
@@ -16,5 +17,10 @@ std::string xml_text(const std::string& text);
 
 /// Writes verdicts.json and junit.xml into the folder, each renamed when complete.
 void write_verdicts(const std::string& folder, const RunRecord& run);
+
+/// The same, but in junit.xml the failures are what got worse than a kept baseline; what fails and
+/// did not get worse is skipped, with its number. So a dashboard agrees with the exit code.
+void write_verdicts_since(const std::string& folder, const RunRecord& run,
+                          const BaselineChanges& changes);
 
 }  // namespace foldproof

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "reference/mesh/text_file.h"
 #include "reference/types.h"
 #include "verification/files/baseline_file.h"
 #include "verification/files/verdicts_file.h"
@@ -73,6 +74,7 @@ TEST_CASE("baseline: what only one run has is named and is not worse") {
 
 TEST_CASE("baseline: a written run is read as it was, and other files are refused") {
   const ScratchFolder folder;
+  const std::string path = folder.file("");
   RunRecord run;
   run.records = {record_of("a", holds, 0.25), record_of("b", fails, std::nan(""))};
   write_verdicts(folder.file("."), run);
@@ -93,4 +95,23 @@ TEST_CASE("baseline: a written run is read as it was, and other files are refuse
     folder.write("verdicts.json", text);
     CHECK_THROWS_AS(read_baseline(path), InputError);
   }
+}
+
+TEST_CASE("baseline: junit.xml fails where the exit code does") {
+  const ScratchFolder folder;
+  RunRecord run;
+  run.records = {record_of("known", fails, 3), record_of("worse", fails, 3),
+                 record_of("new", fails, 3), record_of("lost", not_applicable, 0),
+                 record_of("good", holds, 0)};
+  std::vector<KeptVerdict> kept;
+  for (const auto& [name, outcome] : {std::pair("known", fails), std::pair("worse", holds),
+                                      std::pair("lost", holds), std::pair("good", holds)})
+    kept.push_back({name, std::string(name_of(outcome)), 3, 1});
+  write_verdicts_since(path, run, changes_since(kept, run.records));
+  const std::string xml = read_text_file(folder.file("junit.xml"), table_text_limits);
+  CHECK_THAT(xml, Catch::Matchers::Contains("failures=\"2\" errors=\"0\" skipped=\"2\""));
+  CHECK_THAT(xml, Catch::Matchers::Contains("no worse than the baseline"));
+  write_verdicts(path, run);
+  const std::string all = read_text_file(folder.file("junit.xml"), table_text_limits);
+  CHECK_THAT(all, Catch::Matchers::Contains("failures=\"3\" errors=\"0\" skipped=\"1\""));
 }

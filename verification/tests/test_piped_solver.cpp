@@ -172,6 +172,12 @@ TEST_CASE("subject: correct solvers raise no alarm, in single and double precisi
     INFO(kind);
     CHECK(failing_laws(kind) == std::set<std::string>{});
   }
+  for (const char* kind : {"bends", "on_planes", "on_planes_single", "on_planes_backward_euler",
+                           "on_planes_backward_euler_single"}) {
+    INFO(kind);
+    CHECK(failing_laws(kind, laws_of({"smoke", "calibration", "contact"})) ==
+          std::set<std::string>{});
+  }
   const std::vector<Law> laws =
       laws_of({"smoke", "rest", "inertia", "gravity", "momentum", "held", "symmetry.r", "order"});
   CHECK(failing_laws("trapezoidal", laws) == std::set<std::string>{});
@@ -185,6 +191,32 @@ TEST_CASE("subject: wrong masses and gravity are found") {
         std::set<std::string>{"gravity.speed-grows-by-g-t",
                               "gravity.fall-is-as-exact-as-the-order-claims",
                               "forces.weight-is-mass-times-g"});
+}
+
+TEST_CASE("subject: gravity that is 1 % wrong is found in single precision") {
+  require_law_fails("gravity_scaled_single", "gravity.speed-grows-by-g-t");
+  require_law_fails("gravity_scaled_single", "gravity.fall-is-as-exact-as-the-order-claims");
+}
+
+TEST_CASE("subject: parameters that mean something else are found") {
+  const std::string young = "calibration.young-s-modulus-is-the-scene-s",
+                    refined = "calibration.modulus-survives-refinement";
+  const std::vector<Law> laws = laws_of({"calibration"});
+  CHECK(failing_laws("springs_of_one_stiffness", laws).contains(young));
+  CHECK(failing_laws("springs_per_length", laws) == std::set<std::string>{young, refined});
+  CHECK(failing_laws("bends_fourfold", laws) ==
+        std::set<std::string>{"calibration.bending-rigidity-is-the-scene-s"});
+}
+
+TEST_CASE("subject: wrong contact is found") {
+  const std::string rests = "contact.sheet-rests-on-a-plane",
+                    still = "contact.resting-sheet-is-still",
+                    slides = "contact.slides-as-coulomb-says";
+  const std::vector<Law> laws = laws_of({"contact"});
+  CHECK(failing_laws("sinks_in", laws).contains(rests));
+  CHECK(failing_laws("jitters", laws).contains(still));
+  CHECK(failing_laws("friction_beyond_the_cone", laws) == std::set<std::string>{slides});
+  CHECK(failing_laws("friction_halved", laws) == std::set<std::string>{slides});
 }
 
 TEST_CASE("subject: lost momentum and hidden damping are found") {
@@ -211,13 +243,17 @@ TEST_CASE("subject: states that are not restored are found") {
 TEST_CASE("subject: broken symmetries are found") {
   require_law_fails("knows_its_axes", "symmetry.rotation");
   require_law_fails("depends_on_numbers", "symmetry.renumbering");
+  require_law_fails("knows_its_units", "symmetry.units");
+  require_law_fails("knows_left_from_right", "symmetry.mirror");
 }
 
 TEST_CASE("subject: wrong forces and loosely held particles are found") {
   CHECK(failing_laws("held_loosely") == std::set<std::string>{"held.particles-stay"});
   CHECK(failing_laws("energy_halved") ==
         std::set<std::string>{"forces.are-minus-the-energy-gradient"});
-  require_law_fails("pre_stressed", "rest.no-force-no-motion");
+  CHECK(failing_laws("pre_stressed", laws_of({"rest"})) ==
+        std::set<std::string>{"rest.no-force-no-motion", "rest.no-force-no-motion-on-any-pattern"});
+  require_law_fails("rest_lengths_kept", "rest.no-force-no-motion-on-any-pattern");
   require_law_fails("pre_stressed", "forces.rest-is-force-free");
   require_law_fails("forces_unbalanced", "forces.sum-to-zero");
   require_law_fails("forces_unbalanced", "forces.torques-sum-to-zero");
@@ -238,10 +274,12 @@ TEST_CASE("subject: the conformance test accepts the toys and names the first br
   CHECK(rows.back().demand == "advance returns the state");
 }
 
-TEST_CASE("subject: the toy in C++ meets every law") {
+TEST_CASE("subject: the toy in C++ meets every law that it does not decline") {
   for (const Record& record : judge_solver({TOY_SOLVER, {}, {}}, portable_laws(), ignore).records) {
     INFO(record.name << " " << record.finding.note);
-    CHECK(record.outcome == Outcome::holds);
+    const bool is_offered = !record.name.starts_with("contact.") &&
+                            record.name != "calibration.bending-rigidity-is-the-scene-s";
+    CHECK(record.outcome == (is_offered ? Outcome::holds : Outcome::not_applicable));
   }
 }
 

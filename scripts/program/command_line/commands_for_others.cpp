@@ -22,6 +22,21 @@ void add_solver_options(CLI::App* command, Options& options) {
       ->allow_extra_args(false);
 }
 
+/// Frames instead of a solver.
+void add_judged_frames(CLI::App* judge, CLI::Option* solver, Options& options) {
+  CLI::Option* frames =
+      judge->add_option("--frames", options.frames,
+                        "Instead of a solver: folder of its OBJ or PLY files, one a frame");
+  frames->type_name("DIR")->check(some_text("a folder"))->excludes(solver);
+  CLI::Option* of = judge->add_option("--case", options.file,
+                                      std::string("The case of the frames. ") + case_words);
+  of->type_name("CASE")->check(some_text("a case"))->needs(frames);
+  for (CLI::Option* time : add_frame_times(judge, options)) time->needs(frames);
+  add_overrides(judge, options);
+  add_cache(judge, options);
+  for (const char* only_theirs : {"--set", "--cache"}) judge->get_option(only_theirs)->needs(frames);
+}
+
 /// Options that `campaign run` and `campaign emit` share with those who work for them.
 void add_campaign_work(CLI::App* command, Options& options) {
   command->add_option("--slice", options.slice, "Jobs a slice; of `work`: the number of the slice")
@@ -43,10 +58,10 @@ void add_judge(CLI::App& app, Options& options) {
       app, options,
       {"judge", "Test another solver against laws that any cloth solver must meet", help::judge},
       judge_another_solver);
-  judge->add_option("--solver", options.solver, "Command that starts the solver's adapter")
-      ->type_name("CMD")
-      ->check(some_text("a command"))
-      ->required();
+  CLI::Option* solver =
+      judge->add_option("--solver", options.solver, "Command that starts the solver's adapter");
+  solver->type_name("CMD")->check(some_text("a command"));
+  add_judged_frames(judge, solver, options);
   judge->add_option("--name", options.name, "Name in the report (default: the solver's own)")
       ->type_name("NAME")
       ->check(some_text("a name"));
@@ -56,6 +71,7 @@ void add_judge(CLI::App& app, Options& options) {
       ->type_name("FILE")
       ->check(some_text("a file"));
   add_solver_options(judge, options);
+  judge->get_option("--settings")->needs("--solver");
   add_out_if_typed(judge, options,
                    "Also write run.h5, verdicts.json, junit.xml and solver.json into this folder");
   add_json(judge, options);

@@ -140,17 +140,7 @@ void add_compare(CLI::App& app, Options& options) {
       compare_frames);
   add_input(compare, "RUN.h5", options.file, "Run stored by `foldproof simulate`");
   add_input(compare, "FRAMES", options.frames, "Folder of OBJ or PLY files, one a frame [m]");
-  CLI::Option* times = compare->add_option("--times", options.times,
-                                           "Times of the frames [s], one a line (default: "
-                                           "times.txt in the folder, or what PLY files say)");
-  times->type_name("FILE")->check(some_text("a file of times"));
-  CLI::Option* rate = compare->add_option("--rate", options.rate, "Frames a second");
-  rate->type_name("FPS")->check(positive_number())->excludes(times);
-  compare->add_option("--start", options.first_time, "Time of the first frame [s]")
-      ->type_name("TIME")
-      ->check(finite_number())
-      ->needs(rate)
-      ->capture_default_str();
+  add_frame_times(compare, options);
   add_cache(compare, options);
   add_out_if_typed(compare, options, "Also write run.h5 into this folder, for `foldproof report`");
   add_json(compare, options);

@@ -95,11 +95,15 @@ Exit codes:
   2    bad input)";
 
 constexpr const char* judge =
-    R"(CMD starts an adapter that speaks the protocol of verification/subjects/PROTOCOL.md, in a process of
+    R"(Without an adapter: --frames judges files that any program wrote, as a motion of the case's cloth:
+crossings, depth in objects, strain, folds, energy, and what the case expects.
+
+CMD starts an adapter that speaks the protocol of verification/subjects/PROTOCOL.md, in a process of
 its own. Simple laws (smoke) come first: if one fails, suspect the adapter. If the solver crashes,
 hangs or answers nonsense, the current law fails and shows its last output; the next law then runs.
 
 Examples:
+  foldproof judge --frames my_frames --case drape_sphere --rate 60 --out mine
   foldproof judge --solver "python3 verification/subjects/adapters/toy_solver.py"
   foldproof judge --solver ./adapter --name mine --settings iterations=20 --out mine
 

@@ -52,6 +52,19 @@ void add_cache(CLI::App* command, Options& options) {
       ->check(some_text("a folder"));
 }
 
+std::vector<CLI::Option*> add_frame_times(CLI::App* command, Options& options) {
+  CLI::Option* times = command->add_option("--times", options.times,
+                                           "Times of the frames [s], one a line (default: "
+                                           "times.txt in the folder, or what PLY files say)");
+  times->type_name("FILE")->check(some_text("a file of times"));
+  CLI::Option* rate = command->add_option("--rate", options.rate, "Frames a second");
+  rate->type_name("FPS")->check(positive_number())->excludes(times);
+  CLI::Option* start =
+      command->add_option("--start", options.first_time, "Time of the first frame [s]");
+  start->type_name("TIME")->check(finite_number())->needs(rate)->capture_default_str();
+  return {times, rate, start};
+}
+
 void add_threads(CLI::App* command, Options& options) {
   command->add_option("--threads", options.running.threads, "Jobs at a time (default: one a core)")
       ->type_name("N")

@@ -46,6 +46,9 @@ void add_overrides(CLI::App* command, Options& options);
 /// was not asked for.
 void add_cache(CLI::App* command, Options& options);
 
+/// When frames of another program are; returned: the options, which belong together.
+std::vector<CLI::Option*> add_frame_times(CLI::App* command, Options& options);
+
 void add_threads(CLI::App* command, Options& options);
 
 /// How checks, studies and cases are run, and on which samples.

@@ -101,13 +101,15 @@ std::vector<double> hinge_weights(const TriangleMesh& mesh) {
   return weights;
 }
 
+json list_of(const Vector3& v) { return {v[0], v[1], v[2]}; }
+
 void add_scene(const PortableScene& scene, const SolverCommand& command, Request& request) {
   const PortableMaterial& m = scene.material;
   json settings = json::object();
   for (const auto& [key, value] : command.settings) settings[key] = value;
   request.header["scene"] = {{"name", scene.name},
                              {"dt", scene.dt},
-                             {"gravity", {scene.gravity[0], scene.gravity[1], scene.gravity[2]}},
+                             {"gravity", list_of(scene.gravity)},
                              {"material",
                               {{"density", m.density},
                                {"young", m.young},
@@ -117,6 +119,10 @@ void add_scene(const PortableScene& scene, const SolverCommand& command, Request
                                {"rest_length_scale", m.rest_length_scale}}},
                              {"own_masses", scene.own_masses},
                              {"settings", settings}};
+  for (const PortablePlane& plane : scene.planes)
+    request.header["scene"]["planes"].push_back({{"point", list_of(plane.point)},
+                                                 {"normal", list_of(plane.normal)},
+                                                 {"friction", plane.friction}});
   if (!scene.extension.empty()) request.header["scene"]["extension"] = json::parse(scene.extension);
   std::vector<std::array<int, 2>> edges;
   for (const Edge& edge : scene.mesh.edges) edges.push_back({edge.a, edge.b});

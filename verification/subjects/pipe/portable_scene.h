@@ -19,6 +19,12 @@ struct PortableMaterial {
   double rest_length_scale = 1;  // rest lengths over those of the rest shape [1]
 };
 
+/// A fixed plane; the solid is on the side that the normal points away from.
+struct PortablePlane {
+  Vector3 point, normal;  // [m]; of length 1
+  double friction = 0;    // mu, Coulomb's [1]
+};
+
 struct PortableScene {
   std::string name;
   TriangleMesh mesh;                  // with the rest shape
@@ -27,10 +33,11 @@ struct PortableScene {
   std::vector<int> held = {};         // particles at rest where they start
   Vector3 gravity = Vector3::Zero();  // m/s^2
   PortableMaterial material = {};
-  std::vector<double> rest_angles = {};  // one a hinge [rad]; empty: all flat
-  double dt = 0;                         // s
-  bool own_masses = false;               // masses are other than the density's
-  std::string extension = {};            // JSON for solvers that know it; "" for none
+  std::vector<double> rest_angles = {};    // one a hinge [rad]; empty: all flat
+  double dt = 0;                           // s
+  std::vector<PortablePlane> planes = {};  // for solvers of capability "planes"
+  bool own_masses = false;                 // masses are other than the density's
+  std::string extension = {};              // JSON for solvers that know it; "" for none
 };
 
 /// Stiffness of the spring along each edge, Y A_e/L0^2 of the rest shape [N/m]; E values.

@@ -101,6 +101,17 @@ void read_extension(const Json& extension, Scene& scene) {
   for (const Json& p : extension.at("prescribed")) scene.prescribed.push_back(prescribed_of(p));
 }
 
+/// A half space whose solid is below the plane.
+SceneObject object_of(const Json& plane) {
+  const Eigen::Quaterniond turn =
+      Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), vector_of(plane.at("normal")));
+  SceneObject part;
+  part.object =
+      Object{"plane", RigidObject{HalfSpace{}, Pose{turn, vector_of(plane.at("point"))}, Motion{}},
+             plane.at("friction")};
+  return part;
+}
+
 void read_material(const Message& message, Scene& scene) {
   const Json& constants = message.header.at("scene");
   const Json& m = constants.at("material");
@@ -111,6 +122,8 @@ void read_material(const Message& message, Scene& scene) {
   if (m.at("bending_rigidity") > 0 || m.at("bending_damping") > 0)
     scene.bending =
         BendingMaterial{4 * m.at("bending_rigidity").get<double>(), m.at("bending_damping")};
+  for (const Json& plane : constants.value("planes", Json::array()))
+    scene.objects.push_back(object_of(plane));
   for (const int i : message.integers.at("held"))
     scene.prescribed.push_back({i, Vector3(scene.x.col(i)), Motion{}});
 }

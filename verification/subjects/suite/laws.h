@@ -20,10 +20,12 @@ struct Law {
 /// Smoke laws first.
 std::vector<Law> portable_laws();
 
-std::vector<Law> motion_laws();    // smoke, rest, inertia, gravity, momentum, held particles
-std::vector<Law> symmetry_laws();  // translation, rotation, mirror, numbering
-std::vector<Law> repeat_laws();    // determinism, state, order, precision
-std::vector<Law> force_laws();     // level 2: sums, weight, energy
+std::vector<Law> motion_laws();       // smoke, rest, inertia, gravity, momentum, held particles
+std::vector<Law> symmetry_laws();     // translation, rotation, mirror, numbering
+std::vector<Law> repeat_laws();       // determinism, state, order, precision
+std::vector<Law> force_laws();        // level 2: sums, weight, energy
+std::vector<Law> calibration_laws();  // effective moduli
+std::vector<Law> contact_laws();      // capability "planes": resting, friction
 
 /// The outcome of a trial.
 struct Judgement {

@@ -1,5 +1,9 @@
 #include "verification/subjects/suite/scenes.h"
 
+#include <cmath>
+#include <string>
+#include <utility>
+
 #include "reference/mesh/shapes.h"
 
 namespace foldproof::suite {
@@ -32,6 +36,31 @@ PortableScene sheet_at_rest() {
   PortableScene scene = sheet_of_cells(6);
   scene.name = "sheet at rest";
   return scene;
+}
+
+std::vector<PortableScene> sheets_at_rest() {
+  std::vector<PortableScene> all;
+  for (const auto& [name, pattern] : {std::pair("one diagonal", SheetPattern::one_diagonal),
+                                      {"alternating diagonals", SheetPattern::alternating},
+                                      {"union jack", SheetPattern::union_jack},
+                                      {"criss cross", SheetPattern::criss_cross},
+                                      {"equilateral", SheetPattern::equilateral},
+                                      {"random Delaunay", SheetPattern::random_delaunay},
+                                      {"curved", SheetPattern::one_diagonal}}) {
+    PortableScene scene = sheet_at_rest();
+    scene.mesh = make_sheet(
+        {.pattern = pattern, .width = 0.6, .height = 0.52, .columns = 6, .rows = 5, .seed = 7});
+    if (std::string(name) == "curved")
+      for (Eigen::Index i = 0; i < scene.mesh.rest.cols(); ++i)
+        scene.mesh.rest(2, i) = 0.05 * std::sin(8 * scene.mesh.rest(0, i));
+    scene.name = name;
+    scene.x = scene.mesh.rest;
+    scene.v = PerParticle3::Zero(3, scene.x.cols());
+    scene.mass = lumped_masses(scene.mesh, scene.material.density);
+    scene.dt = step / 2;
+    all.push_back(scene);
+  }
+  return all;
 }
 
 PortableScene small_sheet() {

@@ -1,6 +1,8 @@
 // The plain scenes of the portable suite, and the error that rounding may make in them.
 #pragma once
 
+#include <vector>
+
 #include "verification/subjects/pipe/piped_solver.h"
 
 namespace foldproof::suite {
@@ -8,7 +10,10 @@ namespace foldproof::suite {
 /// A flat jittered sheet of 0.6 m x 0.52 m, 0.2 kg/m^2, Y = 5 N/m, in its rest shape, free.
 PortableScene sheet_at_rest();
 
-/// The same of 2 x 2 cells.
+/// Sheets in their rest shape of every pattern, and one whose rest shape is curved.
+std::vector<PortableScene> sheets_at_rest();
+
+/// The same as sheet_at_rest, of 2 x 2 cells.
 PortableScene small_sheet();
 
 /// It falls from rest.

@@ -52,6 +52,39 @@ Finding same_when_turned(Trial& trial) {
   return same_when_moved(trial, turn.toRotationMatrix(), Vector3::Zero());
 }
 
+/// Its triangles keep their front to the same side.
+Finding same_in_the_mirror(Trial& trial) {
+  PortableScene scene = moved(Vector3(-1, 1, 1).asDiagonal(), Vector3::Zero());
+  std::vector<Triangle> triangles = scene.mesh.triangles;
+  for (Triangle& t : triangles) std::swap(t[1], t[2]);
+  scene.mesh = make_triangle_mesh(scene.mesh.rest, triangles);
+  PerParticle3 expected = trial.after(original(), steps).x;
+  expected.row(0) *= -1;
+  const double error = (trial.after(scene, steps).x - expected).colwise().norm().maxCoeff();
+  Table measured{{"steps", "1"}, {"difference of positions", "largest position"}};
+  measured.row(steps, error / size_of(scene.x));
+  return judge_worst(measured, 2 * rounding_error(scene, steps, trial.declaration()),
+                     "sums in another order round differently, within the bound of one run each");
+}
+
+/// The scene in other units of length, mass and time: the same numbers of steps and particles.
+Finding same_in_other_units(Trial& trial) {
+  constexpr double length = 1.7, mass = 2.3, time = 0.6;  // new units in an old one
+  const PortableScene first = original();
+  PortableScene scene = first;
+  scene.mesh.rest *= length, scene.x *= length;
+  scene.v *= length / time, scene.gravity *= length / (time * time);
+  scene.mass *= mass, scene.material.density *= mass / (length * length);
+  scene.material.young *= mass / (time * time);
+  scene.dt *= time;
+  const PerParticle3 expected = length * trial.after(first, steps).x;
+  const double error = (trial.after(scene, steps).x - expected).colwise().norm().maxCoeff();
+  Table measured{{"steps", "1"}, {"difference of positions", "largest position"}};
+  measured.row(steps, error / size_of(scene.x));
+  return judge_worst(measured, 2 * rounding_error(scene, steps, trial.declaration()),
+                     "both runs round differently, within the bound of one each");
+}
+
 /// Particle i of the original is number[i].
 std::vector<int> shuffled_numbers(int count) {
   std::vector<int> number(size_t(count), 0);
@@ -99,6 +132,10 @@ std::vector<Law> symmetry_laws() {
        same_elsewhere},
       {"symmetry.rotation", "A sheet that is turned, with gravity, moves alike.",
        "isotropy of space", same_when_turned},
+      {"symmetry.mirror", "A mirrored sheet moves as the mirror image.", "mirror symmetry of space",
+       same_in_the_mirror},
+      {"symmetry.units", "In other units of length, mass and time a sheet moves alike.",
+       "dimensions of the equations", same_in_other_units},
       {"symmetry.renumbering", "Other numbers of particles and triangles change rounding only.",
        "numbers are not physical", same_when_renumbered},
   };

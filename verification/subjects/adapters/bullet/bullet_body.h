@@ -73,6 +73,7 @@ struct BulletBody : Solver {
     }
     for (size_t t = 0; t + 2 < triangles.size(); t += 3)
       body->appendFace(triangles[t], triangles[t + 1], triangles[t + 2]);
+    body->m_bUpdateRtCst = false;  // else the first step takes the start for the rest lengths
     body->m_cfg.kDP = body->m_cfg.kDF = body->m_cfg.kDG = body->m_cfg.kLF = 0;
     body->m_sleepingThreshold = 0;
     body->setActivationState(DISABLE_DEACTIVATION);

@@ -1,0 +1,276 @@
+#include "verification/cases/frame_laws.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "verification/cases/face_bound.h"
+#include "verification/oracles/exact_crossings.h"
+
+namespace foldproof {
+
+namespace {
+
+constexpr double degrees_per_radian = 180 / pi;
+
+void require_particles(const FrameMotion& motion) {
+  if (motion.matching != Matching::particles)
+    throw NotOffered{"the case's mesh: vertex i must be particle i, with the same triangles"};
+}
+
+const Expectation* stated(const FrameMotion& motion, std::string_view key) {
+  const auto& all = motion.of.expectations;
+  const auto found = std::ranges::find(all, key, &Expectation::key);
+  return found == all.end() ? nullptr : &*found;
+}
+
+// ---- is it the case's cloth, all of its motion?
+
+Finding start_is_the_case_s(const FrameMotion& motion) {
+  require_particles(motion);
+  const State& first = motion.states.front();
+  const Scene& scene = motion.of.scene;
+  if (first.time > motion.rounding()) throw NotOffered{"a frame at t = 0"};
+  const double edge = rest_lengths(scene.mesh).mean();
+  Table measured{{"particle", "1"}, {"distance from the case's start", "mean edge"}};
+  for (Eigen::Index i = 0; i < first.x.cols(); ++i)
+    measured.row(i, (first.x.col(i) - scene.x.col(i)).norm() / edge);
+  return judge_worst(measured, 0.01,
+                     "a hundredth of an edge: units, axes, order of vertices and time are right");
+}
+
+Finding end_is_reached(const FrameMotion& motion) {
+  const Schedule& schedule = motion.of.scene.schedule;
+  const double last = motion.frames.back().time;
+  Table measured{{"last frame", "s"}, {"end of the case", "s"}, {"missing", "its frames"}};
+  measured.row(last, schedule.end, std::max(0.0, schedule.end - last) / schedule.frame_interval);
+  return judge_worst(measured, 1, "the last frame is at most one frame before the end");
+}
+
+Finding prescribed_particles_follow(const FrameMotion& motion) {
+  require_particles(motion);
+  const std::vector<PrescribedParticle>& prescribed = motion.of.scene.prescribed;
+  if (prescribed.empty()) throw NotOffered{"prescribed particles: the case has no [[hold]]"};
+  Table measured{{"time", "s"}, {"largest distance from the prescribed place", "m"}};
+  for (const State& frame : motion.states) {
+    Worst worst;
+    for (const PrescribedParticle& p : prescribed)
+      worst.observe((frame.x.col(p.particle) - position_at(p.motion, p.start, frame.time)).norm());
+    measured.row(frame.time, worst.value());
+  }
+  return judge_worst(measured, 2 * motion.rounding(),
+                     "the case says where they are; a file of six digits rounds each coordinate");
+}
+
+// ---- geometry
+
+Finding never_cross_themselves(const FrameMotion& motion) {
+  const double at_start = crossings_in({"", 0, motion.of.scene.x, motion.of.scene.mesh.triangles});
+  Table measured{{"time", "s"}, {"crossings", "pairs"}};
+  for (const TimedMesh& frame : motion.frames) measured.row(frame.time, crossings_in(frame));
+  return judge_worst(measured, at_start,
+                     "cloth cannot pass through itself: no more than at the case's start");
+}
+
+Finding vertices_stay_outside(const FrameMotion& motion) {
+  if (motion.built.objects.empty()) throw NotOffered{"objects: the case has no [[object]]"};
+  const Expectation* bound = stated(motion, "stays_outside");
+  if (!bound && stated(motion, "lies_inside"))
+    throw NotOffered{"a bound: the case expects that particles lie inside"};
+  Table measured{{"time", "s"}, {"depth of the deepest vertex", "m"}};
+  for (const TimedMesh& frame : motion.frames) measured.row(frame.time, depth_in(motion, frame));
+  const double depth = bound ? bound->bound : usual_particle_depth(motion.of.scene);
+  return judge_worst(measured, depth + motion.rounding(),
+                     bound ? "of the case: " + bound->why
+                           : "empirical: a tenth of the radius of the largest triangle's circle, "
+                             "the depth that the bound on whole triangles takes for granted");
+}
+
+Finding springs_stay_within_limits(const FrameMotion& motion) {
+  require_particles(motion);
+  const Scene& scene = motion.of.scene;
+  if (!scene.strain_limits || !scene.stretch)
+    throw NotOffered{"a limit: the case has no [strain_limits]; --set states one"};
+  const Quantity& violation = *find_quantity("stays_within_strain_limits");
+  Table measured{{"time", "s"}, {"strain beyond a limit", "1"}};
+  for (const State& frame : motion.states)
+    measured.row(frame.time, value_at(violation, scene, {}, frame));
+  const Expectation* bound = stated(motion, violation.key);
+  const double rounding = 2 * motion.rounding() / rest_lengths(scene.mesh).minCoeff();
+  return judge_worst(measured, (bound ? bound->bound : 0) + rounding,
+                     bound ? "of the case: " + bound->why
+                           : "the case's own limits; a file of six digits rounds an edge's length");
+}
+
+/// The mesh of the frames, if all have the same triangles and these form a surface.
+std::optional<TriangleMesh> surface_of(const FrameMotion& motion) {
+  if (motion.matching == Matching::particles) return motion.of.scene.mesh;
+  const TimedMesh& first = motion.frames.front();
+  for (const TimedMesh& frame : motion.frames)
+    if (frame.triangles != first.triangles || frame.x.cols() != first.x.cols()) return {};
+  try {
+    return make_triangle_mesh(first.x, first.triangles);
+  } catch (const InputError&) {  // holes, fans or flaps
+    return {};
+  }
+}
+
+/// Neighbouring triangles share an edge, so that the judge of crossings sees nothing when one goes
+/// through the other: their angle then jumps from 180 to -180 degrees, or back.
+Finding folds_never_pass_through(const FrameMotion& motion) {
+  if (motion.frames.size() < 2) throw NotOffered{"a second frame"};
+  const auto mesh = surface_of(motion);
+  if (!mesh) throw NotOffered{"one oriented surface for all frames"};
+  Table measured{{"time", "s"}, {"largest change of a hinge's angle", "degrees"}};
+  std::vector<double> before = hinge_angles(*mesh, motion.frames.front().x);
+  for (const TimedMesh& frame : motion.frames.subspan(1)) {
+    const std::vector<double> now = hinge_angles(*mesh, frame.x);
+    Worst worst;
+    for (std::size_t h = 0; h < now.size(); ++h) worst.observe(std::abs(now[h] - before[h]));
+    measured.row(frame.time, worst.value() * degrees_per_radian);
+    before = now;
+  }
+  return judge_worst(measured, 180,
+                     "an angle in [-180, 180] that changes by more has passed 180, unless the "
+                     "frames are so far apart that it turned the long way round between two");
+}
+
+// ---- energy
+
+bool is_at_rest(const SceneObject& part, std::span<const TimedMesh> frames) {
+  const PerParticle3 start = surface_at(part, 0);
+  return std::ranges::all_of(
+      frames, [&](const TimedMesh& frame) { return surface_at(part, frame.time) == start; });
+}
+
+void require_closed_budget(const FrameMotion& motion) {
+  require_particles(motion);
+  const Scene& scene = motion.of.scene;
+  if (is_driven(scene)) throw NotOffered{"a closed budget: prescribed particles do work"};
+  for (const SceneObject& part : scene.objects)
+    if (!is_at_rest(part, motion.frames))
+      throw NotOffered{"a closed budget: an object moves, and does work"};
+  if (!scene.sticky.empty()) throw NotOffered{"the energy of bonds, which frames do not show"};
+  if (scene.bending && scene.bending->weighting != Weighting::rest)
+    throw NotOffered{"an energy: the case's bending has none"};
+}
+
+/// By which rounding of the file may change the energy of the springs [J]: each end of a
+/// spring moves by delta, so its length by up to 2 delta, and its energy by k |l - l0| 2
+/// delta + k (2 delta)^2/2.
+double energy_rounding(const FrameMotion& motion, const State& s) {
+  const Scene& scene = motion.of.scene;
+  if (!scene.stretch) return 0;
+  const double change = 2 * std::sqrt(3.0) * motion.rounding();
+  const Eigen::ArrayXd rest = rest_lengths(scene.mesh).array();
+  const Eigen::ArrayXd k =
+      scene.stretch->stiffness * edge_areas(scene.mesh).array() / rest.square();
+  double sum = 0;
+  for (std::size_t e = 0; e < scene.mesh.edges.size(); ++e) {
+    const Eigen::Index i = Eigen::Index(e);
+    const double length = (s.x.col(scene.mesh.edges[e].b) - s.x.col(scene.mesh.edges[e].a)).norm();
+    const double elongation = length - scene.stretch->rest_length_scale * rest[i];
+    sum += k[i] * (std::abs(elongation) * change + change * change / 2);
+  }
+  return sum;
+}
+
+/// The largest change of one form of energy since the start [J].
+double exchanged(const Energies& now, const Energies& start) {
+  double largest = 0;
+  for (const auto term : energy_terms)
+    largest = std::max(largest, std::abs(now.*term - start.*term));
+  return largest;
+}
+
+Finding energy_stays_in_budget(const FrameMotion& motion) {
+  require_closed_budget(motion);
+  constexpr double share = 0.01;
+  const Energies start = energies(motion.built.system, start_state(motion.of.scene));
+  Table measured{{"time", "s"},
+                 {"potential less the start's total", "J"},
+                 {"allowed", "J"},
+                 {"measured over allowed", "1"}};
+  double largest = 0;
+  for (const State& frame : motion.states) {
+    const State still{frame.time, frame.x, PerParticle3::Zero(3, frame.x.cols())};
+    const Energies now = energies(motion.built.system, still);
+    largest = std::max(largest, exchanged(now, start));
+    const double excess = now.total() - start.total();
+    const double allowed = share * largest + energy_rounding(motion, frame);
+    measured.row(frame.time, excess, allowed, excess <= 0 ? 0 : excess / allowed);
+  }
+  return judge_worst(measured, 1,
+                     "nothing does work on the cloth, so elastic and potential energy never exceed "
+                     "the start's total; 1 % of the largest exchange (empirical: the balance of "
+                     "cases without contact) and rounding of the file are allowed");
+}
+
+}  // namespace
+
+double FrameMotion::rounding() const {
+  double largest = 0;  // m
+  for (const TimedMesh& frame : frames) largest = std::max(largest, frame.x.cwiseAbs().maxCoeff());
+  return 0.5e-5 * largest;
+}
+
+FrameMotion motion_of(const Case& of, const BuiltScene& built, std::span<const TimedMesh> frames) {
+  FrameMotion motion{of, built, matching_of(of.scene.mesh, frames), frames, {}};
+  if (motion.matching == Matching::surface) return motion;
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    const TimedMesh& before = frames[k == 0 ? 0 : k - 1];
+    const TimedMesh& after = frames[std::min(k + 1, frames.size() - 1)];
+    State state{frames[k].time, frames[k].x, PerParticle3::Zero(3, frames[k].x.cols())};
+    if (after.time > before.time) state.v = (after.x - before.x) / (after.time - before.time);
+    motion.states.push_back(std::move(state));
+  }
+  return motion;
+}
+
+double crossings_in(const TimedMesh& frame) {
+  if (!frame.x.allFinite()) return nan;
+  return double(oracles::exact_crossings(frame.x, frame.triangles).size());
+}
+
+double depth_in(const FrameMotion& motion, const TimedMesh& frame) {
+  std::vector<char> counts(std::size_t(frame.x.cols()), 1);
+  if (motion.matching == Matching::particles)
+    for (const PrescribedParticle& p : motion.of.scene.prescribed)
+      counts[std::size_t(p.particle)] = 0;
+  ObjectsOverSpan now(motion.built.objects, {frame.time, frame.time, 0});
+  Worst worst;
+  for (Eigen::Index i = 0; i < frame.x.cols(); ++i) {
+    if (!counts[std::size_t(i)]) continue;
+    const Nearest nearest = nearest_of(now.at(frame.x.col(i)));
+    if (!nearest.pinched()) worst.observe(-nearest.first.phi);
+  }
+  return worst.value();
+}
+
+const std::vector<FrameLaw>& frame_laws() {
+  static const std::vector<FrameLaw> laws = {
+      {"frames.start-is-that-of-the-case", "The first frame is the start of the case.",
+       "cases/KEYS.md", start_is_the_case_s},
+      {"frames.end-is-reached", "The frames go on to the end of the case.", "cases/KEYS.md",
+       end_is_reached},
+      {"frames.prescribed-particles-follow", "Prescribed particles are where the case says.",
+       "cases/KEYS.md", prescribed_particles_follow},
+      {"frames.never-cross-themselves", "In no frame does the cloth pass through itself.",
+       "exact arithmetic", never_cross_themselves},
+      {"frames.vertices-stay-outside", "In no frame is a vertex deep inside an object.",
+       "the objects' signed distance", vertices_stay_outside},
+      {"frames.springs-stay-within-limits", "No edge is longer or shorter than the case allows.",
+       "BMF03 section 4", springs_stay_within_limits},
+      {"frames.folds-never-pass-through",
+       "No two neighbouring triangles pass through each other about their common edge.",
+       "continuity of the angle", folds_never_pass_through},
+      {"frames.energy-stays-in-budget",
+       "Elastic and potential energy never exceed the energy of the start.",
+       "conservation of energy", energy_stays_in_budget},
+  };
+  return laws;
+}
+
+}  // namespace foldproof

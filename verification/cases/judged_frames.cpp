@@ -1,0 +1,199 @@
+#include "verification/cases/judged_frames.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include "verification/cases/judge.h"
+
+namespace foldproof {
+
+namespace {
+
+// Expectations that laws of frames judge; of the end of a run, of which the last frame is enough;
+// of bonds, which frames do not have.
+constexpr std::array judged_by_laws = {"runs_to_its_end", "never_crosses_itself", "stays_outside",
+                                       "stays_within_strain_limits"};
+constexpr std::array seen_at_the_end = {
+    "comes_to_rest",     "ends_untangled", "lies_inside",   "keeps_its_height",   "collapses_to",
+    "keeps_most_angles", "crumples_by",    "forms_creases", "wrinkles_stay_short"};
+constexpr std::array of_bonds = {"sticks", "lets_go", "keeps_hold"};
+
+bool is_among(std::span<const char* const> keys, std::string_view key) {
+  return std::ranges::find(keys, key) != keys.end();
+}
+
+/// Why an expectation is not asked of frames; "" if it is.
+std::string why_not_asked(const Expectation& expectation, Matching matching) {
+  if (!expectation.not_asked.empty()) return expectation.not_asked;
+  if (matching == Matching::surface)
+    return "the frames have another mesh than the case: vertex i must be particle i";
+  if (is_among(of_bonds, expectation.key)) return "frames do not show what sticks to what";
+  if (find_quantity(expectation.key)->of_run && !is_among(seen_at_the_end, expectation.key))
+    return "frames do not show the steps of a run";
+  return "";
+}
+
+Case asked_of_frames(const Case& of, Matching matching) {
+  Case asked = of;
+  std::erase_if(asked.expectations, [](const Expectation& expectation) {
+    return is_among(judged_by_laws, expectation.key);
+  });
+  for (Expectation& expectation : asked.expectations)
+    expectation.not_asked = why_not_asked(expectation, matching);
+  return asked;
+}
+
+std::vector<Record> judge_laws(const FrameMotion& motion) {
+  std::vector<Record> records;
+  for (const FrameLaw& law : frame_laws()) {
+    Record record;
+    record.name = law.name, record.kind = "check";
+    record.claim = law.claim, record.source = law.source;
+    records.push_back(judge(std::move(record), [&] { return law.run(motion); }));
+  }
+  return records;
+}
+
+Diagnostics diagnostics_of(const FrameMotion& motion, const State& state, double before) {
+  Diagnostics row;
+  row.time = state.time, row.step = state.time - before;
+  row.energy = energies(motion.built.system, state);
+  row.linear_momentum = linear_momentum(motion.built.system, state);
+  row.angular_momentum = angular_momentum(motion.built.system, state);
+  return row;
+}
+
+std::vector<Record> judge_expectations(const FrameMotion& motion) {
+  const Case asked = asked_of_frames(motion.of, motion.matching);
+  CaseJudge case_judge(asked, motion.built.objects, {});
+  RunResult result;
+  double before = motion.frames.front().time;
+  for (const State& state : motion.states) {
+    case_judge.record(state);
+    case_judge.record(diagnostics_of(motion, state, before));
+    before = state.time;
+    result.last = state;
+  }
+  return case_judge.records(result);
+}
+
+// ---- evidence
+
+struct FrameNumbers {
+  double time, crossings, depth, stretched, compressed, lowest, mean_height, speed;
+};
+
+double mean_speed(const State& s, const PerParticle& mass) {
+  return s.v.colwise().norm().dot(mass.transpose()) / mass.sum();
+}
+
+/// Largest extension and compression of the mesh's edges.
+void add_strains(const TriangleMesh& mesh, double scale, const PerParticle3& x, FrameNumbers& n) {
+  const Eigen::VectorXd rest = scale * rest_lengths(mesh);
+  n.stretched = n.compressed = 0;
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
+    const double strain =
+        (x.col(mesh.edges[e].b) - x.col(mesh.edges[e].a)).norm() / rest[Eigen::Index(e)] - 1;
+    n.stretched = std::max(n.stretched, strain);
+    n.compressed = std::max(n.compressed, -strain);
+  }
+}
+
+/// Strains and speeds are NaN of another mesh, heights without gravity along y.
+FrameNumbers numbers_of(const FrameMotion& motion, std::size_t k) {
+  const Scene& scene = motion.of.scene;
+  const TimedMesh& frame = motion.frames[k];
+  FrameNumbers n{frame.time,
+                 crossings_in(frame),
+                 motion.built.objects.empty() ? 0 : depth_in(motion, frame),
+                 nan,
+                 nan,
+                 0,
+                 0,
+                 nan};
+  const Vector3 up = scene.gravity && scene.gravity->norm() > 0
+                         ? Vector3(-scene.gravity->normalized())
+                         : Vector3::UnitY();
+  const Eigen::RowVectorXd heights = up.transpose() * frame.x;
+  n.lowest = heights.minCoeff(), n.mean_height = heights.mean();
+  if (motion.matching == Matching::surface) return n;
+  add_strains(scene.mesh, scene.stretch ? scene.stretch->rest_length_scale : 1, frame.x, n);
+  n.speed = mean_speed(motion.states[k], lumped_masses(scene.mesh, scene.density));
+  return n;
+}
+
+Table numbers_table(const std::vector<FrameNumbers>& frames) {
+  Table rows{{"time", "s"},
+             {"crossings", "pairs"},
+             {"depth in objects", "m"},
+             {"largest extension", "1"},
+             {"largest compression", "1"},
+             {"lowest vertex", "m"},
+             {"mean height", "m"},
+             {"mean speed", "m/s"}};
+  for (const FrameNumbers& f : frames)
+    rows.row(f.time, f.crossings, f.depth, f.stretched, f.compressed, f.lowest, f.mean_height,
+             f.speed);
+  return {"frames", "The cloth, frame by frame", rows};
+}
+
+Table folds_table(const FrameMotion& motion) {
+  Table rows{{"fold angle", ""}, {"share of the hinges' length", "1"}};
+  const FoldSpectrum folds = fold_spectrum(motion.of.scene.mesh, motion.frames.back().x);
+  for (std::size_t b = 0; b < folds.size(); ++b) rows.row(name_of_fold_band(b), folds[b]);
+  return {"folds", "Folds of the last frame", rows};
+}
+
+Curve curve(const std::string& label, const std::vector<FrameNumbers>& frames,
+            double FrameNumbers::*number) {
+  Curve all{label, {}, {}, nan, {}};
+  for (const FrameNumbers& frame : frames) all.point(frame.time, frame.*number);
+  return all;
+}
+
+ComparisonEvidence evidence_of(const FrameMotion& motion) {
+  std::vector<FrameNumbers> frames;
+  for (std::size_t k = 0; k < motion.frames.size(); ++k) frames.push_back(numbers_of(motion, k));
+  ComparisonEvidence evidence{{numbers_table(frames)}, {}};
+  const Axis time{"time", "s", Scale::linear};
+  evidence.figures.push_back({"heights",
+                              "How the cloth falls and drapes",
+                              time,
+                              {"height", "m", Scale::linear},
+                              nan,
+                              "Against gravity.",
+                              {curve("lowest vertex", frames, &FrameNumbers::lowest),
+                               curve("mean of the vertices", frames, &FrameNumbers::mean_height)}});
+  if (motion.matching == Matching::surface) return evidence;
+  evidence.tables.push_back(folds_table(motion));
+  evidence.figures.push_back({"strains",
+                              "Strain of the edges",
+                              time,
+                              {"strain", "1", Scale::linear},
+                              nan,
+                              "Length over rest length, less 1.",
+                              {curve("largest extension", frames, &FrameNumbers::stretched),
+                               curve("largest compression", frames, &FrameNumbers::compressed)}});
+  evidence.figures.push_back({"speeds",
+                              "Does it come to rest?",
+                              time,
+                              {"mean speed", "m/s", Scale::linear},
+                              nan,
+                              "By differences of the neighbouring frames.",
+                              {curve("mean, by mass", frames, &FrameNumbers::speed)}});
+  return evidence;
+}
+
+}  // namespace
+
+FramesJudgement judge_frames(const Case& of, const BuiltScene& built,
+                             std::span<const TimedMesh> frames) {
+  const FrameMotion motion = motion_of(of, built, frames);
+  FramesJudgement judged{motion.matching, judge_laws(motion), evidence_of(motion)};
+  for (Record& record : judge_expectations(motion)) judged.records.push_back(std::move(record));
+  return judged;
+}
+
+}  // namespace foldproof

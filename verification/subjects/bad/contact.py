@@ -1,0 +1,83 @@
+"""Contact with planes, right and wrong, in several schemes."""
+from __future__ import annotations
+
+import numpy as np
+from schemes import BackwardEuler, BackwardEulerInSingle, Single, ToySolver
+
+from foldproof_solver import Scene
+
+
+class OnPlanes(ToySolver):
+    """Planes stop a step that would end below them; friction takes at most mu of the impulse."""
+
+    capabilities = (*ToySolver.capabilities, "planes")
+    number = "f8"
+
+    def prepare(self, scene: Scene) -> dict[str, str]:
+        self.planes = scene.header["scene"].get("planes", [])
+        return super().prepare(scene)
+
+    def advance(self, dt: float, steps: int) -> None:
+        for _ in range(steps):
+            before = self.x.astype("f8")
+            super().advance(dt, 1)
+            for plane in self.planes:
+                self.respond(plane, before, float(dt))
+
+    def respond(self, plane: dict, before: np.ndarray, dt: float) -> None:
+        normal, v = np.array(plane["normal"]), self.v.astype("f8")
+        gap = (before + dt * v - np.array(plane["point"])) @ normal
+        push = self.push(gap, dt)
+        v += push[:, None] * normal
+        tangential = v - np.outer(v @ normal, normal)
+        speed = np.linalg.norm(tangential, axis=1)
+        kept = self.kept(plane["friction"] * push, speed)
+        touched = push > 0
+        v[touched] -= ((1 - kept)[:, None] * tangential)[touched]
+        self.v = v.astype(self.number)
+        self.x = (before + dt * v).astype(self.number)
+
+    def push(self, gap: np.ndarray, dt: float) -> np.ndarray:
+        return np.maximum(0, -gap / dt)
+
+    def kept(self, most: np.ndarray, speed: np.ndarray) -> np.ndarray:
+        """The share of the tangential speed that friction leaves."""
+        return np.maximum(0, 1 - most / np.maximum(speed, 1e-30))
+
+
+class OnPlanesInSingle(OnPlanes, Single):
+    number = "f4"
+
+
+class OnPlanesBackwardEuler(OnPlanes, BackwardEuler):
+    pass
+
+
+class OnPlanesBackwardEulerInSingle(OnPlanes, BackwardEulerInSingle):
+    number = "f4"
+
+
+class SinksIn(OnPlanes):
+    """A soft plane."""
+
+    def push(self, gap: np.ndarray, dt: float) -> np.ndarray:
+        return np.maximum(0, -gap * dt * 2e3)
+
+
+class Jitters(OnPlanes):
+    """Overcorrects: a particle that was below the plane ends above it."""
+
+    def push(self, gap: np.ndarray, dt: float) -> np.ndarray:
+        return np.where(gap < 0, -gap / dt * 4, 0)
+
+
+class FrictionBeyondTheCone(OnPlanes):
+    """Friction stops what touches, however steep the slope."""
+
+    def kept(self, most: np.ndarray, speed: np.ndarray) -> np.ndarray:
+        return np.where(most > 0, 0.0, 1.0)
+
+
+class FrictionHalved(OnPlanes):
+    def kept(self, most: np.ndarray, speed: np.ndarray) -> np.ndarray:
+        return super().kept(most / 2, speed)

@@ -1,0 +1,80 @@
+"""Bending, and materials whose parameters mean something else than the scene says."""
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "adapters"))
+from foldproof_solver import Scene  # noqa: E402
+from toy_solver import ToySolver  # noqa: E402
+
+
+class SpringsPerLength(ToySolver):
+    """Young's modulus over length, as of a thread, whatever the mesh."""
+
+    def prepare(self, scene: Scene) -> dict[str, str]:
+        mapping = super().prepare(scene)
+        young = scene.header["scene"]["material"]["young"]
+        self.k = young * 0.0866 / self.length
+        return mapping
+
+
+class SpringsOfOneStiffness(ToySolver):
+    """Young's modulus as every spring's stiffness."""
+
+    def prepare(self, scene: Scene) -> dict[str, str]:
+        mapping = super().prepare(scene)
+        self.k = np.full_like(self.k, scene.header["scene"]["material"]["young"])
+        return mapping
+
+
+class Bends(ToySolver):
+    """Bending of a flat rest shape, quadratic in the positions.
+
+    The cotangents of two neighbouring triangles of area A give the edge's length L times its angle.
+    Bent by a curvature c about an axis along one of its edges' directions, the equilateral mesh
+    has, for each particle, two edges of angle c L/sqrt(3) and one of c L/sqrt(12), on an area of
+    L^2 sqrt(3)/2: energies of B/2 (L angle)^2/A add up to B c^2/2 an area."""
+
+    rigidity = 1.0  # over the scene's
+
+    def prepare(self, scene: Scene) -> dict[str, str]:
+        material = scene.header["scene"]["material"]
+        given, material["bending_rigidity"] = material["bending_rigidity"], 0
+        mapping = super().prepare(scene)
+        n = len(self.x)
+        self.bending = np.zeros((n, n))
+        for hinge in scene.hinges:
+            weights, area = laplacian(scene.rest[hinge])
+            self.bending[np.ix_(hinge, hinge)] += np.outer(weights, weights) / area
+        self.bending *= self.rigidity * given
+        return {**mapping, "bending": "B of the scene, by the squared Laplacian"}
+
+    def forces(self) -> np.ndarray:
+        return super().forces() - self.bending @ self.x
+
+    def energy(self) -> float:
+        return super().energy() + 0.5 * np.sum(self.x * (self.bending @ self.x))
+
+
+def laplacian(corners: np.ndarray) -> tuple[np.ndarray, float]:
+    """Weights of two opposite corners and the ends of their shared edge, and the area of both
+    triangles."""
+    opposite, ends = corners[:2], corners[2:]
+    weights, area = np.zeros(4), 0.0
+    for k, far in enumerate(opposite):
+        for near, other in ((0, 1), (1, 0)):
+            side, base = far - ends[near], ends[other] - ends[near]
+            cotangent = side @ base / np.linalg.norm(np.cross(side, base))
+            weights[2 + other] += cotangent
+            weights[k] -= cotangent
+        area += np.linalg.norm(np.cross(far - ends[0], ends[1] - ends[0])) / 2
+    return weights, area
+
+
+class BendsFourfold(Bends):
+    """The paper's constant taken for the rigidity."""
+
+    rigidity = 4.0

@@ -1,0 +1,116 @@
+// Contact with a fixed plane: resting, and Coulomb's friction.
+#include <algorithm>
+#include <cmath>
+
+#include "verification/subjects/suite/laws.h"
+#include "verification/subjects/suite/scenes.h"
+
+namespace foldproof {
+
+namespace {
+
+using namespace suite;
+
+constexpr long steps = 50;
+constexpr double weight = 9.81;  // m/s^2
+constexpr double degree = pi / 180;
+
+/// A sheet at rest that lies on the plane z = 0. Gravity is tilted instead of the plane.
+PortableScene lying_sheet(double slope, double friction) {
+  PortableScene scene = sheet_at_rest();
+  scene.name = "sheet on a plane";
+  scene.gravity = weight * Vector3(std::sin(slope), 0, -std::cos(slope));
+  scene.planes = {{Vector3::Zero(), Vector3::UnitZ(), friction}};
+  return scene;
+}
+
+Finding rests_on_the_plane(Trial& trial) {
+  trial.require("planes");
+  const PortableScene scene = lying_sheet(0, 0.3);
+  const double edge = rest_lengths(scene.mesh).mean();
+  Table measured{{"steps", "1"},
+                 {"deepest", "m"},
+                 {"highest", "m"},
+                 {"largest distance over what is allowed", "1"}};
+  for (const long count : {steps, 2 * steps}) {
+    const Eigen::RowVectorXd z = trial.after(scene, count).x.row(2);
+    const double deepest = std::max(0.0, -z.minCoeff()), highest = std::max(0.0, z.maxCoeff());
+    measured.row(count, deepest, highest,
+                 std::max(deepest / (0.01 * edge), highest / (0.1 * edge)));
+  }
+  return judge_worst(measured, 1,
+                     "empirical: a hundredth of an edge deep is not seen in a picture; a tenth of "
+                     "one above leaves room for a thickness");
+}
+
+Finding resting_sheet_is_still(Trial& trial) {
+  trial.require("planes");
+  const PortableScene scene = lying_sheet(0, 0.3);
+  std::vector<Snapshot> last = trial.motion(scene, {steps, steps + 1, steps + 2, steps + 3});
+  Table measured{{"step", "1"}, {"largest displacement in it", "g dt^2"}};
+  for (size_t k = 1; k < last.size(); ++k)
+    measured.row(steps + long(k), (last[k].x - last[k - 1].x).colwise().norm().maxCoeff() /
+                                      (weight * scene.dt * scene.dt));
+  const double rounding = rounding_error(scene, 1, trial.declaration()) * size_of(scene.x) /
+                          (weight * scene.dt * scene.dt);
+  return judge_worst(
+      measured, 1 + rounding,
+      "gravity moves a particle by g dt^2 in the step before contact stops it; more is jitter");
+}
+
+/// What a slope does to a sheet in a time: it sticks where tan(slope) <= mu, else it slides with g
+/// (sin - mu cos).
+struct Slope {
+  double degrees, friction;
+
+  double acceleration() const {
+    const double down = std::sin(degrees * degree) - friction * std::cos(degrees * degree);
+    return std::max(0.0, weight * down);
+  }
+};
+
+/// Coulomb on ten pairs; none is within a fifth of the limit of sticking.
+Finding slides_as_coulomb_says(Trial& trial) {
+  trial.require("planes");
+  Table measured{{"slope", "degrees"},
+                 {"mu", "1"},
+                 {"way down", "m"},
+                 {"by Coulomb's law", "m"},
+                 {"difference", "way without friction"}};
+  for (const Slope& slope : {Slope{10, 0.3},
+                             {15, 0.5},
+                             {20, 0.6},
+                             {30, 0.9},
+                             {35, 1.1},
+                             {10, 0.05},
+                             {20, 0.1},
+                             {25, 0.3},
+                             {30, 0.2},
+                             {40, 0.5}}) {
+    const PortableScene scene = lying_sheet(slope.degrees * degree, slope.friction);
+    const double time = steps * scene.dt;
+    const PerParticle3 moved = trial.after(scene, steps).x - scene.x;
+    const double way = moved.row(0).mean(), expected = slope.acceleration() * time * time / 2;
+    const double without = weight * std::sin(slope.degrees * degree) * time * time / 2;
+    measured.row(slope.degrees, slope.friction, way, expected, std::abs(way - expected) / without);
+  }
+  return judge_worst(measured, 0.05,
+                     "2 % of a first order method, as much for a step in which contact begins, and "
+                     "1 % of the sheet's own waves");
+}
+
+}  // namespace
+
+std::vector<Law> contact_laws() {
+  return {
+      {"contact.sheet-rests-on-a-plane", "A sheet on a plane neither sinks in nor lifts off.",
+       "impenetrability", rests_on_the_plane},
+      {"contact.resting-sheet-is-still", "A sheet at rest on a plane does not jitter.",
+       "equilibrium", resting_sheet_is_still},
+      {"contact.slides-as-coulomb-says",
+       "On a slope, a sheet sticks or slides as Coulomb's law says.", "Coulomb",
+       slides_as_coulomb_says},
+  };
+}
+
+}  // namespace foldproof

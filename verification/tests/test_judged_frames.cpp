@@ -1,0 +1,202 @@
+// Frames of any program: those of the reference meet the laws, damaged ones are found by name.
+#include <catch2/catch.hpp>
+
+#include <set>
+
+#include "reference/bodies/level_set_provider.h"
+#include "reference/mesh/shapes.h"
+#include "verification/cases/judged_frames.h"
+#include "verification/specimens/scratch_folder.h"
+
+using namespace foldproof;
+
+namespace {
+
+/// A sheet falls onto a ball; the other hangs by a corner row and has strain limits.
+constexpr const char* falling = R"([cloth]
+shape = "sheet"
+pattern = "one_diagonal"
+width = 0.4
+height = 0.3
+columns = 8
+rows = 6
+density = 0.2
+turn = { axis = [1, 0, 0], angle = -90 }
+[gravity]
+[stretch]
+stiffness = 40
+[bending]
+stiffness = 1e-3
+[[object]]
+shape = "sphere"
+radius = 0.1
+move = [0.2, -0.11, -0.15]
+[time]
+end = 0.2
+frames_per_second = 50
+[expect.comes_to_rest]
+at_most = 1.1
+why = "a trial"
+[expect.takes_steps]
+at_least = 3
+why = "a trial"
+)";
+
+constexpr const char* hanging = R"([cloth]
+shape = "sheet"
+pattern = "one_diagonal"
+width = 0.4
+height = 0.3
+columns = 8
+rows = 6
+density = 0.2
+turn = { axis = [1, 0, 0], angle = -90 }
+[gravity]
+[stretch]
+stiffness = 40
+[strain_limits]
+extension = 0.1
+compression = 0.1
+[bending]
+stiffness = 1e-3
+[[hold]]
+particles = [0, 8]
+[time]
+end = 0.2
+frames_per_second = 50
+)";
+
+struct Frames {
+  Case of;
+  BuiltScene built;
+  std::vector<TimedMesh> frames;
+
+  explicit Frames(const std::string& text)
+      : of(case_of(text)), built(build(of.scene, computing_provider())) {
+    simulate(built.system, integrator_named(of.scene.integrator), built.start, of.scene.schedule,
+             {[&](const State& s) {
+                frames.push_back({"frame", s.time, s.x, of.scene.mesh.triangles});
+              },
+              {}});
+  }
+
+  static Case case_of(const std::string& text) {
+    const ScratchFolder folder;
+    return with_usual_expectations(read_case(folder.write("trial.toml", text)));
+  }
+
+  std::set<std::string> failing() const {
+    std::set<std::string> names;
+    for (const Record& record : judge_frames(of, built, frames).records)
+      if (record.outcome != Outcome::holds && record.outcome != Outcome::not_applicable)
+        names.insert(record.name);
+    return names;
+  }
+
+  Outcome outcome_of(const std::string& name) const {
+    for (const Record& record : judge_frames(of, built, frames).records)
+      if (record.name == name) return *record.outcome;
+    throw std::logic_error("no finding " + name);
+  }
+};
+
+using Names = std::set<std::string>;
+
+}  // namespace
+
+TEST_CASE("judged frames: those of the reference meet every law that applies") {
+  for (const char* text : {falling, hanging}) CHECK(Frames(text).failing() == Names{});
+  const Frames frames(falling);
+  CHECK(frames.outcome_of("case.trial.comes-to-rest") == Outcome::holds);
+  CHECK(frames.outcome_of("case.trial.takes-steps") == Outcome::not_applicable);
+  CHECK(frames.outcome_of("frames.prescribed-particles-follow") == Outcome::not_applicable);
+  const Frames held(hanging);
+  CHECK(held.outcome_of("frames.springs-stay-within-limits") == Outcome::holds);
+  CHECK(held.outcome_of("frames.prescribed-particles-follow") == Outcome::holds);
+  CHECK(held.outcome_of("frames.energy-stays-in-budget") == Outcome::holds);
+}
+
+TEST_CASE("judged frames: files of six digits raise no alarm") {
+  for (const char* text : {falling, hanging}) {
+    Frames frames(text);
+    for (TimedMesh& frame : frames.frames)
+      frame.x = (frame.x.array() * 1e6).round() / 1e6;  // coordinates are below 1 m
+    CHECK(frames.failing() == Names{});
+  }
+}
+
+TEST_CASE("judged frames: wrong units, order and times are told from a wrong motion") {
+  Frames units(falling);
+  for (TimedMesh& frame : units.frames) frame.x *= 1.02;
+  CHECK(units.failing().contains("frames.start-is-that-of-the-case"));
+  Frames order(falling);
+  for (TimedMesh& frame : order.frames) frame.x.col(3).swap(frame.x.col(4));
+  CHECK(order.failing().contains("frames.start-is-that-of-the-case"));
+  Frames early(falling);
+  early.frames.resize(early.frames.size() - 3);
+  CHECK(early.failing() == Names{"frames.end-is-reached"});
+}
+
+TEST_CASE("judged frames: cloth that passes through itself is found") {
+  Frames frames(hanging);
+  PerParticle3& x = frames.frames[4].x;  // a corner is drawn through the middle of the sheet
+  x.col(0) = x.col(30) + Vector3(0.01, -0.05, 0.01);
+  CHECK(frames.failing().contains("frames.never-cross-themselves"));
+  CHECK(frames.failing().contains("frames.prescribed-particles-follow"));
+}
+
+TEST_CASE("judged frames: cloth inside an object is found") {
+  Frames frames(falling);
+  for (TimedMesh& frame : frames.frames)
+    frame.x.row(1).array() -= 0.05 * frame.time / 0.2;  // sinks into the ball
+  CHECK(frames.failing().contains("frames.vertices-stay-outside"));
+}
+
+TEST_CASE("judged frames: overstretched edges are found") {
+  Frames frames(hanging);
+  PerParticle3& x = frames.frames.back().x;
+  for (int i = 54; i < 63; ++i) x.col(i) += Vector3(0, -0.02, 0);  // the lowest row
+  CHECK(frames.failing().contains("frames.springs-stay-within-limits"));
+}
+
+TEST_CASE("judged frames: a triangle that goes through its neighbour is found") {
+  Frames frames(falling);
+  frames.of.scene.objects.clear(), frames.built.objects.clear();
+  const Hinge hinge = frames.of.scene.mesh.hinges[0];
+  const auto fold_to = [&](PerParticle3& x, double degrees) {
+    const Vector3 end = x.col(hinge.particles[2]);
+    const Vector3 axis = (Vector3(x.col(hinge.particles[3])) - end).normalized();
+    const Vector3 arm = Vector3(x.col(hinge.particles[0])) - end;
+    x.col(hinge.particles[0]) =
+        end + Eigen::AngleAxisd(degrees * pi / 180, axis).toRotationMatrix() * arm;
+  };
+  fold_to(frames.frames[1].x, 175);
+  fold_to(frames.frames[2].x, 185);
+  CHECK(frames.failing().contains("frames.folds-never-pass-through"));
+}
+
+TEST_CASE("judged frames: cloth that rises from nowhere is found") {
+  Frames frames(hanging);
+  for (TimedMesh& frame : frames.frames)
+    for (Eigen::Index i = 0; i < frame.x.cols(); ++i)
+      frame.x(1, i) = -0.2 * frame.x(1, i);  // swings up instead of down
+  CHECK(frames.failing() == Names{"frames.energy-stays-in-budget"});
+}
+
+TEST_CASE("judged frames: of another mesh crossings and depths are judged, the rest declined") {
+  Frames frames(falling);
+  const TriangleMesh finer = make_sheet({SheetPattern::one_diagonal, 0.4, 0.3, 16, 12});
+  for (TimedMesh& frame : frames.frames) {
+    frame.triangles = finer.triangles;
+    frame.x.resize(3, finer.rest.cols());
+    frame.x << finer.rest.row(0), Eigen::RowVectorXd::Zero(finer.rest.cols()),
+        -finer.rest.row(1);
+  }
+  const FramesJudgement judged = judge_frames(frames.of, frames.built, frames.frames);
+  CHECK(judged.matching == Matching::surface);
+  CHECK(frames.failing() == Names{});
+  CHECK(frames.outcome_of("frames.never-cross-themselves") == Outcome::holds);
+  CHECK(frames.outcome_of("frames.energy-stays-in-budget") == Outcome::not_applicable);
+  for (TimedMesh& frame : frames.frames) frame.x.row(1).array() -= 0.1;
+  CHECK(frames.failing() == Names{"frames.vertices-stay-outside"});
+}
