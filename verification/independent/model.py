@@ -2,34 +2,20 @@
 
 import tomllib
 from pathlib import Path
-from typing import NamedTuple
-
 import numpy as np
 
 from forces import Bending, Gravity, Springs
 from motion import Motion
+from objects import Collision, Object, points_of
+from state import Span, State, Unsupported
+from sticking import Carried, Sticky
+from strain import StrainLimits
 from surface import read_obj, sheet, surface_of
 
 
-class State(NamedTuple):
-    time: float  # s
-    x: np.ndarray  # N x 3 [m]
-    v: np.ndarray  # N x 3 [m/s]
-
-
-class Span(NamedTuple):
-    """When a velocity is corrected."""
-    start: float  # of the motion that the velocity makes [s]
-    end: float  # the same time if it is the velocity at the end of a step [s]
-    step: float  # over which filters look ahead [s]
-
-
-class Unsupported(Exception):
-    """The case asks for something that this program does not do."""
-
-
 KNOWN = {
-    "title", "about", "cloth", "start", "gravity", "stretch", "bending", "hold", "time", "solver"
+    "title", "about", "cloth", "start", "gravity", "stretch", "strain_limits", "bending", "hold",
+    "object", "collision", "sticky", "time", "solver"
 }
 
 
@@ -49,11 +35,15 @@ class Model:
             chosen = held_particles(keys, self.start.x)
             self.held[chosen] = True
             self.holds.append((chosen, Motion(keys)))
+        self.objects = [Object(keys, folder) for keys in case.get("object", [])]
+        self.patches = [sticky(keys, self) for keys in case.get("sticky", [])]
+        motions = [motion for _, motion in self.holds] + [one.motion for one in self.objects]
         # s
-        self.events = {time for _, motion in self.holds for time in (motion.start, motion.stop)}
+        self.events = {time for motion in motions for time in (motion.start, motion.stop)}
+        self.events.update(time for patch in self.patches for time in patch.events())
         self.start = self.start._replace(v=self.prescribed_velocity(self.start.v, 0.0, 0.0))
         self.forces = forces_of(case, self)
-        self.filters: list = []
+        self.filters = filters_of(case, self)
 
     def elastic(self, time: float, x: np.ndarray) -> np.ndarray:
         return sum((force.elastic(time, x) for force in self.forces), np.zeros_like(x))
@@ -69,6 +59,13 @@ class Model:
             v[chosen] = motion.speed(self.start.x[chosen], time, since)
         return v
 
+    def prescribed_place(self, x: np.ndarray, time: float, since: float) -> np.ndarray:
+        """x, but prescribed particles are where their motion has them."""
+        x = x.copy()
+        for chosen, motion in self.holds:
+            x[chosen] = motion.place(self.start.x[chosen], time, since)
+        return x
+
     def mean_velocity(self, now: State, v: np.ndarray, h: float) -> np.ndarray:
         """v, but prescribed particles have the velocity that takes them to their places at the end
         of a step h from now."""
@@ -77,6 +74,10 @@ class Model:
             place = motion.place(self.start.x[chosen], now.time + h, now.time)
             v[chosen] = (place - now.x[chosen]) / h
         return v
+
+    def update_bonds(self, state: State) -> None:
+        for patch in self.patches:
+            patch.update(state.time, state.x)
 
     def modify(self, span: Span, x: np.ndarray, v: np.ndarray) -> np.ndarray:
         """The paper's hook: strain limits first, then objects."""
@@ -121,10 +122,57 @@ def forces_of(case: dict, model: Model) -> list:
     if "stretch" in case:
         keys = case["stretch"]
         forces.append(Springs(model.cloth, keys["stiffness"], keys.get("damping", 0.0),
-                              keys.get("rest_length_scale", 1.0)))
+                              rest_length_scale(case)))
     if "bending" in case:
         forces.append(Bending(model.cloth, case["bending"]))
-    return forces
+    return forces + model.patches
+
+
+def rest_length_scale(case: dict) -> float:
+    return case["stretch"].get("rest_length_scale", 1.0)
+
+
+def filters_of(case: dict, model: Model) -> list:
+    filters: list = []
+    inverse_mass = np.where(model.held, 0.0, 1 / model.mass)
+    if "strain_limits" in case:
+        filters.append(StrainLimits(model.cloth, inverse_mass, case["strain_limits"],
+                                    rest_length_scale(case)))
+    if model.objects:
+        keys = case.get("collision", {})
+        if keys.get("response", "forecast") != "forecast":
+            raise Unsupported(f"collision response {keys['response']}")
+        points = points_of(model.cloth, inverse_mass, keys.get("points", "particles"))
+        filters.append(Collision(model.objects, points, keys.get("forecast_time", 0.0)))
+    return filters
+
+
+def region(keys: dict, name: str, places: np.ndarray) -> list[int]:
+    """Numbers given under `name`, or of places in a box or sphere; all if nothing is asked."""
+    if name in keys:
+        return list(keys[name])
+    inside = np.ones(len(places), dtype=bool)
+    if "box" in keys:
+        low, high = np.array(keys["box"])
+        inside = np.all((low <= places) & (places <= high), axis=1)
+    elif "sphere" in keys:
+        away = places - np.array(keys["sphere"]["center"])
+        inside = np.linalg.norm(away, axis=1) <= keys["sphere"]["radius"]
+    elif "group" in keys:
+        raise Unsupported("regions that are groups")
+    return np.flatnonzero(inside).tolist()
+
+
+def sticky(keys: dict, model: Model) -> Sticky:
+    surface, carried = keys["surface"], None
+    triangles, corners = model.cloth.triangles, model.start.x
+    if surface["of"] != "cloth":
+        one = next(one for one in model.objects if one.name == surface["of"])
+        triangles, corners = one.triangles, one.corners
+        carried = Carried(corners, one.motion)
+    chosen = region(surface, "triangles", corners[triangles].mean(axis=1))
+    particles = region(keys["particles"], "particles", model.start.x)
+    return Sticky(keys, triangles[chosen], particles, carried)
 
 
 def override(case: dict, path: str, value: object) -> None:

@@ -6,6 +6,18 @@ import math
 import numpy as np
 
 
+def rotation_about(axis: np.ndarray, angle: float) -> np.ndarray:
+    """3 x 3, by the exponential of the cross product (Rodrigues)."""
+    x, y, z = axis / np.linalg.norm(axis)
+    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    return np.eye(3) + math.sin(angle) * cross + (1 - math.cos(angle)) * cross @ cross
+
+
+def turned_by(keys: dict) -> np.ndarray:
+    """The rotation of a `turn`."""
+    return rotation_about(np.array(keys["axis"], dtype=float), math.radians(keys["angle"]))
+
+
 class Motion:
     """Of a hold or an object, by the keys of its table; at rest before `from` and after `until`.
 
@@ -33,21 +45,23 @@ class Motion:
         return 0.0 if since < self.start else self.stop - self.start
 
     def rotation(self, time: float, since: float) -> np.ndarray:
-        """3 x 3, by the exponential of the cross product (Rodrigues)."""
+        angle = float(np.linalg.norm(self.spin)) * self.clock(time, since)
+        return rotation_about(self.spin, angle) if angle else np.eye(3)
+
+    def shift(self, time: float, since: float) -> np.ndarray:
         t = self.clock(time, since)
-        angle = np.linalg.norm(self.spin) * t
-        if angle == 0:
-            return np.eye(3)
-        x, y, z = self.spin / np.linalg.norm(self.spin)
-        cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-        return np.eye(3) + math.sin(angle) * cross + (1 - math.cos(angle)) * cross @ cross
+        swing = math.sin(self.rate * t + self.phase) - math.sin(self.phase)
+        return self.velocity * t + self.amplitude * swing
 
     def place(self, start: np.ndarray, time: float, since: float) -> np.ndarray:
         """Of points that are at `start` (k x 3) before the motion begins."""
-        t = self.clock(time, since)
-        swing = math.sin(self.rate * t + self.phase) - math.sin(self.phase)
         turned = self.center + (start - self.center) @ self.rotation(time, since).T
-        return turned + self.velocity * t + self.amplitude * swing
+        return turned + self.shift(time, since)
+
+    def start_of(self, place: np.ndarray, time: float) -> np.ndarray:
+        """Where points are before the motion begins that are at `place` (k x 3) at a time."""
+        arm = place - self.shift(time, time) - self.center
+        return self.center + arm @ self.rotation(time, time)
 
     def speed(self, start: np.ndarray, time: float, since: float) -> np.ndarray:
         """The derivative of `place`."""

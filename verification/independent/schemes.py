@@ -3,9 +3,13 @@
 `exp` uses known velocities; `imp` solves (M - h/2 D(x)) w = M v + h/2 (f(x) + g) for w, directly.
 """
 
+import functools
+from typing import NamedTuple
+
 import numpy as np
 
-from model import Model, Span, State
+from model import Model
+from state import Span, State
 
 
 def explicit(model: Model, time: float, x: np.ndarray, v: np.ndarray, h: float,
@@ -56,4 +60,44 @@ def scheme_c(model: Model, now: State, h: float) -> State:
     return State(time, x, model.modify(Span(time, time, h), x, v))
 
 
-SCHEMES = {"A": scheme_a, "B": scheme_b, "C": scheme_c}
+class Tableau(NamedTuple):
+    """Of an explicit Runge-Kutta method (Butcher)."""
+    stages: list[list[float]]
+    weights: list[float]
+
+
+TABLEAUS = {
+    "forward-euler": Tableau([[]], [1]),
+    "RK2": Tableau([[], [1 / 2]], [0, 1]),
+    "SSP-RK3": Tableau([[], [1], [1 / 4, 1 / 4]], [1 / 6, 1 / 6, 2 / 3]),
+    "RK4": Tableau([[], [1 / 2], [0, 1 / 2], [0, 0, 1]], [1 / 6, 1 / 3, 1 / 3, 1 / 6]),
+}
+
+
+def runge_kutta(tableau: Tableau, model: Model, now: State, h: float) -> State:
+    """Prescribed particles have the places and velocities of each stage's time."""
+    flows: list[np.ndarray] = []
+    accelerations: list[np.ndarray] = []
+    for row in tableau.stages:
+        time = now.time + h * sum(row)
+        x = now.x + h * weighted(row, flows, now.x)
+        v = now.v + h * weighted(row, accelerations, now.v)
+        x = model.prescribed_place(x, time, now.time)
+        v = model.prescribed_velocity(v, time, now.time)
+        flows.append(v)
+        accelerations.append(explicit(model, time, x, np.zeros_like(v), 1.0, v))
+    flow = model.mean_velocity(now, weighted(tableau.weights, flows, now.x), h)
+    v = now.v + h * weighted(tableau.weights, accelerations, now.v)
+    corrected = model.modify(Span(now.time, now.time + h, h), now.x, flow)
+    x, time = now.x + h * corrected, now.time + h
+    v = model.prescribed_velocity(v + corrected - flow, time, now.time)
+    return State(time, x, model.modify(Span(time, time, h), x, v))
+
+
+def weighted(weights: list[float], terms: list[np.ndarray], shape: np.ndarray) -> np.ndarray:
+    return sum((weight * term for weight, term in zip(weights, terms)), np.zeros_like(shape))
+
+
+SCHEMES = {"A": scheme_a, "B": scheme_b, "C": scheme_c} | {
+    name: functools.partial(runge_kutta, tableau) for name, tableau in TABLEAUS.items()
+}

@@ -15,8 +15,9 @@ import numpy as np
 
 sys.dont_write_bytecode = True
 
-from model import Model, State, Unsupported, read_case  # noqa: E402
+from model import Model, read_case  # noqa: E402
 from schemes import SCHEMES  # noqa: E402
+from state import State, Unsupported  # noqa: E402
 
 
 def steps_to(start: float, end: float, longest: float) -> list[float]:
@@ -40,12 +41,14 @@ def simulate(model: Model) -> Simulation:
     step = SCHEMES[keys.get("integrator", "C")]
     state, frames, ends = model.start, [model.start], []
     times = frame_times(keys)
+    model.update_bonds(state)
     for target in times[1:]:
         events = sorted(time for time in model.events if state.time < time < target)
         for start, end in zip([state.time, *events], [*events, target]):
             for time in steps_to(start, end, keys["step"]):
                 _, x, v = step(model, state, time - state.time)
                 state = State(time, x, model.prescribed_velocity(v, time, time))
+                model.update_bonds(state)
                 ends.append(time)
         frames.append(state)
     return Simulation(frames, np.array(ends))
