@@ -17,6 +17,7 @@ const std::vector<Headline>& headlines() {
       {"time-order.hinge", {"A", "B", "C", "B-is-second-order-with-variable-steps"}},
       {"time-order.sheet", {"A", "B", "C", "B-is-second-order-with-variable-steps"}},
       {"work-precision", {"mixed-steps-are-larger", "C-needs-shorter-steps"}},
+      {"price-by-scene", {"C-costs-at-most-twice-the-cheapest", "C-is-not-the-cheapest"}},
       {"solve-tolerance", {"default-tolerance-preserves-the-order"}},
       {"mesh-error", {"usual-step-error-is-below-a-tenth-of-it"}},
       {"momentum-drift",
