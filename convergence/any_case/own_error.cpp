@@ -7,6 +7,8 @@ namespace foldproof {
 
 namespace {
 
+constexpr double spread_of_two = 3;  // over their difference, as of ladders without an order [1]
+
 LevelRun run_of(const Level& level, const KeptRuns& by) {
   return stored_level(level, by.level_sets, by.store, by.program);
 }
@@ -16,6 +18,16 @@ LadderPlan plan_of(const CaseSource& source) {
   LadderPlan plan{case_of(source), levels_of_own_error, {}};
   plan.measurements = measurements_of(plan.input_case);
   return plan;
+}
+
+/// Of the levels before the last, which stopped: of two a spread, as of any ladder
+/// without an order.
+ErrorPart error_without_finest(const Scene& scene, const std::vector<LevelRun>& runs) {
+  const std::string& why = runs.back().stopped;
+  if (runs.size() < size_t(levels_of_own_error)) return {nan, why};
+  const PerParticle mass = lumped_masses(scene.mesh, scene.density);
+  return {(1 + spread_of_two) * field_difference(runs[0], runs[1], mass),
+          "with a quarter of the step: " + why};
 }
 
 std::string why_stopped(const std::vector<const LevelRun*>& runs) {
@@ -28,13 +40,13 @@ std::string why_stopped(const std::vector<const LevelRun*>& runs) {
 
 ErrorPart error_of_steps(const CaseSource& source, const KeptRuns& by) {
   const LadderPlan plan = plan_of(source);
+  const Scene& scene = plan.input_case.scene;
   std::vector<LevelRun> runs;
   for (int k = 0; k < plan.levels; ++k) {
     const std::vector<double> ends = k > 0 ? runs[0].step_ends : std::vector<double>();
     runs.push_back(run_of(time_level(plan, k, ends), by));
-    if (!runs.back().stopped.empty()) return {nan, runs.back().stopped};
+    if (!runs.back().stopped.empty()) return error_without_finest(scene, runs);
   }
-  const Scene& scene = plan.input_case.scene;
   const double order = integrator_named(scene.integrator).order;
   return {positions_over_levels(scene, runs, order).first_error, ""};
 }

@@ -12,7 +12,7 @@ namespace foldproof {
 /// One cause of the error of positions: root mean square by mass, in the worst frame.
 struct ErrorPart {
   double value = nan;   // m; NaN: not known
-  std::string unknown;  // why, or ""
+  std::string unknown;  // why it is not known, or not well; or ""
 };
 
 /// Where runs are kept, and who made them.
@@ -26,7 +26,9 @@ struct KeptRuns {
 constexpr int levels_of_own_error = 3;
 
 /// The error of the case's steps, "as it is" of a ladder in time (QuantityOverLevels::first_error),
-/// over all frames: beyond a horizon it is as large as what is left to chance.
+/// over all frames: beyond a horizon it is as large as what is left to chance. Where only the third
+/// level comes to no end, the difference of the other two, and three times it as a spread;
+/// `unknown` then says why there is no better value.
 ErrorPart error_of_steps(const CaseSource& source, const KeptRuns& by);
 
 /// The difference between the case's mesh and the next finer one of its ladder in space, both with

@@ -117,6 +117,18 @@ TEST_CASE("an error whose runs come to no end is not known, and says why") {
   }
 }
 
+TEST_CASE("where only the third level comes to no end, the other two leave a spread") {
+  Asked asked;
+  const LadderPlan plan{case_of(asked.source), 3, measurements_of(case_of(asked.source))};
+  const LevelRun first = asked.run(time_level(plan, 0, {}));
+  const LevelRun second = asked.run(time_level(plan, 1, first.step_ends));
+  asked.source.overrides = {"time.max_steps=" + std::to_string(3 * first.step_ends.size())};
+  const ErrorPart error = error_of_steps(asked.source, asked.by());
+  CHECK(error.value == Approx(4 * field_difference(first, second, asked.mass())).epsilon(1e-12));
+  CHECK_THAT(error.unknown,
+             Contains("with a quarter of the step: ") && Contains("cap on the number of steps"));
+}
+
 TEST_CASE("a scene's own error is asked up to the ablation's end only") {
   Asked asked;
   asked.source.until = 0.03;
