@@ -99,7 +99,8 @@ const std::vector<Headline> headlines = {
       "area-is-lost-without-the-limit"}},
     {"sticking-lag",
      {"lag-is-m-a-over-k", "lag-grows-with-the-step-in-C", "forecasts-damp-the-swing",
-      "plain-spring-swings-forever", "limit-is-as-derived.C", "stiff-layers-are-stable"}}};
+      "plain-spring-swings-forever", "limit-is-as-derived.C", "stiff-layers-are-stable"}},
+    {"price-by-scene", {"C-costs-at-most-twice-the-cheapest", "C-is-not-the-cheapest"}}};
 
 }  // namespace
 

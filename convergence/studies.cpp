@@ -1,5 +1,6 @@
 #include "convergence/studies.h"
 
+#include "convergence/any_case/studies.h"
 #include "convergence/bending/studies.h"
 #include "convergence/conjugate_gradients/studies.h"
 #include "convergence/contact/studies.h"
@@ -19,6 +20,7 @@ std::vector<Study> all_studies() {
           sheet_time_order_study(),
           filtered_order_study(),
           work_precision_study(),
+          price_by_scene_study(),
           solve_tolerance_study(),
           mesh_error_study(),
           momentum_drift_study(),

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <exception>
 #include <map>
@@ -12,6 +11,7 @@
 #include "verification/cases/judge.h"
 #include "verification/cases/quantities.h"
 #include "verification/cases/self_crossings.h"
+#include "verification/processor_time.h"
 
 namespace foldproof {
 
@@ -117,14 +117,14 @@ std::string_view name_of(Need need) {
 }
 
 ObservedRun observe_run(const Case& input_case, const LevelSetProvider& level_sets, int particles) {
-  const auto start = std::chrono::steady_clock::now();
+  const double start = processor_seconds();
   ObservedRun run;
   try {
     run = simulate_observed(input_case, level_sets, particles);
   } catch (const std::exception& error) {
     run.stopped = error.what();
   }
-  run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  run.seconds = processor_seconds() - start;
   return run;
 }
 

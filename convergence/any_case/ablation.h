@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "convergence/any_case/framed_run.h"
+#include "reference/bodies/level_set_provider.h"
 #include "reference/dynamics/simulate.h"
 #include "reference/scene/scene.h"
 #include "verification/cases/expectations.h"
@@ -34,16 +36,12 @@ std::vector<ScenePart> parts_of(const Scene& scene);
 // and what it costs.
 
 /// The results by which runs of the same cloth are compared, over the frames that were reached.
-struct ObservedRun {
-  std::vector<double> times;    // of the frames [s]
-  std::vector<PerParticle3> x;  // in each frame, 3 x N, the particles of the scene alone [m]
-  std::vector<double> energy;   // kinetic, elastic and of gravity, at each frame [J]
-  double deepest = 0;           // inside an object, a particle that is free and not pinched [m]
+struct ObservedRun : FramedRun {
+  std::vector<double> energy;  // kinetic, elastic and of gravity, at each frame [J]
+  double deepest = 0;          // inside an object, a particle that is free and not pinched [m]
   double crossings = 0;  // most pairs of an edge and a triangle of the cloth that meet in a frame
   long steps = 0;
   Work work;
-  double seconds = 0;
-  std::string stopped;                     // why the run came to no end, or ""
   std::vector<std::string> expected_keys;  // keys of the case's expectations
   std::vector<std::string> failed_keys;    // of those that do not hold
 };
@@ -82,13 +80,9 @@ struct JudgedPart {
   bool is_justified() const;
 };
 
-/// How far the scene's own run is from the truth, roughly: by how much it changes with half the
-/// step, and with triangles of half the size. These two are not extrapolated: an error of first
-/// order is twice such a difference, one of second order a third larger than it. A case may name a
-/// coarser mesh instead of the finer one; what that says of the same error is two to four times as
-/// much (coarser_mesh.h).
+/// How far the scene's own run is from the truth, by its steps and by its mesh (own_error.h).
 struct DiscretisationError {
-  double time = 0, mesh = 0;  // m; NaN where a run came to no end
+  double time = 0, mesh = 0;  // m; NaN: not known
   double floor = 0;           // a millionth of the cloth's size: less than that no one asks for [m]
 
   /// The least change of positions that counts [m].

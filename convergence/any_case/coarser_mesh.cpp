@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "convergence/any_case/distances.h"
 #include "reference/level_set/mesh_distance.h"
 #include "verification/evidence.h"
 
@@ -62,20 +63,21 @@ double coarseness(const TriangleMesh& mesh, const TriangleMesh& coarser) {
   return ratio;
 }
 
-double error_from_coarser(const ObservedRun& run, const TriangleMesh& mesh,
-                          const ObservedRun& coarser, const TriangleMesh& coarser_mesh) {
+double error_from_coarser(const FramedRun& run, const TriangleMesh& mesh, const FramedRun& coarser,
+                          const TriangleMesh& coarser_mesh) {
   const double ratio = coarseness(mesh, coarser_mesh);
   if (run.x.empty() || coarser.x.empty()) return nan;
   const std::vector<PlaceOnTriangle> places = places_of(coarser.x[0], run.x[0], mesh.triangles);
-  ObservedRun at_places;  // the coarser run, had its particles been displaced as the surface is
+  // the coarser run, had its particles been displaced as the surface is
+  std::vector<PerParticle3> at_places;
   for (const PerParticle3& x : run.x) {
     PerParticle3 moved(3, Eigen::Index(places.size()));
     for (size_t k = 0; k < places.size(); ++k)
       moved.col(Eigen::Index(k)) =
           coarser.x[0].col(Eigen::Index(k)) + places[k].in(x)-places[k].in(run.x[0]);
-    at_places.x.push_back(std::move(moved));
+    at_places.push_back(std::move(moved));
   }
-  return position_difference(at_places, coarser, lumped_masses(coarser_mesh, 1)) / (ratio - 1);
+  return largest_difference(at_places, coarser.x, lumped_masses(coarser_mesh, 1)) / (ratio - 1);
 }
 
 }  // namespace foldproof

@@ -1,14 +1,14 @@
-// Basis of the verdicts of `foldproof ablate`: finer scenes that are the same scene, parts that are
-// toggled one by one, needs.
+// Basis of the verdicts of `foldproof ablate`: finer meshes that are the same cloth, a coarser one
+// compared, parts that are toggled one by one, needs.
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
 
 #include "convergence/any_case/ablation.h"
 #include "convergence/any_case/coarser_mesh.h"
-#include "convergence/any_case/finer_scene.h"
 #include "reference/forces/bending.h"
 #include "reference/mesh/shapes.h"
+#include "reference/scene/refine_cloth.h"
 
 using namespace foldproof;
 
@@ -44,7 +44,9 @@ end = 0.05
 frames_per_second = 100
 )";
 
-Scene trial() { return read_scene_text(text, "trial.toml"); }
+Scene trial(const std::vector<std::string>& overrides = {}) {
+  return read_scene_text(text, "trial.toml", overrides);
+}
 
 double energy_of(const Scene& scene, const PerParticle3& x) {
   double energy = 0;
@@ -77,20 +79,13 @@ Need judge_need(bool is_present, const ObservedRun& scene, const ObservedRun& to
 }  // namespace
 
 TEST_CASE("a finer mesh is the same cloth") {
-  const Scene scene = trial();
-  const Scene finer = with_finer_mesh(scene);
+  const Scene scene = trial(), finer = trial({"cloth.refine=1"});
   CHECK(finer.mesh.triangles.size() == 4 * scene.mesh.triangles.size());
   CHECK(finer.x.leftCols(scene.x.cols()) == scene.x);
   CHECK(lumped_masses(finer.mesh, finer.density).sum() ==
         Approx(lumped_masses(scene.mesh, scene.density).sum()).epsilon(1e-13));
   CHECK(energy_of(finer, finer.mesh.rest) < 1e-12 * energy_of(scene, scene.x));
   CHECK(finer.self_collision->thickness == 0.004);
-  Scene thick = trial();
-  thick.self_collision->thickness = 0.017;  // of triangles 35 mm high
-  const Scene finer_thick = with_finer_mesh(thick);
-  CHECK(finer_thick.self_collision->thickness <
-        smallest_height(finer_thick.mesh.triangles, finer_thick.mesh.rest) / 2);
-  CHECK(finer_thick.self_collision->thickness > 0.008);
   CHECK(finer.prescribed.size() == 7 + 6);  // a row of particles, and the middles of its edges
   for (const PrescribedParticle& p : finer.prescribed) CHECK(p.start == finer.x.col(p.particle));
 }
@@ -98,7 +93,8 @@ TEST_CASE("a finer mesh is the same cloth") {
 TEST_CASE("halves of a hinge's edge have its rest angle, new edges have none") {
   Scene scene = trial();
   for (size_t h = 0; h < scene.rest_angles.size(); ++h) scene.rest_angles[h] = 0.01 * double(h + 1);
-  const Scene finer = with_finer_mesh(scene);
+  Scene finer = scene;
+  refine_cloth(finer);
   double sum = 0, of_halves = 0;
   for (const double angle : scene.rest_angles) sum += angle;
   for (const double angle : finer.rest_angles) of_halves += angle;
@@ -107,15 +103,6 @@ TEST_CASE("halves of a hinge's edge have its rest angle, new edges have none") {
     const Edge& edge = finer.mesh.edges[size_t(finer.mesh.hinges[h].edge)];
     CHECK((finer.rest_angles[h] > 0) == (edge.a < scene.mesh.particles()));
   }
-}
-
-TEST_CASE("half the step halves every limit on it") {
-  Scene scene = trial();
-  scene.schedule.step.fixed = 0.003;
-  const StepRule rule = with_half_steps(scene).schedule.step;
-  CHECK(rule.fixed == 0.0015);
-  CHECK(rule.safety == scene.schedule.step.safety / 2);
-  CHECK(rule.strain_per_step == scene.schedule.step.strain_per_step / 2);
 }
 
 TEST_CASE("each part of a scene can be toggled by itself") {

@@ -5,8 +5,8 @@
 #include <set>
 
 #include "convergence/any_case/converge.h"
-#include "convergence/any_case/finer_scene.h"
 #include "convergence/any_case/ladder_cost.h"
+#include "reference/scene/refine_cloth.h"
 #include "verification/specimens/scratch_folder.h"
 
 namespace foldproof {
@@ -109,7 +109,7 @@ TEST_CASE("the key of a level changes with everything that its run depends on") 
   CHECK(changes([&](Level& l) { scene(l).schedule.max_steps = 3; }));
   CHECK(changes([&](Level& l) { scene(l).solver.tolerance = 1e-10; }));
   CHECK(changes([&](Level& l) { scene(l).solver.max_iterations += 1; }));
-  CHECK(changes([&](Level& l) { scene(l) = with_finer_mesh(scene(l)); }));
+  CHECK(changes([&](Level& l) { refine_cloth(scene(l)); }));
   CHECK(changes([&](Level& l) { scene(l).x(0, 5) += 1e-15; }));
   CHECK(changes([&](Level& l) { scene(l).v(0, 5) += 1e-15; }));
   CHECK(changes([&](Level& l) { scene(l).text += "# "; }));

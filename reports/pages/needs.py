@@ -91,6 +91,7 @@ class CaseNeeds:
     overrides: list[str]       # "table.key=value", by which it was another than the shipped one
     part_of_time: str          # "first 1 of 3 s" where not the whole run was asked, else ""
     wrong: str                 # why nothing can be said of it; or ""
+    steps: str                 # what the steps' own error comes from, in words
     mesh: str                  # what the mesh's own error comes from, in words
     own_error: float           # m
     time_error: float          # m; NaN: not known
@@ -203,13 +204,15 @@ def _case(
         if own.get("coarser_mesh")
         else ("finer mesh", "finer mesh")
     )
+    # earlier records have the change from one halving of the step
+    steps = "its steps" if own.get("levels") else "half the step"
     unknown = "; ".join(
         f"{other}: {why}"
-        for other, why in (("half the step", own["without_time"]), (kind, own["without_mesh"]))
+        for other, why in ((steps, own["without_time"]), (kind, own["without_mesh"]))
         if why
     )
     return CaseNeeds(
-        row["case"], row.get("overrides", []), part_of_time, row["wrong"], mesh,
+        row["case"], row.get("overrides", []), part_of_time, row["wrong"], steps, mesh,
         _number(own["value"]), _number(own["time"]), _number(own["mesh"]), unknown,
         scene["seconds"], _number(scene["crossings"]), _number(scene["deepest"]),
         [_part(part, scene) for part in row["parts"]], program["commit"],

@@ -8,13 +8,12 @@
 #include <fstream>
 #include <mutex>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <set>
 
 #include "convergence/any_case/ablation.h"
 #include "convergence/any_case/coarser_mesh.h"
 #include "convergence/any_case/distances.h"
-#include "convergence/any_case/finer_scene.h"
+#include "convergence/any_case/own_error.h"
 #include "reference/bodies/level_set_provider.h"
 #include "scripts/program/commands.h"
 #include "scripts/program/command_line/input_files.h"
@@ -32,11 +31,12 @@ namespace {
 
 /// A case and all runs that are asked of it.
 struct Ablation {
+  CaseSource source;  // ends where the ablation does
   Case input_case;
   LevelSetProvider level_sets;  // of all its runs; each is made once
-  std::optional<Case> coarser;  // with the coarser mesh that it names
   std::vector<ScenePart> parts;
-  ObservedRun scene, half_steps, other_mesh;
+  ObservedRun scene;
+  ErrorPart of_steps, of_mesh;
   std::vector<ObservedRun> toggled;  // one a part
   size_t runs_left = 0;
   DiscretisationError error;
@@ -51,22 +51,26 @@ double ablation_end(const Case& input_case) {
 
 Ablation plan_ablation(const std::string& file, const Options& options,
                        const LevelSetProvider& level_sets) {
-  Ablation plan{read_case(file, options.overrides), level_sets, {}, {}, {}, {}, {}, {}, 0, {}, {}};
+  Ablation plan;
+  plan.source = {file, options.overrides, "", 0};
+  plan.input_case = case_of(plan.source);
+  plan.level_sets = level_sets;
   const Case& input_case = plan.input_case;
   // refuses now what cannot be built; its level sets serve every run
   build(input_case.scene, level_sets);
   plan.parts = parts_of(input_case.scene);
   reject_unknown_parts(input_case, plan.parts);
   plan.toggled.resize(plan.parts.size());
-  plan.other_mesh.stopped = declared_reason(input_case, finer_mesh);
+  plan.source.until = ablation_end(input_case);
+  plan.of_mesh.unknown = declared_reason(input_case, finer_mesh);
   if (input_case.coarser_mesh.empty()) return plan;
-  if (!plan.other_mesh.stopped.empty())
+  if (!plan.of_mesh.unknown.empty())
     throw InputError(file + ": [ablation] does without a finer mesh, and names a coarser one");
   std::vector<std::string> overrides = options.overrides;
   overrides.insert(overrides.end(), input_case.coarser_mesh.begin(), input_case.coarser_mesh.end());
-  plan.coarser = read_case(file, overrides);
+  const Case coarser = read_case(file, overrides);
   try {
-    coarseness(input_case.scene.mesh, plan.coarser->scene.mesh);
+    coarseness(input_case.scene.mesh, coarser.scene.mesh);
   } catch (const InputError& error) {
     throw InputError(fmt::format(
         "{}: [ablation] coarser_mesh: {}, or --set 'ablation.coarser_mesh=\"\"' for a finer one",
@@ -78,68 +82,73 @@ Ablation plan_ablation(const std::string& file, const Options& options,
 /// Called when a run has ended, by one thread at a time.
 using AfterRun = std::function<void(Ablation&)>;
 
-/// The run of `input_case`, which `one` asks for and finds in `into`.
-Job job_of(Ablation& one, double length, const Case& input_case,
-           std::function<Scene(const Scene&)> change, ObservedRun& into, const AfterRun& after) {
+/// What one of the case's jobs does; an error goes into `why`.
+Job job_of(Ablation& one, double length, std::function<void()> act, std::string& why,
+           const AfterRun& after) {
   ++one.runs_left;
   return {one.input_case.scene.name, length,
-          [&one, &input_case, change = std::move(change), &into, after](const Progress&) {
-            const int particles = input_case.scene.mesh.particles();
+          [&one, act = std::move(act), &why, after](const Progress&) {
             try {
-              Scene scene = change(input_case.scene);
-              scene.schedule.end = ablation_end(input_case);
-              into =
-                  observe_run(with_scene(input_case, std::move(scene)), one.level_sets, particles);
+              act();
             } catch (const std::exception& error) {
-              into.stopped = error.what();
+              why = error.what();
             }
             after(one);
             return RunRecord{};
           }};
 }
 
-/// Case by case, so that what is cut off has whole cases. Finer meshes take some ten times as long:
-/// four times the particles, and smaller steps.
-std::vector<Job> jobs_of(std::vector<Ablation>& all, const AfterRun& after) {
-  const auto as_it_is = [](const Scene& s) { return s; };
+/// The case's run with its scene changed, which goes into `into`.
+Job run_job(Ablation& one, double length, std::function<Scene(Scene)> change, ObservedRun& into,
+            const AfterRun& after) {
+  const auto act = [&one, change = std::move(change), &into] {
+    Scene scene = change(one.input_case.scene);
+    scene.schedule.end = ablation_end(one.input_case);
+    into = observe_run(with_scene(one.input_case, std::move(scene)), one.level_sets,
+                       one.input_case.scene.mesh.particles());
+  };
+  return job_of(one, length, act, into.stopped, after);
+}
+
+/// A finer mesh takes some ten times as long as the case: four times the particles, and smaller
+/// steps, which the case's own mesh takes once, too.
+Job mesh_job(Ablation& one, const KeptRuns& by, const AfterRun& after) {
+  const std::vector<std::string>& coarser = one.input_case.coarser_mesh;
+  const auto act = [&one, &coarser, &by] {
+    one.of_mesh = coarser.empty() ? error_of_mesh(one.source, by)
+                                  : error_from_coarser_mesh(one.source, coarser, by);
+  };
+  return job_of(one, coarser.empty() ? 12 : 0.2, act, one.of_mesh.unknown, after);
+}
+
+/// Case by case, so that what is cut off has whole cases.
+std::vector<Job> jobs_of(std::vector<Ablation>& all, const KeptRuns& by, const AfterRun& after) {
   std::vector<Job> jobs;
   for (Ablation& one : all) {
-    const Case& input_case = one.input_case;
     const size_t earlier = jobs.size();
-    jobs.push_back(job_of(one, 1, input_case, as_it_is, one.scene, after));
-    jobs.push_back(job_of(one, 2, input_case, with_half_steps, one.half_steps, after));
-    if (one.coarser)
-      jobs.push_back(job_of(one, 0.2, *one.coarser, as_it_is, one.other_mesh, after));
-    else if (one.other_mesh.stopped.empty())
-      jobs.push_back(job_of(one, 10, input_case, with_finer_mesh, one.other_mesh, after));
+    jobs.push_back(run_job(
+        one, 1, [](Scene s) { return s; }, one.scene, after));
+    jobs.push_back(job_of(
+        one, 7, [&one, &by] { one.of_steps = error_of_steps(one.source, by); },
+        one.of_steps.unknown, after));
+    if (one.of_mesh.unknown.empty()) jobs.push_back(mesh_job(one, by, after));
     for (size_t k = 0; k < one.parts.size(); ++k)
-      jobs.push_back(job_of(one, 1.1, input_case, one.parts[k].toggled, one.toggled[k], after));
+      jobs.push_back(run_job(one, 1.1, one.parts[k].toggled, one.toggled[k], after));
     for (size_t k = earlier; k < jobs.size(); ++k) jobs[k].group = int(&one - all.data());
   }
   return jobs;
 }
 
-DiscretisationError own_error(const Ablation& one, const PerParticle& mass) {
-  const TriangleMesh& mesh = one.input_case.scene.mesh;
-  DiscretisationError error{nan, nan, 1e-6 * longest_side(mesh.rest)};
-  if (one.half_steps.stopped.empty())
-    error.time = position_difference(one.scene, one.half_steps, mass);
-  if (one.other_mesh.stopped.empty())
-    error.mesh = one.coarser
-                     ? error_from_coarser(one.scene, mesh, one.other_mesh, one.coarser->scene.mesh)
-                     : position_difference(one.scene, one.other_mesh, mass);
-  return error;
-}
-
 /// Positions of all frames of all runs are half a gigabyte of a large case.
 void forget_positions(Ablation& one) {
-  for (ObservedRun* run : {&one.scene, &one.half_steps, &one.other_mesh}) run->x = {};
+  one.scene.x = {};
   for (JudgedPart& part : one.judged_parts) part.run.x = {};
 }
 
 void judge(Ablation& one) {
-  const PerParticle mass = lumped_masses(one.input_case.scene.mesh, one.input_case.scene.density);
-  one.error = own_error(one, mass);
+  const TriangleMesh& mesh = one.input_case.scene.mesh;
+  const PerParticle mass = lumped_masses(mesh, one.input_case.scene.density);
+  one.error = {one.of_steps.value, one.of_mesh.value, 1e-6 * longest_side(mesh.rest)};
   for (size_t k = 0; k < one.parts.size(); ++k) {
     one.judged_parts.push_back(
         judge_part(one.parts[k], one.scene, std::move(one.toggled[k]), one.error, mass));
@@ -192,12 +201,13 @@ nlohmann::json to_json(const Ablation& one, const std::vector<std::string>& over
           {"wrong", wrong_by_itself(one)},
           {"size", longest_side(one.input_case.scene.mesh.rest)},
           {"own_error",
-           {{"time", one.error.time},
+           {{"levels", levels_of_own_error},
+            {"time", one.error.time},
             {"mesh", one.error.mesh},
             {"floor", one.error.floor},
             {"value", one.error.value()},
-            {"without_time", one.half_steps.stopped},
-            {"without_mesh", one.other_mesh.stopped},
+            {"without_time", one.of_steps.unknown},
+            {"without_mesh", one.of_mesh.unknown},
             {"coarser_mesh", one.input_case.coarser_mesh}}},
           {"run", to_json(one.scene)},
           {"parts", std::move(parts)}};
@@ -236,13 +246,13 @@ void print(const Ablation& one) {
                expected_keys = ablation_end(one.input_case);
   const std::string first =
       expected_keys < whole ? fmt::format(" (its first {:g} s of {:g})", expected_keys, whole) : "";
-  fmt::print("{}{}: {:.2f} s; own error {:.2g} m (half the step {}; {} {})\n",
+  const std::vector<std::string>& coarser = one.input_case.coarser_mesh;
+  fmt::print("{}{}: {:.2f} s; own error {:.2g} m (its steps {}; {} {})\n",
              one.input_case.scene.name, first, one.scene.seconds, one.error.value(),
-             error_text(one.error.time, one.half_steps.stopped),
-             one.coarser ? fmt::format("from a coarser mesh, {},",
-                                       fmt::join(one.input_case.coarser_mesh, ", "))
-                         : "finer mesh",
-             error_text(one.error.mesh, one.other_mesh.stopped));
+             error_text(one.error.time, one.of_steps.unknown),
+             coarser.empty() ? "finer mesh"
+                             : fmt::format("from a coarser mesh, {},", fmt::join(coarser, ", ")),
+             error_text(one.error.mesh, one.of_mesh.unknown));
   if (const std::string wrong = wrong_by_itself(one); !wrong.empty()) fmt::print("! {}\n", wrong);
   for (const JudgedPart& part : one.judged_parts) {
     fmt::print("{} {:<18} {:<30} {:5.0f} % of the time; {}\n", part.is_justified() ? ' ' : '!',
@@ -277,6 +287,9 @@ int ablate(const Options& options) {
   std::vector<Ablation> all = ablations_of(options);
   const OutFolder folder(options.out);
   require_replaceable(options.out + "/ablation.json");
+  ResultStore store(options.out + "/store");
+  const KeptRuns by{all.empty() ? computing_provider() : all.front().level_sets, store,
+                    program_identity()};
   std::mutex one_at_a_time;
   const AfterRun after = [&](Ablation& one) {
     const std::lock_guard lock(one_at_a_time);
@@ -288,7 +301,7 @@ int ablate(const Options& options) {
     }
   };
   RunRecord run;
-  run_jobs(jobs_of(all, after), "scenes with and without their parts", options.running, run);
+  run_jobs(jobs_of(all, by, after), "scenes with and without their parts", options.running, run);
   write(all, options);
   bool is_minimal = run.records.empty();  // which tell of runs that could not be judged
   for (const Ablation& one : all) {

@@ -74,12 +74,38 @@ class AblateTest(FileTest):
         done = self.ablate(disc, "--set", 'ablation.coarser_mesh=""')
         finer = self.read_answer()[0]["own_error"]
         self.assertEqual((coarser["coarser_mesh"], finer["coarser_mesh"]), (["cloth.rings=4"], []))
-        self.assertRegex(done.stdout, r"finer mesh \d")
+        self.assertRegex(done.stdout, r"its steps \d.*finer mesh \d")
         self.assertEqual(coarser["time"], finer["time"])
         # of an error e of second order halving shows 3 e / 4 and 2.5 times the size 3.5 e, of one
         # of first order e / 2 and e
         self.assertGreater(coarser["mesh"], finer["mesh"])
         self.assertLess(coarser["mesh"], 6 * finer["mesh"])
+
+    def test_its_own_error_in_time_is_that_of_converge(self) -> None:
+        disc = self.write("disc.toml", DISC)
+        out = str(self.path / "out")
+        told = json.loads(
+            run("converge", disc, "--levels", "3", "--json", "--out", out).stdout
+        )
+        before = self.read_labels()
+        self.ablate(disc)
+        self.assertEqual(
+            self.read_answer()[0]["own_error"]["time"], told["quantities"][0]["error_as_it_is"]
+        )
+        # its three levels were there
+        self.assertEqual(
+            [label for label in self.read_labels()[len(before):] if "steps divided" in label], []
+        )
+        self.assertTrue([label for label in before if "steps divided by 4" in label])
+
+    def read_labels(self) -> list[str]:
+        """Of the runs that were begun."""
+        return [
+            row["label"]
+            for file in sorted((self.path / "out" / "store" / "shards").iterdir())
+            for row in map(json.loads, file.read_text().splitlines())
+            if "label" in row
+        ]
 
     def test_a_case_may_ask_of_its_beginning_only(self) -> None:
         disc = self.write("disc.toml", DISC)

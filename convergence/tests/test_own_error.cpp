@@ -1,0 +1,139 @@
+// A case's own error, as `foldproof ablate` compares with it, is that of the ladders of
+// `foldproof converge`.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "convergence/any_case/own_error.h"
+#include "convergence/any_case/coarser_mesh.h"
+#include "verification/specimens/scratch_folder.h"
+
+using namespace foldproof;
+using Catch::Matchers::Contains;
+
+namespace {
+
+/// A sheet held by an edge, which swings.
+constexpr const char* sheet = R"([cloth]
+shape = "sheet"
+width = 0.3
+height = 0.2
+columns = 3
+rows = 2
+density = 0.2
+[stretch]
+stiffness = 40
+damping = 0.01
+[bending]
+stiffness = 1e-3
+[gravity]
+acceleration = [0, 0, -9]
+[[hold]]
+box = [[-1, -0.001, -1], [1, 0.001, 1]]
+[solver]
+tolerance = 1e-11
+[time]
+end = 0.06
+frames_per_second = 100
+)";
+
+struct Asked {
+  ScratchFolder folder;
+  ResultStore store{folder.file("store")};
+  CaseSource source{folder.write("swing.toml", sheet), {}, "", 0};
+
+  KeptRuns by() { return {computing_provider(), store, "p"}; }
+  LevelRun run(const Level& level) { return stored_level(level, computing_provider(), store, "p"); }
+  PerParticle mass() const {
+    const Scene scene = case_of(source).scene;
+    return lumped_masses(scene.mesh, scene.density);
+  }
+};
+
+}  // namespace
+
+TEST_CASE(
+    "a scene's own error in time is what a ladder of three levels says of the case as it is") {
+  Asked asked;
+  const LadderPlan plan{case_of(asked.source), 3, measurements_of(case_of(asked.source))};
+  std::vector<LevelRun> runs = {asked.run(time_level(plan, 0, {}))};
+  for (const int k : {1, 2}) runs.push_back(asked.run(time_level(plan, k, runs[0].step_ends)));
+  const ErrorPart error = error_of_steps(asked.source, asked.by());
+  CHECK(error.unknown.empty());
+  CHECK(error.value == time_answer(plan, runs).quantities.front().first_error);
+  // the plain difference of the first two is 3/4 of an error of second order
+  const double halved = field_difference(runs[0], runs[1], asked.mass());
+  CHECK(error.value > halved);
+  CHECK(error.value < 2 * halved);
+}
+
+TEST_CASE("runs that converge kept are not made again for a scene's own error") {
+  Asked asked;
+  const LadderPlan plan{case_of(asked.source), 3, measurements_of(case_of(asked.source))};
+  const LevelRun first = asked.run(time_level(plan, 0, {}));
+  error_of_steps(asked.source, asked.by());
+  error_of_steps(asked.source, asked.by());
+  for (const int k : {0, 1, 2})
+    CHECK(asked.store.starts(key_of(
+              time_level(plan, k, k > 0 ? first.step_ends : std::vector<double>()), "p")) == 1);
+}
+
+TEST_CASE("a scene's own error of its mesh is the difference to the next mesh of its ladder") {
+  Asked asked;
+  const ErrorPart error = error_of_mesh(asked.source, asked.by());
+  const SpaceLadder ladder = space_ladder(asked.source, 2, ObjectsToo::no);
+  const LevelRun finer = asked.run(space_level(ladder, 1, {}));
+  const LevelRun own = asked.run(space_level(ladder, 0, finer.step_ends));
+  CHECK(own.step_ends == finer.step_ends);
+  CHECK(error.unknown.empty());
+  CHECK(error.value == field_difference(own, finer, asked.mass()));
+  CHECK(error.value > 0);
+  CHECK(asked.store.starts(key_of(space_level(ladder, 1, {}), "p")) == 1);
+}
+
+TEST_CASE("a coarser mesh is run by its own steps, and compared with the case as it is") {
+  Asked asked;
+  asked.source.overrides = {"cloth.columns=6", "cloth.rows=4"};
+  const std::vector<std::string> coarser = {"cloth.columns=3", "cloth.rows=2"};
+  const ErrorPart error = error_from_coarser_mesh(asked.source, coarser, asked.by());
+  CaseSource other = asked.source;
+  other.overrides.insert(other.overrides.end(), coarser.begin(), coarser.end());
+  const auto first = [](const CaseSource& source) {
+    return time_level({case_of(source), 3, measurements_of(case_of(source))}, 0, {});
+  };
+  CHECK(error.value == error_from_coarser(asked.run(first(asked.source)),
+                                          case_of(asked.source).scene.mesh, asked.run(first(other)),
+                                          case_of(other).scene.mesh));
+  CHECK(error.value > 0);
+}
+
+TEST_CASE("an error whose runs come to no end is not known, and says why") {
+  Asked asked;
+  asked.source.overrides = {"time.max_steps=3"};
+  for (const ErrorPart& error :
+       {error_of_steps(asked.source, asked.by()), error_of_mesh(asked.source, asked.by()),
+        error_from_coarser_mesh(asked.source, {"cloth.columns=1", "cloth.rows=1"}, asked.by())}) {
+    CHECK(std::isnan(error.value));
+    CHECK_THAT(error.unknown, Contains("cap on the number of steps"));
+  }
+}
+
+TEST_CASE("where only the third level comes to no end, the other two leave a spread") {
+  Asked asked;
+  const LadderPlan plan{case_of(asked.source), 3, measurements_of(case_of(asked.source))};
+  const LevelRun first = asked.run(time_level(plan, 0, {}));
+  const LevelRun second = asked.run(time_level(plan, 1, first.step_ends));
+  asked.source.overrides = {"time.max_steps=" + std::to_string(3 * first.step_ends.size())};
+  const ErrorPart error = error_of_steps(asked.source, asked.by());
+  CHECK(error.value == Approx(4 * field_difference(first, second, asked.mass())).epsilon(1e-12));
+  CHECK_THAT(error.unknown,
+             Contains("with a quarter of the step: ") && Contains("cap on the number of steps"));
+}
+
+TEST_CASE("a scene's own error is asked up to the ablation's end only") {
+  Asked asked;
+  asked.source.until = 0.03;
+  const ErrorPart begun = error_of_steps(asked.source, asked.by());
+  asked.source.until = 0;
+  asked.source.overrides = {"time.end=0.03"};
+  CHECK(begun.value == error_of_steps(asked.source, asked.by()).value);
+}
