@@ -23,7 +23,8 @@ RowStrip row_strip(const Subject& subject, const StripTest& test, int panels) {
   if (test.strip.last)
     hold.last = {test.strip.last->slope,
                  strip_length * Eigen::Vector2d(test.strip.last->across, test.strip.last->up),
-                 test.strip.last->hold};
+                 test.strip.last->hold == oracles::EndHold::clamped ? RowHold::clamped
+                                                                    : RowHold::pinned};
   return {subject, strip_patterns()[0], panels, {gravity, 0, largest / stretch_share}, hold};
 }
 
