@@ -20,6 +20,7 @@ std::vector<Check> run_checks();       // frames, automatic steps, stops
 std::vector<Check> resume_checks();    // runs that go on from a checkpoint
 std::vector<Check> event_checks();     // motions that start and stop
 std::vector<Check> method_checks();    // the methods for comparison with the paper's schemes
+std::vector<Check> other_method_checks();  // methods of other papers, as models
 std::vector<Check> energy_checks();    // diagnostics and the balance of energy
 
 /// A table for statements that are true or false, one per row.
