@@ -21,8 +21,8 @@ std::vector<Check> all_checks() {
         mesh_checks, mesh_rejection_checks,
         // forces
         spring_checks, force_checks, bending_checks, bending_mode_checks,
-        bending_alternative_checks, buckling_spring_checks, bending_angle_checks, bending_energy_checks,
-        bending_damping_checks, bending_shape_checks, differential_checks,
+        bending_alternative_checks, buckling_spring_checks, bending_angle_checks,
+        bending_energy_checks, bending_damping_checks, bending_shape_checks, differential_checks,
         force_differential_checks,
         // dynamics
         solver_checks, unsymmetric_solver_checks, cached_terms_checks, oscillator_checks,

@@ -92,8 +92,9 @@ Eigen::Vector3d miss_of_end(const RowStrip& strip, const Eigen::VectorXd& unknow
   const Eigen::Index n = strip.panels();
   const Eigen::Matrix2Xd rows =
       strip.rows(unknowns.head(n), strip.spacing() * unknowns.segment(n, n));
-  const Eigen::Vector2d held =
-      is_held_in_a_panel(strip) ? Eigen::Vector2d((rows.col(n) + rows.col(n + 1)) / 2) : rows.col(n + 1);
+  const Eigen::Vector2d held = is_held_in_a_panel(strip)
+                                   ? Eigen::Vector2d((rows.col(n) + rows.col(n + 1)) / 2)
+                                   : rows.col(n + 1);
   Eigen::Vector3d miss;
   miss << unknowns[n - 1] - strip.hold().last->slope,
       held - rows.col(1) / 2 - strip.hold().last->place;
@@ -190,8 +191,8 @@ StripAtRest at_rest(const RowStrip& strip, StripAtRest start) {
   constexpr int most_steps = 40;
   constexpr double longest = 0.3;  // of one step [rad]: keeps the chain from folding on its way
   const Eigen::Index n = strip.panels();
-  Eigen::VectorXd unknowns = Eigen::VectorXd::Zero(
-      2 * n + Eigen::Index(held_numbers(strip).pushed.size()));
+  Eigen::VectorXd unknowns =
+      Eigen::VectorXd::Zero(2 * n + Eigen::Index(held_numbers(strip).pushed.size()));
   unknowns.head(2 * n) << start.slopes, start.lengths / strip.spacing();
   double before = std::numeric_limits<double>::infinity();
   for (int i = 0; i < most_steps; ++i) {

@@ -40,8 +40,8 @@ enum class RowHold { clamped, pinned, propped };
 
 /// How the strip is held: its first panel (rows 0 and 1) has a slope (upward positive [rad]); the
 /// last one is free; or clamped: it has a slope too, and its middle is at a place from the first
-/// one's middle [m]; or its last row is pinned to a place; or it is propped: pushed up in the middle,
-/// just as hard as gives it a slope.
+/// one's middle [m]; or its last row is pinned to a place; or it is propped: pushed up in the
+/// middle, just as hard as gives it a slope.
 struct StripHold {
   struct End {
     double slope;           // of a clamp or a prop
@@ -54,8 +54,8 @@ struct StripHold {
 
 /// The hinges of a held row stand for the curvature from half a cell before to half a cell behind
 /// them, so that the strip is clamped in the middle of its held panels. There are `panels` more
-/// than the first; L is `panels` spacings between two clamps, or a clamp and a prop, else (panels +
-/// 1/2) spacings.
+/// than the first; L is `panels` spacings between two clamps, or a clamp and a prop, else
+/// (panels + 1/2) spacings.
 class RowStrip {
  public:
   RowStrip(const Subject& subject, const StripPattern& pattern, int panels, const StripLoad& load,

@@ -15,14 +15,14 @@ namespace {
 
 constexpr double resolution = 0.01;  // of the height [1]
 
-/// The lifted part on one mesh, its weight such that it lifts off without a moment. Lengths in units
-/// of (B/(rho_A g))^(1/3).
+/// The lifted part on one mesh, its weight such that it lifts off without a moment. Lengths in
+/// units of (B/(rho_A g))^(1/3).
 struct LiftedPart {
   double lifted, height;
-  double spacing;     // of the rows
-  double unfinished;  // of the solve [1]
-  double pull;        // the largest that the floor would have to exert, over the weight [1]
-  double sunk;        // the lowest row below the floor, over the lifted length [1]
+  double spacing;      // of the rows
+  double unfinished;   // of the solve [1]
+  double pull;         // the largest that the floor would have to exert, over the weight [1]
+  double sunk;         // the lowest row below the floor, over the lifted length [1]
   double landing = 0;  // how far from the floor its end is
   std::vector<oracles::StripPoint> points;
 };
@@ -39,7 +39,10 @@ RestingPart part_of_weight(const Subject& subject, double gamma, int panels, Str
   const double unit = strip_D / std::pow(strip_length, 2);  // of forces [N/m]
   const double gravity = gamma * unit / (strip_density * strip_length);
   constexpr double strain = 1e-8;  // of the springs under the weight [1]
-  RestingPart part{{subject, strip_patterns()[0], panels, {gravity, 0, gamma * unit / strain},
+  RestingPart part{{subject,
+                    strip_patterns()[0],
+                    panels,
+                    {gravity, 0, gamma * unit / strain},
                     {0, {{pi, {0, 0}, RowHold::propped}}}},
                    {}};
   part.rest = at_rest(part.strip, std::move(start));
@@ -56,8 +59,8 @@ StripAtRest start_of(const oracles::FreeFold& fold, int panels) {
   return start;
 }
 
-/// The bend at the lift-off, in the middle of the first panel, from those at the two rows behind it:
-/// the moment is linear there, to second order [rad].
+/// The bend at the lift-off, in the middle of the first panel, from those at the two rows behind
+/// it: the moment is linear there, to second order [rad].
 double bend_at_lift_off(const StripAtRest& rest) {
   const double at_row_1 = rest.slopes[0], at_row_2 = rest.slopes[1] - at_row_1;
   return 1.5 * at_row_1 - 0.5 * at_row_2;
@@ -136,8 +139,8 @@ NamedFinding order_of(const Table& levels, double floor, const oracles::FreeFold
   return {"free-fold.is-second-order",
           "The height of a free fold tends to the elastica's with second order.",
           {{deviation.value, same_order, deviation.uncertainty, "1",
-            "orders closer than this are taken for the same; a lift-off at a row, not in the middle "
-            "of a panel, would be off by 1"},
+            "orders closer than this are taken for the same; a lift-off at a row, not in the "
+            "middle of a panel, would be off by 1"},
            std::move(evidence),
            ""}};
 }
@@ -146,8 +149,7 @@ NamedFinding floor_only_pushes(const Table& levels, double floor) {
   return {"free-fold.floor-only-pushes",
           "No row of a free fold is below the floor, and the floor pulls on none.",
           {{std::max(levels.worst("pull of the floor"), levels.worst("depth below the floor")),
-            1e-6, floor, "1",
-            "shares of the weight and of the length; Newton's steps end at 1e-7"},
+            1e-6, floor, "1", "shares of the weight and of the length; Newton's steps end at 1e-7"},
            levels,
            ""}};
 }
@@ -187,10 +189,10 @@ StudyResult run_free_fold(const Subject& subject, Tier tier, const Progress& pro
   const oracles::FreeFold fold = oracles::free_fold_by_shooting();
   std::vector<int> panels{16, 32, 64};
   if (tier == Tier::full) panels.push_back(128);
-  Table levels{{"spacing of the rows", "1"}, {"lifted length", "1"},
-               {"height", "1"},              {"error of the height", "1"},
-               {"end over the floor", "1"},  {"pull of the floor", "1"},
-               {"depth below the floor", "1"}};
+  Table levels{
+      {"spacing of the rows", "1"},  {"lifted length", "1"},      {"height", "1"},
+      {"error of the height", "1"},  {"end over the floor", "1"}, {"pull of the floor", "1"},
+      {"depth below the floor", "1"}};
   LiftedPart finest;
   double floor = 0;
   for (const int count : panels) {
@@ -215,14 +217,14 @@ Study free_fold_study() {
           "A strip that is folded back over itself and held by nothing is as high as the elastica "
           "with the mesh's own rigidity, to second order.",
           "Plaut 2015",
-          "The strip lies on a smooth floor, lifts off without a moment, bends back, and comes down "
-          "on its own lower half without one. It is long enough to lie flat on both sides; its "
-          "thickness counts for nothing. On a smooth floor it may roll along at no cost, but its "
-          "shape stays, because the force across vanishes. Its one length is (B/(rho_A g))^(1/3), B "
-          "the rigidity, and its height is a fixed multiple of that. On a mesh a whole number of "
-          "panels is lifted; the weight is found at which the bend vanishes where the strip leaves "
-          "the floor, and it is propped where it comes down. D is the elastica by shooting, which a check holds against "
-          "collocation.",
+          "The strip lies on a smooth floor, lifts off without a moment, bends back, and comes "
+          "down on its own lower half without one. It is long enough to lie flat on both sides; "
+          "its thickness counts for nothing. On a smooth floor it may roll along at no cost, but "
+          "its shape stays, because the force across vanishes. Its one length is (B/(rho_A "
+          "g))^(1/3), B the rigidity, and its height is a fixed multiple of that. On a mesh a "
+          "whole number of panels is lifted; the weight is found at which the bend vanishes where "
+          "the strip leaves the floor, and it is propped where it comes down. D is the elastica by "
+          "shooting, which a check holds against collocation.",
           run_free_fold,
           "validation"};
 }

@@ -61,8 +61,8 @@ NamedFinding threshold_agrees(const Subject& subject, double mu) {
   Table table = no_comparisons("1");
   add_comparison(table, compare_ladder("slope at which it slips", slopes, {mu, 0}), scale);
   return {fmt::format("friction-tests.threshold-agrees.mu-{:.2f}", mu),
-          fmt::format("A cloth on an incline with friction {} slips where the slope is that number, "
-                      "within two percent.",
+          fmt::format("A cloth on an incline with friction {} slips where the slope is that "
+                      "number, within two percent.",
                       mu),
           judge_comparisons(std::move(table), scale, "two percent of the slope",
                             "S by bisection, at the shortest of three steps; D is Coulomb's")};
@@ -80,8 +80,8 @@ NamedFinding slide_agrees(const Subject& subject, double mu) {
   Table table = no_comparisons("1");
   add_comparison(table, compare_ladder("acceleration over g", pulls, {should, 0}), scale);
   return {fmt::format("friction-tests.slide-agrees.mu-{:.2f}", mu),
-          fmt::format("A cloth slides down an incline with friction {} as fast as Coulomb's law says, "
-                      "within two percent.",
+          fmt::format("A cloth slides down an incline with friction {} as fast as Coulomb's law "
+                      "says, within two percent.",
                       mu),
           judge_comparisons(std::move(table), scale, "two percent of the acceleration",
                             "S from the way after 0.32 s, at the shortest of three steps")};
@@ -89,10 +89,10 @@ NamedFinding slide_agrees(const Subject& subject, double mu) {
 
 // ---- a belt on a drum
 
-constexpr double radius = 0.09, tail = 0.05;         // m
-constexpr double stiffness = 40, belt_density = 0.2; // N/m, kg/m^2
-constexpr double strain = 0.02;                      // of the belt before the drum turns [1]
-constexpr double turning = 6;                        // rad/s
+constexpr double radius = 0.09, tail = 0.05;          // m
+constexpr double stiffness = 40, belt_density = 0.2;  // N/m, kg/m^2
+constexpr double strain = 0.02;                       // of the belt before the drum turns [1]
+constexpr double turning = 6;                         // rad/s
 
 struct BeltTest {
   double mu, wrap;  // wrap [rad]
@@ -110,8 +110,8 @@ Vector3 on_way(double s, double wrap) {
 /// A belt of `cells` cells along, two across; its end rows are held, and a drum slides under it.
 Scene belt(const BeltTest& test, int cells) {
   const double way = radius * test.wrap + 2 * tail, rest = way / (1 + strain), cell = rest / cells;
-  Scene scene = scene_at_rest(
-      make_sheet({SheetPattern::alternating, rest, 2 * cell, cells, 2}), belt_density);
+  Scene scene = scene_at_rest(make_sheet({SheetPattern::alternating, rest, 2 * cell, cells, 2}),
+                              belt_density);
   for (Eigen::Index i = 0; i < scene.x.cols(); ++i) {
     const double y = scene.x(1, i);
     scene.x.col(i) = on_way(scene.x(0, i) * (1 + strain), test.wrap) + Vector3(0, y, 0);
@@ -209,11 +209,11 @@ Study friction_tests_study() {
   return {"friction-tests",
           "Cloth slips on an incline, slides down it, and drags on a drum as Coulomb's law says.",
           "Coulomb; Euler and Eytelwein for the belt; Romero et al. 2021 for such tests",
-          "A cloth lies on a plane whose slope is bisected until it slips, and slides down a steeper "
-          "one; the error bar is that of a ladder of steps. A belt is held at both ends and lies "
-          "about a drum that turns under it: at rest its ends are pulled in the ratio exp(mu beta), "
-          "beta the angle of wrap; the error bar is that of a ladder of meshes. Cloth meets objects "
-          "in its particles. D is Coulomb's law and has no uncertainty.",
+          "A cloth lies on a plane whose slope is bisected until it slips, and slides down a "
+          "steeper one; the error bar is that of a ladder of steps. A belt is held at both ends "
+          "and lies about a drum that turns under it: at rest its ends are pulled in the ratio "
+          "exp(mu beta), beta the angle of wrap; the error bar is that of a ladder of meshes. "
+          "Cloth meets objects in its particles. D is Coulomb's law and has no uncertainty.",
           run_friction_tests,
           "validation"};
 }

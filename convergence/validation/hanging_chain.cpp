@@ -19,16 +19,16 @@ namespace foldproof {
 namespace {
 
 constexpr double chain_resolution = 0.01;  // of each number [1]
-constexpr double length = 0.61;      // L [m]
-constexpr double density = 0.17;     // kg/m^2
-constexpr double g = 9.80665;        // m/s^2
+constexpr double length = 0.61;            // L [m]
+constexpr double density = 0.17;           // kg/m^2
+constexpr double g = 9.80665;              // m/s^2
 
-/// A strip of alternating squares along x, two cells wide, without bending, its springs stretched by
-/// a ten-thousandth of its length per weight.
+/// A strip of alternating squares along x, two cells wide, without bending, its springs stretched
+/// by a ten-thousandth of its length per weight.
 Scene limp_strip(int cells) {
   const double cell = length / cells;
-  Scene scene = scene_at_rest(
-      make_sheet({SheetPattern::alternating, length, 2 * cell, cells, 2}), density);
+  Scene scene =
+      scene_at_rest(make_sheet({SheetPattern::alternating, length, 2 * cell, cells, 2}), density);
   scene.stretch = StretchMaterial{1e4 * density * g * length, 0, 1};
   scene.gravity = Vector3(0, 0, -g);
   return scene;
@@ -220,9 +220,8 @@ std::vector<NamedFinding> frequencies_agree(const Subject& subject, Tier tier) {
     const oracles::Estimate should = oracles::chain_frequency_by_series(k + 1);
     const double scale = chain_resolution * should.value;
     Table table = no_comparisons("1");
-    add_comparison(table,
-                   compare_ladder("frequency over sqrt(g/L)", ladders[std::size_t(k)], should),
-                   scale);
+    add_comparison(
+        table, compare_ladder("frequency over sqrt(g/L)", ladders[std::size_t(k)], should), scale);
     findings.push_back(
         {fmt::format("hanging-chain.frequency-agrees.mode-{}", k + 1),
          fmt::format("A limp strip that hangs from one end swings in mode {} as often as a chain, "
@@ -257,17 +256,18 @@ StudyResult run_hanging_chain(const Subject& subject, Tier tier, const Progress&
 }  // namespace
 
 Study hanging_chain_study() {
-  return {"hanging-chain",
-          "A strip without bending hangs between two points as a catenary, and swings from one "
-          "point as a chain.",
-          "our test of springs and gravity: catenary, and Bernoulli's hanging chain",
-          "A strip two cells wide is held by its end rows and brought to rest by backward Euler. Its "
-          "springs give by a ten-thousandth of its length per weight. S is the sag, the pull on "
-          "a held row, or the frequency of rows that swing as one, at the finest of three meshes "
-          "(four in the full tier) of 16, 32, 64 cells along, twice as many for the frequencies; D is the catenary by hyperbolic "
-          "functions and half the roots of Bessel's J0, which checks hold against GSL.",
-          run_hanging_chain,
-          "validation"};
+  return {
+      "hanging-chain",
+      "A strip without bending hangs between two points as a catenary, and swings from one point "
+      "as a chain.",
+      "our test of springs and gravity: catenary, and Bernoulli's hanging chain",
+      "A strip two cells wide is held by its end rows and brought to rest by backward Euler. Its "
+      "springs give by a ten-thousandth of its length per weight. S is the sag, the pull on a held "
+      "row, or the frequency of rows that swing as one, at the finest of three meshes (four in the "
+      "full tier) of 16, 32, 64 cells along, twice as many for the frequencies; D is the catenary "
+      "by hyperbolic functions and half the roots of Bessel's J0, which checks hold against GSL.",
+      run_hanging_chain,
+      "validation"};
 }
 
 }  // namespace foldproof

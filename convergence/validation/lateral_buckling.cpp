@@ -35,17 +35,17 @@ struct Ribbon {
 
 Ribbon ribbon_of(int rows, int slenderness) {
   const int columns = int(std::lround(slenderness * width_of(rows) / edge)) + 1;
-  Ribbon ribbon{scene_at_rest(
-                    make_sheet({SheetPattern::equilateral, columns * edge, 0, columns, rows}),
+  Ribbon ribbon{
+      scene_at_rest(make_sheet({SheetPattern::equilateral, columns * edge, 0, columns, rows}),
                     density),
-                0};
+      0};
   Scene& scene = ribbon.scene;
   scene.bending = BendingMaterial{ke, 0, Weighting::rest, DampingFactor::edge, "sine"};
   scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
   scene.stretch = StretchMaterial{1e6 * ke / (edge * edge), 0, 1};
   scene.gravity = Vector3(0, -1, 0);
-  // even rows are held at 0 and 1 edge, odd ones at 0, 1/2 and 3/2: clamped halfway between the last
-  // two on average, three quarters of an edge from the end
+  // even rows are held at 0 and 1 edge, odd ones at 0, 1/2 and 3/2: clamped halfway between the
+  // last two on average, three quarters of an edge from the end
   for (int i = 0; i < scene.mesh.particles(); ++i)
     if (scene.mesh.rest(0, i) < 1.6 * edge)
       scene.prescribed.push_back({i, scene.mesh.rest.col(i), Motion{}});
@@ -107,10 +107,9 @@ Comparison compare_ribbons(const Subject& subject, int rows, Tier tier, StudyRes
     levels.row(ratio, ribbon.gamma);
     if (ratio == slenderness.back()) result.figures[0].curves.push_back(ribbon.mode);
   }
-  const oracles::Estimate should =
-      load_of(oracles::equilateral_ribbon(edge, rows), width_of(rows));
-  result.tables.push_back({fmt::format("{}-rows", rows),
-                           fmt::format("Ribbons of {} rows of triangles", rows), levels});
+  const oracles::Estimate should = load_of(oracles::equilateral_ribbon(edge, rows), width_of(rows));
+  result.tables.push_back(
+      {fmt::format("{}-rows", rows), fmt::format("Ribbons of {} rows of triangles", rows), levels});
   return compare_ladder("rho_A g L^3/D", loads, should);
 }
 
@@ -118,13 +117,14 @@ NamedFinding load_agrees(const Comparison& ribbons, int rows) {
   const double scale = resolution * ribbons.should.value;
   Table table = no_comparisons("1");
   add_comparison(table, ribbons, scale);
-  return {fmt::format("lateral-buckling.load-agrees.{}-rows", rows),
-          fmt::format("A ribbon of {} rows of equilateral triangles, on edge, tips under the weight "
-                      "that the theory of narrow ribbons gives for the mesh's own rigidities, "
-                      "within two percent.",
-                      rows),
-          judge_comparisons(std::move(table), scale, "two percent of the load",
-                            "S at the longest ribbon; D = ke/4")};
+  return {
+      fmt::format("lateral-buckling.load-agrees.{}-rows", rows),
+      fmt::format(
+          "A ribbon of {} rows of equilateral triangles, on edge, tips under the weight that the "
+          "theory of narrow ribbons gives for the mesh's own rigidities, within two percent.",
+          rows),
+      judge_comparisons(std::move(table), scale, "two percent of the load",
+                        "S at the longest ribbon; D = ke/4")};
 }
 
 NamedFinding isotropic_differs(const Comparison& widest) {
@@ -138,8 +138,8 @@ NamedFinding isotropic_differs(const Comparison& widest) {
           "A ribbon of equilateral hinges tips later than one of an isotropic sheet with the same "
           "rigidity D and Poisson's ratio 0.3, by more than two percent.",
           {{resolution / excess, 1, 0, "1",
-            "beyond the resolution, with the uncertainty taken off: the hinges' own Poisson ratio is "
-            "-1/3, which stiffens twist"},
+            "beyond the resolution, with the uncertainty taken off: the hinges' own Poisson ratio "
+            "is -1/3, which stiffens twist"},
            std::move(table),
            "a larger D cannot make up for it: bending and twist need different factors"}};
 }
@@ -188,11 +188,11 @@ Study lateral_buckling_study() {
           "A ribbon is clamped with its width upright. Forces along its normal give its stiffness "
           "against leaving the plane, at rest and under the tensions that its weight makes in the "
           "plane; the load is sought at which that stiffness vanishes. S is that of the longest of "
-          "three ribbons (four in the full tier), 40, 80, 160 times as long as wide; near the clamp "
-          "a ribbon cannot warp, which counts in inverse proportion to its length. D is the theory "
-          "of narrow ribbons, by a power series that a check holds against GSL, with bending and "
-          "twisting rigidity of just this ribbon of triangles from the definition of a hinge: with "
-          "two rows they are already those of an endless sheet.",
+          "three ribbons (four in the full tier), 40, 80, 160 times as long as wide; near the "
+          "clamp a ribbon cannot warp, which counts in inverse proportion to its length. D is the "
+          "theory of narrow ribbons, by a power series that a check holds against GSL, with "
+          "bending and twisting rigidity of just this ribbon of triangles from the definition of a "
+          "hinge: with two rows they are already those of an endless sheet.",
           run_lateral_buckling,
           "validation"};
 }

@@ -16,8 +16,8 @@ namespace {
 using Sparse = Eigen::SparseMatrix<double>;
 using Factors = Eigen::SimplicialLDLT<Sparse>;
 
-/// Particles in the order of x, those that are free numbered, and in colours: two of a colour are so
-/// far apart that none feels both.
+/// Particles in the order of x, those that are free numbered, and in colours: two of a colour are
+/// so far apart that none feels both.
 struct FlatParticles {
   const PerParticle3& rest;
   double reach;
@@ -155,8 +155,8 @@ Tipping tipping_of(const Subject& subject, const Scene& scene, double reach) {
   const Probe probe(subject, scene);
   const FlatParticles particles(scene, reach);
   const PerParticle3& rest = scene.mesh.rest;
-  // long ribbons bend in their plane a hundred million times as easily as they stretch: the shift is
-  // the one that loses least, of a rounding over it and its fourth power
+  // long ribbons bend in their plane a hundred million times as easily as they stretch: the shift
+  // is the one that loses least, of a rounding over it and its fourth power
   const PerParticle3 u = displacements_in_plane(probe, particles, 5e-4 * reach);
   const double t = 1e-5 / largest_strain(scene.mesh, u), shift = 1e-7 * reach;
   const auto across = [&](const PerParticle3& x) {
@@ -166,8 +166,7 @@ Tipping tipping_of(const Subject& subject, const Scene& scene, double reach) {
   const SmallestLoad found = smallest_load(across(rest), G);
   Tipping tipping{found.load, PerParticle::Zero(rest.cols()), found.change};
   for (Eigen::Index i = 0; i < rest.cols(); ++i)
-    if (particles.number[size_t(i)] >= 0)
-      tipping.mode[i] = found.mode[particles.number[size_t(i)]];
+    if (particles.number[size_t(i)] >= 0) tipping.mode[i] = found.mode[particles.number[size_t(i)]];
   return tipping;
 }
 

@@ -16,9 +16,9 @@ struct Tipping {
 /// prescribes particles. With K the stiffness along z, u the displacements in the plane under the
 /// load 1, and small t, the sheet leaves its plane at the load where
 ///   K(rest) + load (K(rest + t u) - K(rest - t u))/(2 t)
-/// first becomes singular. Stiffnesses are central differences of forces; many particles move at once.
-/// reach [m]: along x, no particle feels one farther away. A load and its opposite must tip the sheet
-/// alike, as they do if it is its own mirror image across its width.
+/// first becomes singular. Stiffnesses are central differences of forces; many particles move at
+/// once. reach [m]: along x, no particle feels one farther away. A load and its opposite must tip
+/// the sheet alike, as they do if it is its own mirror image across its width.
 Tipping tipping_of(const Subject& subject, const Scene& scene, double reach);
 
 }  // namespace foldproof

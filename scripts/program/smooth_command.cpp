@@ -53,8 +53,7 @@ SmoothedRun smooth_all(const Options& options) {
   const std::vector<Object> objects = build_objects(run.scene, provider_for(options.cache));
   const ClothSmoother smoother(run.scene.mesh, options.smooth_levels);
   Scene scene = run.scene;
-  scene.mesh =
-      make_triangle_mesh(smoother.flat.of(scene.mesh.rest), smoother.smooth.triangles);
+  scene.mesh = make_triangle_mesh(smoother.flat.of(scene.mesh.rest), smoother.smooth.triangles);
   scene.name += "_smooth";
   scene.title += ", smooth";
   scene.prescribed.clear();
@@ -75,8 +74,8 @@ SmoothedRun smooth_all(const Options& options) {
 }
 
 void print(const SmoothedRun& run, const std::string& folder) {
-  fmt::print("{:>10} {:>16} {:>16} {:>16} {:>14}\n", "time [s]", "crossings, run",
-             "Loop's surface", "smooth", "mean share");
+  fmt::print("{:>10} {:>16} {:>16} {:>16} {:>14}\n", "time [s]", "crossings, run", "Loop's surface",
+             "smooth", "mean share");
   for (const SmoothedFrame& frame : run.frames)
     fmt::print("{:>10.4g} {:>16} {:>16} {:>16} {:>14.4f}\n", frame.time, frame.in_run,
                frame.in_loops, frame.left, frame.mean_share);
@@ -104,8 +103,8 @@ int smooth_run(const Options& options) {
     fmt::print("{}\n", json_text(to_json(run, options.out)));
   else
     print(run, options.out);
-  const bool crosses = std::ranges::any_of(
-      run.frames, [](const SmoothedFrame& frame) { return frame.left > 0; });
+  const bool crosses =
+      std::ranges::any_of(run.frames, [](const SmoothedFrame& frame) { return frame.left > 0; });
   return crosses ? some_fail : all_hold;
 }
 

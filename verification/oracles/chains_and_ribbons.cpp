@@ -41,7 +41,7 @@ long double twist_by_series(long double Q) {
 long double bessel_by_series(long double u) {
   long double term = 1, sum = 1;
   for (int k = 1; k < 80; ++k) {
-    term *= -u * u / 4 / ((long double)(k) * k);
+    term *= -u * u / 4 / ((long double)(k)*k);
     sum += term;
   }
   return sum;
@@ -55,9 +55,8 @@ double last_value(const RightHandSide& rhs, const std::array<double, 2>& start, 
 /// The root of y(end; p) where y' at p is by GSL good to 1e-12 of slopes of size 1.
 Estimate root_of_shots(const std::function<double(double)>& shot, double lower, double upper) {
   Estimate root = bracketed_root(shot, lower, upper, 0);
-  const double change = 1e-4, slope =
-                                  (shot(root.value + change) - shot(root.value - change)) /
-                                  (2 * change);
+  const double change = 1e-4,
+               slope = (shot(root.value + change) - shot(root.value - change)) / (2 * change);
   root.uncertainty += 1e-11 / std::abs(slope);
   return root;
 }
@@ -84,8 +83,8 @@ struct Pulls {
 Pulls pulls_by_functions(const HungChain& chain) {
   // sqrt(1 - up^2) = 2 H sinh(across/(2 H)), with w = across/(2 H): sinh(w)/w
   const double ratio = std::sqrt(1 - chain.up * chain.up) / chain.across;
-  const Estimate w = bracketed_root(
-      [ratio](double at) { return std::sinh(at) / at - ratio; }, 1e-3, 12 + std::log(ratio), 0);
+  const Estimate w = bracketed_root([ratio](double at) { return std::sinh(at) / at - ratio; }, 1e-3,
+                                    12 + std::log(ratio), 0);
   const double H = chain.across / (2 * w.value);
   const double V = 0.5 - chain.up / 2 / std::tanh(w.value);
   return {H, V, 20 * (w.uncertainty + rounding) * (1 + H)};
@@ -134,8 +133,8 @@ Estimate chain_frequency_by_shooting(int n) {
   const std::array<double, 2> start{1 - from * from / 4 + std::pow(from, 4) / 64,
                                     -from / 2 + std::pow(from, 3) / 16};
   const double near = near_root_of_bessel(n);
-  const Estimate root = root_of_shots(
-      [&](double u) { return last_value(rhs, start, from, u); }, near - 1, near + 1);
+  const Estimate root =
+      root_of_shots([&](double u) { return last_value(rhs, start, from, u); }, near - 1, near + 1);
   return {root.value / 2, root.uncertainty / 2};
 }
 
@@ -147,9 +146,8 @@ Catenary catenary(const HungChain& chain, std::span<const double> arc_lengths) {
   shape.pull_up = {-at.V, at.uncertainty};
   shape.uncertainty = 10 * at.uncertainty;
   for (const double s : arc_lengths)
-    shape.points.push_back(
-        {at.H * (std::asinh((s - at.V) / at.H) + std::asinh(at.V / at.H)),
-         std::hypot(at.H, s - at.V) - std::hypot(at.H, at.V)});
+    shape.points.push_back({at.H * (std::asinh((s - at.V) / at.H) + std::asinh(at.V / at.H)),
+                            std::hypot(at.H, s - at.V) - std::hypot(at.H, at.V)});
   return shape;
 }
 

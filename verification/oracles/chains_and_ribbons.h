@@ -8,9 +8,9 @@
 
 namespace foldproof::oracles {
 
-/// A ribbon that is clamped at one end with its width upright, loaded by its weight, tips sideways at
-/// q L^3/sqrt(EI GJ) = this; EI is that of bending out of its plane, and q its weight per length. With
-/// t the distance from the free end over L and Q that load, its twist obeys
+/// A ribbon that is clamped at one end with its width upright, loaded by its weight, tips sideways
+/// at q L^3/sqrt(EI GJ) = this; EI is that of bending out of its plane, and q its weight per
+/// length. With t the distance from the free end over L and Q that load, its twist obeys
 ///   phi'' + (Q^2/4) t^4 phi = 0,   phi'(0) = 0,   phi(1) = 0,
 /// since the weight beyond t bends by q t^2/2 in the stiff plane. Narrow: no warping at the clamp.
 /// By the power series of phi in extended precision; by GSL's ODE solver.
@@ -18,8 +18,8 @@ Estimate tipping_load_by_series();
 Estimate tipping_load_by_shooting();
 
 /// The frequency of the n-th mode, n = 1..5, of a chain of length L hanging from one end, over
-/// sqrt(g/L): half the n-th root of Bessel's J0. By its power series in extended precision; by GSL's
-/// solution of Bessel's equation.
+/// sqrt(g/L): half the n-th root of Bessel's J0. By its power series in extended precision; by
+/// GSL's solution of Bessel's equation.
 Estimate chain_frequency_by_series(int n);
 Estimate chain_frequency_by_shooting(int n);
 
@@ -41,8 +41,8 @@ struct Catenary {
 /// By hyperbolic functions, with GSL's root for the parameter.
 Catenary catenary(const HungChain& chain, std::span<const double> arc_lengths);
 
-/// By integrating the balance of forces, x' = H/T, y' = (s - V)/T, T^2 = H^2 + (s - V)^2, with GSL's
-/// ODE solver; the pulls H and V by Newton's method. arc_lengths ascend.
+/// By integrating the balance of forces, x' = H/T, y' = (s - V)/T, T^2 = H^2 + (s - V)^2, with
+/// GSL's ODE solver; the pulls H and V by Newton's method. arc_lengths ascend.
 Catenary catenary_by_shooting(const HungChain& chain, std::span<const double> arc_lengths);
 
 }  // namespace foldproof::oracles

@@ -54,8 +54,7 @@ Eigen::VectorXd free_fold_at_nodes(const Collocation& nodes) {
     change.topLeftCorner(n + 1, n + 1) = second;
     change.topLeftCorner(n + 1, n + 1).diagonal() += l * l * push.cwiseProduct(sine);
     change.col(n + 1).head(n + 1) = -l * l * cosine;
-    change.col(n + 2).head(n + 1) =
-        -(2 * l * V - 3 * l * l * nodes.s.array()) * cosine.array();
+    change.col(n + 2).head(n + 1) = -(2 * l * V - 3 * l * l * nodes.s.array()) * cosine.array();
     // the ends: slopes in place of the equation there, then curvatures
     for (const Eigen::Index end : {Eigen::Index(0), n}) {
       change.row(end).setZero();

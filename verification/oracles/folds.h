@@ -30,10 +30,10 @@ Fold fold_on_floor(const HeavyStrip& strip, double least, double most, const Str
 /// A long strip that lies on a smooth floor, is folded back over itself, and lies on its own lower
 /// half, held by nothing. All lengths are in units of (B/(rho_A g))^(1/3).
 ///
-/// The lifted part obeys theta'' = (V - s) cos(theta) with V the floor's push where it lifts off; as
-/// the floor is smooth there is no force across. There and where it comes down theta' = 0, with the
-/// slopes 0 and pi. Then it comes down on the floor, since theta'^2/2 + (s - V) sin(theta) - y does
-/// not change along the strip.
+/// The lifted part obeys theta'' = (V - s) cos(theta) with V the floor's push where it lifts off;
+/// as the floor is smooth there is no force across. There and where it comes down theta' = 0, with
+/// the slopes 0 and pi. Then it comes down on the floor, since theta'^2/2 + (s - V) sin(theta) - y
+/// does not change along the strip.
 struct FreeFold {
   Estimate push;                   // V, over (B^2 rho_A g)^(1/3)
   Estimate lifted;                 // arc length

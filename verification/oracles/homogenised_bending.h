@@ -58,8 +58,9 @@ struct RibbonRigidity {
   double twisting;  // GJ over ke, of its whole width [m]
 };
 
-/// Of equilateral triangles with rows of edges along the ribbon, `rows` of triangles wide: a free edge
-/// has no hinge. The rows of vertices move out of the curved surface until the energy is least.
+/// Of equilateral triangles with rows of edges along the ribbon, `rows` of triangles wide: a
+/// free edge has no hinge. The rows of vertices move out of the curved surface until the
+/// energy is least.
 RibbonRigidity equilateral_ribbon(double edge, int rows);
 
 /// Least and greatest cylinder_rigidity over all directions, to 2e-6 of the greatest.

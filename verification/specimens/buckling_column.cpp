@@ -40,8 +40,8 @@ struct ColumnForces {
     force.col(j) -= spring[0] * n;
     energy += spring[2];
     const Eigen::Matrix2d along = n * n.transpose();
-    const Eigen::Matrix2d block =
-        spring[1] * along + std::max(spring[0], 0.0) / d.norm() * (Eigen::Matrix2d::Identity() - along);
+    const Eigen::Matrix2d block = spring[1] * along + std::max(spring[0], 0.0) / d.norm() *
+                                                          (Eigen::Matrix2d::Identity() - along);
     derivative.block<2, 2>(2 * i, 2 * i) -= block;
     derivative.block<2, 2>(2 * j, 2 * j) -= block;
     derivative.block<2, 2>(2 * i, 2 * j) += block;
@@ -55,8 +55,7 @@ ColumnForces forces_at(const Column& column, const Places& x) {
   for (int i = 0; i + 1 < n; ++i) {
     const double longer = (x.col(i + 1) - x.col(i)).norm() - column.spacing;
     if (longer > 0)
-      all.add(x, i, i + 1,
-              {column.pull * longer, column.pull, column.pull * longer * longer / 2});
+      all.add(x, i, i + 1, {column.pull * longer, column.pull, column.pull * longer * longer / 2});
   }
   for (int i = 0; i + 2 < n; ++i) {
     const double distance = (x.col(i + 2) - x.col(i)).norm();

@@ -11,18 +11,18 @@ namespace foldproof {
 //   A spring between particles two apart stands for a piece of cloth of length L that bends into an
 //   arc when they come nearer: with kappa its curvature and a = kappa L/2,
 //     |d| = L sin(a)/a,   energy = k_b L kappa^2/2,   force = k_b kappa^2/(cos(a) - sin(a)/a) < 0.
-//   At a = 0 that force is -12 k_b/L^2: a barrier. A straight line c_b (|d| - L) leads there instead:
+//   At a = 0 that force is -12 k_b/L^2: a barrier. A line c_b (|d| - L) leads there instead:
 //   the weaker of the two acts. There is no force beyond L.
 struct BucklingSpring {
   double length;   // L [m]
   double bending;  // k_b [N m^2]
   double slope;    // c_b [N/m]
 
-  double arc_force(double distance) const;      // [N], of the arc alone, distance < L
-  double arc_energy(double distance) const;     // [J]
-  double force(double distance) const;          // [N], negative: it pushes
-  double energy(double distance) const;         // [J], of force()
-  double stiffness(double distance) const;      // [N/m], its derivative
+  double arc_force(double distance) const;   // [N], of the arc alone, distance < L
+  double arc_energy(double distance) const;  // [J]
+  double force(double distance) const;       // [N], negative: it pushes
+  double energy(double distance) const;      // [J], of force()
+  double stiffness(double distance) const;   // [N/m], its derivative
 };
 
 /// Which implicit method takes the steps of a column, each with one linear solve in which the
@@ -33,9 +33,9 @@ enum class ColumnMethod { backward_euler, bdf2 };
 /// apart by buckling springs. The two at each end are held.
 struct Column {
   int particles = 17;
-  double spacing = 0.01;                             // m
-  double mass = 2e-5;                                // kg, of each particle
-  double pull = 1000;                                // N/m
+  double spacing = 0.01;  // m
+  double mass = 2e-5;     // kg, of each particle
+  double pull = 1000;     // N/m
   BucklingSpring spring{0.02, 1e-6, 100};
 
   /// Longest stable step of an explicit method, from the pulling springs alone [s].

@@ -21,12 +21,11 @@ class DenseCloth {
   /// Newmark's method with average acceleration (Grinspun et al. 2003: beta 1/4, gamma 1/2):
   ///   x' = x + h (v + v')/2,   v' = v + h (a + a')/2
   /// by Newton's method with the matrix of the last state that needed one, to rounding; undamped
-  /// cloth, and one h for all steps. Throws
-  /// std::runtime_error if it does not get there.
+  /// cloth, and one h for all steps. Throws std::runtime_error if it does not get there.
   State average_acceleration(const State& s, double h);
 
-  /// One linear solve with the forces linearised about s, the springs' derivative as given: needs
-  /// springs only.
+  /// One linear solve with the forces linearised about s, the springs' derivative as
+  /// given: needs springs only.
   ///   (M - h D - h^2 K) (w - v) = h (F + h K v),   x' = x + h w
   State one_solve(const State& s, double h, DampingDerivative part) const;
 

@@ -97,8 +97,8 @@ Table dropped_terms(const Subject& subject) {
     return swung(cloth, scene, h, until, part);
   };
   // two fine runs, extrapolated: backward Euler is of first order
-  const PerParticle3 exact = 2 * run(until / 960, DampingDerivative::whole) -
-                             run(until / 480, DampingDerivative::whole);
+  const PerParticle3 exact =
+      2 * run(until / 960, DampingDerivative::whole) - run(until / 480, DampingDerivative::whole);
   Table found{{"step", "s"},
               {"error, whole", "m"},
               {"error, without the term", "m"},
@@ -120,11 +120,11 @@ Finding term_has_no_effect(const Subject& subject) {
   double most = 0;
   for (const double ratio : found.numbers("one over the other"))
     update_worst(most, std::abs(ratio - 1));
-  return {{most, 0.2, 0, "1",
-           "a fifth of the error is what a step shorter by a fifth is worth; both are of first "
-           "order"},
-          std::move(found),
-          "root of the mean square, after 0.24 s of a falling, swinging sheet"};
+  return {
+      {most, 0.2, 0, "1",
+       "a fifth of the error is what a step shorter by a fifth is worth; both are of first order"},
+      std::move(found),
+      "root of the mean square, after 0.24 s of a falling, swinging sheet"};
 }
 
 }  // namespace

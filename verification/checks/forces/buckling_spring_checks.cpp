@@ -59,12 +59,12 @@ Table shortened_columns() {
               {"largest energy, of that at the stop", "1"},
               {"speed at the end", "m/s"}};
   const Column column;
-  for (const Trial& trial : {Trial{ColumnMethod::backward_euler, "backward Euler", 0.7},
-                             Trial{ColumnMethod::backward_euler, "backward Euler", 7},
-                             Trial{ColumnMethod::backward_euler, "backward Euler", 70},
-                             Trial{ColumnMethod::bdf2, "BDF2", 0.7},
-                             Trial{ColumnMethod::bdf2, "BDF2", 7},
-                             Trial{ColumnMethod::bdf2, "BDF2", 70}}) {
+  for (const Trial& trial :
+       {Trial{ColumnMethod::backward_euler, "backward Euler", 0.7},
+        Trial{ColumnMethod::backward_euler, "backward Euler", 7},
+        Trial{ColumnMethod::backward_euler, "backward Euler", 70},
+        Trial{ColumnMethod::bdf2, "BDF2", 0.7}, Trial{ColumnMethod::bdf2, "BDF2", 7},
+        Trial{ColumnMethod::bdf2, "BDF2", 70}}) {
     const double h = trial.step * column.elastic_limit();
     const int steps = std::clamp(int(0.15 / h), 300, 2500);
     const Shortening run = shorten(column, trial.method, h, steps);

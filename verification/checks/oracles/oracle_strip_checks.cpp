@@ -31,10 +31,10 @@ Table tipping_ribbons_agree() {
                                 wide = oracles::equilateral_ribbon(edge, 60);
   const Eigen::Matrix3d R = oracles::relaxed_rigidity(oracles::equilateral_triangles(edge));
   constexpr double off = 1e-10;  // sums of some ten thousand products, over a difference
-  compare(answers, "bending, ribbon and cell",
-          {(wide.bending - narrow.bending) / added, off}, {oracles::strip_rigidity(R, 0), off});
-  compare(answers, "twisting, ribbon and cell",
-          {(wide.twisting - narrow.twisting) / added, off}, {4 * R(2, 2), off});
+  compare(answers, "bending, ribbon and cell", {(wide.bending - narrow.bending) / added, off},
+          {oracles::strip_rigidity(R, 0), off});
+  compare(answers, "twisting, ribbon and cell", {(wide.twisting - narrow.twisting) / added, off},
+          {4 * R(2, 2), off});
   return answers;
 }
 
@@ -51,8 +51,8 @@ Table hung_chains_agree() {
     std::vector<std::pair<oracles::Estimate, oracles::Estimate>> pairs{
         {one.pull_across, other.pull_across}, {one.pull_up, other.pull_up}};
     for (std::size_t i = 0; i < s.size(); ++i) {
-      pairs.push_back({{one.points[i].across, one.uncertainty},
-                       {other.points[i].across, other.uncertainty}});
+      pairs.push_back(
+          {{one.points[i].across, one.uncertainty}, {other.points[i].across, other.uncertainty}});
       pairs.push_back(
           {{one.points[i].up, one.uncertainty}, {other.points[i].up, other.uncertainty}});
     }

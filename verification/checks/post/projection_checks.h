@@ -1,5 +1,5 @@
-// Checks of what is done to a run afterwards: the fold-preserving projection, smoothing. One function per file; the list of all is
-// verification/checks.cpp.
+// Checks of what is done to a run afterwards: the fold-preserving projection, smoothing. One
+// function per file; the list of all is verification/checks.cpp.
 #pragma once
 
 #include <vector>

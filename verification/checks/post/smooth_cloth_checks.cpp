@@ -13,8 +13,8 @@ namespace foldproof {
 
 namespace {
 
-/// Two ridges, one in the other; the upper one has cells twice as wide, so that Loop's rule rounds its
-/// ridge off further than the lower one's.
+/// Two ridges, one in the other; the upper one has cells twice as wide, so that Loop's rule rounds
+/// its ridge off further than the lower one's.
 struct NestedRidges {
   std::string words;
   TriangleMesh mesh;
@@ -48,9 +48,8 @@ long crossings(const PerParticle3& x, const std::vector<Triangle>& triangles) {
 }
 
 Finding never_crosses(const Subject&) {
-  Table found{{"ridges", ""},           {"levels", "1"},
-              {"Loop's crossings", "1"}, {"crossings", "1"},
-              {"rounds", "1"},          {"mean share of the way", "1"}};
+  Table found{{"ridges", ""},     {"levels", "1"}, {"Loop's crossings", "1"},
+              {"crossings", "1"}, {"rounds", "1"}, {"mean share of the way", "1"}};
   for (const NestedRidges& ridges : all_ridges())
     for (const int levels : {1, 2}) {
       const ClothSmoother smoother(ridges.mesh, levels);
@@ -115,17 +114,17 @@ Finding contacts_keep_creases(const Subject&) {
 
 std::vector<Check> smooth_cloth_checks() {
   const char* source = "Bridson, Fedkiw, Anderson 2002";
-  return {{"smoothing.never-makes-a-crossing",
-           "Two ridges that Loop's rule would push through each other are smoothed without a "
-           "crossing.",
-           source, never_crosses},
-          {"smoothing.is-loops-rule-where-nothing-is-near",
-           "Cloth that Loop's rule leaves without a crossing is smoothed by that rule, bit for bit.",
-           source, loop_where_free},
-          {"smoothing.contacts-keep-creases",
-           "Where layers touch, a smoothed cloth keeps folds that are sharper than those of Loop's "
-           "surface, by half at least.",
-           source, contacts_keep_creases}};
+  return {
+      {"smoothing.never-makes-a-crossing",
+       "Two ridges that Loop's rule would push through each other are smoothed without a crossing.",
+       source, never_crosses},
+      {"smoothing.is-loops-rule-where-nothing-is-near",
+       "Cloth that Loop's rule leaves without a crossing is smoothed by that rule, bit for bit.",
+       source, loop_where_free},
+      {"smoothing.contacts-keep-creases",
+       "Where layers touch, a smoothed cloth keeps folds that are sharper than those of Loop's "
+       "surface, by half at least.",
+       source, contacts_keep_creases}};
 }
 
 }  // namespace foldproof
