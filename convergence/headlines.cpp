@@ -100,7 +100,11 @@ const std::vector<Headline> headlines = {
     {"sticking-lag",
      {"lag-is-m-a-over-k", "lag-grows-with-the-step-in-C", "forecasts-damp-the-swing",
       "plain-spring-swings-forever", "limit-is-as-derived.C", "stiff-layers-are-stable"}},
-    {"price-by-scene", {"C-costs-at-most-twice-the-cheapest", "C-is-not-the-cheapest"}}};
+    {"price-by-scene", {"C-costs-at-most-twice-the-cheapest", "C-is-not-the-cheapest"}},
+    {"free-fold", {"height-agrees", "is-second-order", "floor-only-pushes"}},
+    {"lateral-buckling", {"load-agrees", "isotropic-sheet-differs"}},
+    {"hanging-chain", {"shape-agrees", "frequency-agrees"}},
+    {"friction-tests", {"threshold-agrees", "slide-agrees", "belt-agrees"}}};
 
 }  // namespace
 

@@ -63,7 +63,11 @@ std::vector<Study> all_studies() {
           heavy_cantilever_study(),
           strip_tests_study(),
           fold_tests_study(),
+          free_fold_study(),
           pressed_strip_study(),
+          lateral_buckling_study(),
+          hanging_chain_study(),
+          friction_tests_study(),
           fabric_strip_study()};
 }
 

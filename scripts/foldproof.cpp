@@ -46,6 +46,7 @@ int run(int argc, char** argv) {
   add_converge(app, options);
   add_precision(app, options);
   add_project(app, options);
+  add_smooth(app, options);
   add_judge(app, options);
   add_campaign(app, options);
   try {

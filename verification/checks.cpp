@@ -21,13 +21,13 @@ std::vector<Check> all_checks() {
         mesh_checks, mesh_rejection_checks,
         // forces
         spring_checks, force_checks, bending_checks, bending_mode_checks,
-        bending_alternative_checks, bending_angle_checks, bending_energy_checks,
-        bending_damping_checks, bending_shape_checks, differential_checks,
+        bending_alternative_checks, buckling_spring_checks, bending_angle_checks,
+        bending_energy_checks, bending_damping_checks, bending_shape_checks, differential_checks,
         force_differential_checks,
         // dynamics
         solver_checks, unsymmetric_solver_checks, cached_terms_checks, oscillator_checks,
         exact_motion_checks, momentum_checks, step_checks, symmetry_checks, run_checks,
-        resume_checks, event_checks, method_checks, energy_checks,
+        resume_checks, event_checks, method_checks, other_method_checks, energy_checks,
         // filters
         object_checks, response_checks, object_response_checks, pinch_checks, friction_checks,
         capstan_checks,
@@ -42,7 +42,7 @@ std::vector<Check> all_checks() {
         closed_mesh_checks, repair_checks, mesh_body_checks, content_checks,
         // post
         depth_map_checks, projection_checks, projection_exact_checks, projection_cloth_checks,
-        projection_mesh_checks,
+        projection_mesh_checks, smooth_cloth_checks,
         // level_set
         octree_checks, octree_union_checks, deforming_checks,
         // filters

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <stdexcept>
 
 #include "verification/oracles/dense_algebra.h"
 #include "verification/specimens/specimens.h"
@@ -47,16 +48,28 @@ Eigen::VectorXd generalised_forces(const RowStrip& strip, const Eigen::VectorXd&
   return generalised;
 }
 
-using oracles::EndHold;
-
-bool is_clamp(const RowStrip& strip) {
-  return strip.hold().last && strip.hold().last->hold == EndHold::clamped;
+/// The last panel is held in its middle.
+bool is_held_in_a_panel(const RowStrip& strip) {
+  return strip.hold().last && strip.hold().last->hold != RowHold::pinned;
 }
 
-/// How many numbers the hold of the last end prescribes: the last of slope, along, up.
-Eigen::Index held_numbers(const RowStrip& strip) {
-  if (!strip.hold().last) return 0;
-  return strip.hold().last->hold == EndHold::clamped ? 3 : 2;
+/// Of slope, along and up (0, 1, 2): which the hold of the last end prescribes, and along which of
+/// them it pushes.
+struct HeldNumbers {
+  std::vector<Eigen::Index> prescribed, pushed;
+};
+
+HeldNumbers held_numbers(const RowStrip& strip) {
+  if (!strip.hold().last) return {};
+  switch (strip.hold().last->hold) {
+    case RowHold::clamped:
+      return {{0, 1, 2}, {0, 1, 2}};
+    case RowHold::pinned:
+      return {{1, 2}, {1, 2}};
+    case RowHold::propped:
+      return {{0}, {2}};
+  }
+  throw std::logic_error("held_numbers: a hold without its numbers");
 }
 
 /// How the last panel's slope [rad] and its held place [m] change with slopes and strains: 3 x 2 n.
@@ -65,7 +78,7 @@ Eigen::Matrix3Xd motion_of_end(const RowStrip& strip, const Eigen::VectorXd& unk
   Eigen::Matrix3Xd motion = Eigen::Matrix3Xd::Zero(3, 2 * n);
   for (Eigen::Index k = 0; k < n; ++k) {
     // of the panel, before the held place
-    const double part = k + 1 < n || !is_clamp(strip) ? 1 : 0.5;
+    const double part = k + 1 < n || !is_held_in_a_panel(strip) ? 1 : 0.5;
     const Eigen::Vector2d along = part * strip.spacing() * direction(unknowns[k]);
     motion.col(k).tail(2) = unknowns[n + k] * Eigen::Vector2d(-along.y(), along.x());
     motion.col(n + k).tail(2) = along;
@@ -79,8 +92,9 @@ Eigen::Vector3d miss_of_end(const RowStrip& strip, const Eigen::VectorXd& unknow
   const Eigen::Index n = strip.panels();
   const Eigen::Matrix2Xd rows =
       strip.rows(unknowns.head(n), strip.spacing() * unknowns.segment(n, n));
-  const Eigen::Vector2d held =
-      is_clamp(strip) ? Eigen::Vector2d((rows.col(n) + rows.col(n + 1)) / 2) : rows.col(n + 1);
+  const Eigen::Vector2d held = is_held_in_a_panel(strip)
+                                   ? Eigen::Vector2d((rows.col(n) + rows.col(n + 1)) / 2)
+                                   : rows.col(n + 1);
   Eigen::Vector3d miss;
   miss << unknowns[n - 1] - strip.hold().last->slope,
       held - rows.col(1) / 2 - strip.hold().last->place;
@@ -91,11 +105,13 @@ Eigen::Vector3d miss_of_end(const RowStrip& strip, const Eigen::VectorXd& unknow
 /// included, and that panel's misses. The unknowns are slopes, strains, and what holds the end.
 Eigen::VectorXd imbalance(const RowStrip& strip, const Eigen::VectorXd& unknowns) {
   if (!strip.hold().last) return generalised_forces(strip, unknowns);
-  const Eigen::Index n = 2 * strip.panels(), held = held_numbers(strip);
+  const Eigen::Index n = 2 * strip.panels(), held = unknowns.size() - n;
+  const HeldNumbers numbers = held_numbers(strip);
   Eigen::VectorXd all(n + held);
   all << generalised_forces(strip, unknowns.head(n)) +
-             motion_of_end(strip, unknowns).bottomRows(held).transpose() * unknowns.tail(held),
-      miss_of_end(strip, unknowns).tail(held);
+             motion_of_end(strip, unknowns)(numbers.pushed, Eigen::all).transpose() *
+                 unknowns.tail(held),
+      miss_of_end(strip, unknowns)(numbers.prescribed);
   return all;
 }
 
@@ -109,9 +125,10 @@ Eigen::MatrixXd jacobian(const RowStrip& strip, const Eigen::VectorXd& unknowns)
     behind[k] -= change;
     matrix.col(k) = (imbalance(strip, ahead) - imbalance(strip, behind)) / (2 * change);
   }
-  const Eigen::Index held = held_numbers(strip);
+  const Eigen::Index held = unknowns.size() - n;
   if (held > 0)
-    matrix.topRightCorner(n, held) = motion_of_end(strip, unknowns).bottomRows(held).transpose();
+    matrix.topRightCorner(n, held) =
+        motion_of_end(strip, unknowns)(held_numbers(strip).pushed, Eigen::all).transpose();
   return matrix;
 }
 
@@ -131,7 +148,7 @@ RowStrip::RowStrip(const Subject& subject, const StripPattern& pattern, int pane
     : pattern_(pattern),
       panels_(panels),
       hold_(hold),
-      spacing_(strip_length / (is_clamp(*this) ? panels : panels + 0.5)),
+      spacing_(strip_length / (is_held_in_a_panel(*this) ? panels : panels + 0.5)),
       width_(cells_across * spacing_ / pattern.spacing_over_edge),
       load_(load),
       scene_(strip_scene(pattern, panels, spacing_, load)),
@@ -174,7 +191,8 @@ StripAtRest at_rest(const RowStrip& strip, StripAtRest start) {
   constexpr int most_steps = 40;
   constexpr double longest = 0.3;  // of one step [rad]: keeps the chain from folding on its way
   const Eigen::Index n = strip.panels();
-  Eigen::VectorXd unknowns = Eigen::VectorXd::Zero(2 * n + held_numbers(strip));
+  Eigen::VectorXd unknowns =
+      Eigen::VectorXd::Zero(2 * n + Eigen::Index(held_numbers(strip).pushed.size()));
   unknowns.head(2 * n) << start.slopes, start.lengths / strip.spacing();
   double before = std::numeric_limits<double>::infinity();
   for (int i = 0; i < most_steps; ++i) {
@@ -196,7 +214,11 @@ StripAtRest at_rest(const RowStrip& strip, StripAtRest start) {
   Worst strain;
   for (Eigen::Index k = 0; k < n; ++k) strain.observe(std::abs(unknowns[n + k] - 1));
   start.strain = strain.value();
-  if (strip.hold().last) start.hold_force = unknowns.tail(2);
+  if (!strip.hold().last) return start;
+  if (strip.hold().last->hold == RowHold::propped)
+    start.hold_force.y() = unknowns[2 * n];
+  else
+    start.hold_force = unknowns.tail(2);
   return start;
 }
 

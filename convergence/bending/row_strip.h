@@ -35,14 +35,18 @@ struct StripLoad {
   double stretch = 0;  // Y of the springs [N/m]; 0: none
 };
 
+/// How the last end is held: see StripHold.
+enum class RowHold { clamped, pinned, propped };
+
 /// How the strip is held: its first panel (rows 0 and 1) has a slope (upward positive [rad]); the
 /// last one is free; or clamped: it has a slope too, and its middle is at a place from the first
-/// one's middle [m]; or its last row is pinned to a place.
+/// one's middle [m]; or its last row is pinned to a place; or it is propped: pushed up in the
+/// middle, just as hard as gives it a slope.
 struct StripHold {
   struct End {
-    double slope;           // of a clamp
-    Eigen::Vector2d place;  // along and up
-    oracles::EndHold hold = oracles::EndHold::clamped;
+    double slope;           // of a clamp or a prop
+    Eigen::Vector2d place;  // along and up; of no account for a prop
+    RowHold hold = RowHold::clamped;
   };
   double slope = 0;
   std::optional<End> last;
@@ -50,7 +54,8 @@ struct StripHold {
 
 /// The hinges of a held row stand for the curvature from half a cell before to half a cell behind
 /// them, so that the strip is clamped in the middle of its held panels. There are `panels` more
-/// than the first; L is `panels` spacings between two clamps, else (panels + 1/2) spacings.
+/// than the first; L is `panels` spacings between two clamps, or a clamp and a prop, else
+/// (panels + 1/2) spacings.
 class RowStrip {
  public:
   RowStrip(const Subject& subject, const StripPattern& pattern, int panels, const StripLoad& load,

@@ -217,8 +217,7 @@ Study fold_tests_study() {
           "the floor until it lifts off without a moment. On a mesh whole panels lie flat; how "
           "many follows from the two conditions of contact. Thickness counts for nothing. D is the "
           "elastica by collocation, which a check holds against shooting. A free fold, whose upper "
-          "end is held by nothing, is not among them: without friction it may roll along the floor "
-          "at no cost, so that it has no place to come to rest.",
+          "end is held by nothing, has a study of its own (free-fold).",
           run_fold_tests,
           "validation"};
 }

@@ -21,9 +21,10 @@ RowStrip row_strip(const Subject& subject, const StripTest& test, int panels) {
   const double largest = (test.strip.gamma + clamp_force) * unit;
   StripHold hold{test.strip.first_slope, {}};
   if (test.strip.last)
-    hold.last = {test.strip.last->slope,
-                 strip_length * Eigen::Vector2d(test.strip.last->across, test.strip.last->up),
-                 test.strip.last->hold};
+    hold.last = {
+        test.strip.last->slope,
+        strip_length * Eigen::Vector2d(test.strip.last->across, test.strip.last->up),
+        test.strip.last->hold == oracles::EndHold::clamped ? RowHold::clamped : RowHold::pinned};
   return {subject, strip_patterns()[0], panels, {gravity, 0, largest / stretch_share}, hold};
 }
 

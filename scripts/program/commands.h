@@ -11,6 +11,7 @@ int ablate(const Options& options);         // ablate_command.cpp
 int converge(const Options& options);       // converge_command.cpp
 int precision(const Options& options);      // precision_command.cpp
 int project_run(const Options& options);    // project_command.cpp
+int smooth_run(const Options& options);     // smooth_command.cpp
 int inspect(const Options& options);        // inspect_command.cpp
 int run_checks(const Options& options);
 int run_studies(const Options& options);

@@ -34,6 +34,7 @@ struct Options {
   JobSettings running;              // of check, study and verify
   int cells = 64;                   // of inspect: along the longest side
   int subdivisions = 0;             // of project
+  int smooth_levels = 1;            // of smooth
   int levels = 4;                   // of converge: runs
   double hours = 0;                 // of converge: of the clock, for all runs; 0: no limit
   std::string frames, times;        // of compare, judge: a folder, a file of times

@@ -62,6 +62,37 @@ step = 0.001
         self.assertEqual(assert_rejected.returncode, 2)
         self.assertIn("0 <= eps < tau", assert_rejected.stderr)
 
+    def test_smooth_gives_a_stored_run_a_surface_without_crossings(self) -> None:
+        case = self.write("bumpy.toml", """
+[cloth]
+shape = "sheet"
+pattern = "jittered"
+width = 0.3
+height = 0.3
+columns = 6
+rows = 6
+jitter = 0.2
+density = 0.2
+[start]
+noise = 0.01
+[time]
+end = 0.001
+step = 0.001
+""")
+        self.assertEqual(self.simulate(case).returncode, 0)
+        done = run(
+            "smooth", str(self.path / "out/bumpy.h5"), "--levels", "2", "--out",
+            str(self.path / "out"), "--json"
+        )
+        self.assertEqual(done.returncode, 0, done.stderr)
+        frames = json.loads(done.stdout)["frames"]
+        self.assertEqual([frame["crossings"] for frame in frames], [0] * len(frames))
+        self.assertEqual({frame["mean_share"] for frame in frames}, {1.0})
+        with h5py.File(self.path / "out/bumpy.h5") as file:
+            coarse = len(file["mesh/triangles"])
+        with h5py.File(self.path / "out/bumpy_smooth.h5") as file:
+            self.assertEqual(len(file["mesh/triangles"]), 16 * coarse)
+
     def test_a_body_of_ones_own_is_kept_deformed_and_projected_beside_its_case(self) -> None:
         shutil.copy(ROOT / "cases/statue.obj", self.path / "body.obj")
         text = (ROOT / "cases/deforming_body.toml").read_text().replace("statue.obj", "body.obj")

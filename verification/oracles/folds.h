@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <span>
+#include <vector>
 
 #include "verification/oracles/elastica.h"
 #include "verification/oracles/estimate.h"
@@ -25,5 +26,25 @@ using StripSolver = std::function<StripShape(const HeavyStrip&, std::span<const 
 /// arc lengths at which that curvature has opposite signs (else InputError); the height is that of
 /// the parabola through the highest three of 2001 points. The strip's first slope must be 0.
 Fold fold_on_floor(const HeavyStrip& strip, double least, double most, const StripSolver& solver);
+
+/// A long strip that lies on a smooth floor, is folded back over itself, and lies on its own lower
+/// half, held by nothing. All lengths are in units of (B/(rho_A g))^(1/3).
+///
+/// The lifted part obeys theta'' = (V - s) cos(theta) with V the floor's push where it lifts off;
+/// as the floor is smooth there is no force across. There and where it comes down theta' = 0, with
+/// the slopes 0 and pi. Then it comes down on the floor, since theta'^2/2 + (s - V) sin(theta) - y
+/// does not change along the strip.
+struct FreeFold {
+  Estimate push;                   // V, over (B^2 rho_A g)^(1/3)
+  Estimate lifted;                 // arc length
+  Estimate height;                 // of the highest point
+  std::vector<StripPoint> points;  // 2001 at equal arc lengths
+};
+
+/// By collocation with V and the length as further unknowns: 48 nodes and 72, which must agree.
+FreeFold free_fold_by_collocation();
+
+/// By shooting from the lift-off with GSL's ODE solver; V and the length by Newton's method.
+FreeFold free_fold_by_shooting();
 
 }  // namespace foldproof::oracles

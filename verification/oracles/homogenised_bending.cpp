@@ -85,17 +85,21 @@ Eigen::Vector2d place(const PeriodicMesh& mesh, const PeriodicCorner& corner) {
          corner.along_b * mesh.period_b;
 }
 
-/// The quadratic form of a cell's energy per area in units of ke/2, in k and the
-/// displacements of its sites.
-Eigen::MatrixXd cell_energy(const PeriodicMesh& mesh) {
+/// Whether an edge may have one triangle: a free edge, which has no hinge.
+enum class Borders { none, free };
+
+/// The quadratic form of a cell's energy in units of ke/2, in k and the displacements of its sites.
+Eigen::MatrixXd whole_cell_energy(const PeriodicMesh& mesh, Borders borders) {
   const std::map<EdgeKey, Side> sides = sides_of(mesh);
   const Eigen::Index size = 3 + Eigen::Index(mesh.sites.size());
   Eigen::MatrixXd energy = Eigen::MatrixXd::Zero(size, size);
   for (const auto& [key, side] : sides) {
     const auto [from, to, along_a, along_b] = key;
     const EdgeKey back{to, from, -along_a, -along_b};
-    if (sides.count(back) == 0)
+    if (sides.count(back) == 0) {
+      if (borders == Borders::free) continue;
       throw InputError("oracle homogenised_bending: an edge has one triangle");
+    }
     if (back < key) continue;  // each hinge once
     const Side& other = sides.at(back);
     PeriodicCorner x2 = other.opposite;  // moved by whole periods to where the two edges meet
@@ -111,9 +115,14 @@ Eigen::MatrixXd cell_energy(const PeriodicMesh& mesh) {
     }
     energy += hinge.factor / 2 * theta * theta.transpose();
   }
+  return energy;
+}
+
+/// Per area.
+Eigen::MatrixXd cell_energy(const PeriodicMesh& mesh) {
   const double cell =
       std::abs(mesh.period_a.x() * mesh.period_b.y() - mesh.period_a.y() * mesh.period_b.x());
-  return energy / cell;
+  return whole_cell_energy(mesh, Borders::none) / cell;
 }
 
 // --- finite meshes ---
@@ -220,6 +229,30 @@ double cylinder_rigidity(const Eigen::Matrix3d& R, double angle) {
 double strip_rigidity(const Eigen::Matrix3d& R, double angle) {
   const Eigen::Vector3d along = curvature_along(angle);
   return 1 / along.dot(Eigen::Vector3d(solve_symmetric(R, along)));
+}
+
+RibbonRigidity equilateral_ribbon(double edge, int rows) {
+  if (rows < 2) throw InputError("oracle homogenised_bending: a ribbon needs two rows");
+  const double height = edge * std::numbers::sqrt3 / 2;
+  // never reached: as far away as keeps the ribbon's edges free
+  PeriodicMesh mesh{Eigen::Vector2d(edge, 0), Eigen::Vector2d(0, 2 * rows * height), {}, {}};
+  for (int j = 0; j <= rows; ++j) mesh.sites.emplace_back(j % 2 == 0 ? 0 : edge / 2, j * height);
+  for (int j = 0; j < rows; ++j) {
+    // an odd row lies half an edge ahead of an even one
+    const int ahead = j % 2 == 0 ? 0 : 1;
+    const PeriodicCorner low{j, 0, 0}, next{j, 1, 0}, high{j + 1, ahead, 0},
+        before{j + 1, ahead - 1, 0};
+    mesh.triangles.push_back({low, next, high});
+    mesh.triangles.push_back({low, high, before});
+  }
+  const Eigen::MatrixXd energy = whole_cell_energy(mesh, Borders::free) / edge;
+  // rows 0 and 1 stay: a shift and a tilt change nothing; curvature across is one of the others'
+  const Eigen::Index others = rows - 1;
+  const Eigen::MatrixXd mixed = energy.bottomLeftCorner(others, 3);
+  const Eigen::Matrix3d R =
+      energy.topLeftCorner<3, 3>() -
+      mixed.transpose() * solve_symmetric(energy.bottomRightCorner(others, others), mixed);
+  return {R(0, 0), 4 * R(2, 2)};  // k has twice the twist
 }
 
 RigidityRange cylinder_range(const Eigen::Matrix3d& R) {

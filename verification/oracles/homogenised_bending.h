@@ -52,6 +52,17 @@ double cylinder_rigidity(const Eigen::Matrix3d& R, double angle);
 /// B/ke of a narrow strip along that direction, whose long edges are free to curve [1].
 double strip_rigidity(const Eigen::Matrix3d& R, double angle);
 
+/// A ribbon: periodic along a, with two free edges.
+struct RibbonRigidity {
+  double bending;   // EI over ke, of its whole width, which is free to curve [m]
+  double twisting;  // GJ over ke, of its whole width [m]
+};
+
+/// Of equilateral triangles with rows of edges along the ribbon, `rows` of triangles wide: a
+/// free edge has no hinge. The rows of vertices move out of the curved surface until the
+/// energy is least.
+RibbonRigidity equilateral_ribbon(double edge, int rows);
+
 /// Least and greatest cylinder_rigidity over all directions, to 2e-6 of the greatest.
 struct RigidityRange {
   double least, greatest;

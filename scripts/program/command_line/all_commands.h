@@ -14,6 +14,7 @@ void add_ablate(CLI::App& app, Options& options);
 void add_converge(CLI::App& app, Options& options);
 void add_precision(CLI::App& app, Options& options);
 void add_project(CLI::App& app, Options& options);
+void add_smooth(CLI::App& app, Options& options);
 void add_judge(CLI::App& app, Options& options);
 void add_campaign(CLI::App& app, Options& options);
 

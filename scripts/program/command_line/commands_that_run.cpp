@@ -233,4 +233,20 @@ void add_project(CLI::App& app, Options& options) {
   add_json(project, options);
 }
 
+void add_smooth(CLI::App& app, Options& options) {
+  CLI::App* smooth = add_command(
+      app, options,
+      {"smooth", "Give the cloth of a stored run a smooth surface; writes NAME_smooth.h5",
+       help::smooth},
+      smooth_run);
+  add_input(smooth, "RUN.h5", options.file, "Run stored by `foldproof simulate`");
+  smooth->add_option("--levels", options.smooth_levels, "Levels of subdivision, 1 to 4")
+      ->type_name("N")
+      ->check(whole_number(1, 4))
+      ->capture_default_str();
+  add_cache(smooth, options);
+  add_folder(smooth, options, "Folder for the smooth run")->capture_default_str();
+  add_json(smooth, options);
+}
+
 }  // namespace foldproof

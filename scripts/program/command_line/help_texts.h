@@ -434,6 +434,21 @@ Exit codes:
   0    compared; the distance does not matter
   2    bad input; a frame cannot be read, or none lies in the run's time)";
 
+constexpr const char* smooth =
+    R"(Subdivides the cloth of every frame by Loop's rule, each triangle into four a level. Where the
+smooth surface would cross itself, points stop on the way there from the cloth's own triangles.
+Prints, for each frame, how many pairs of an edge and a triangle cross in the run, on Loop's surface
+and on the smooth one (decided exactly), and how far points came on average. A cloth that crosses
+itself stays crossed.
+
+Examples:
+  foldproof smooth results/grab.h5 --levels 2
+
+Exit codes:
+  0    no frame crosses itself
+  1    a frame of the smooth surface crosses itself, as the run's does
+  2    bad input, or a file that cannot be written)";
+
 constexpr const char* project =
     R"(Prints how many points moved. For the last frame it also prints how much of the wrinkles is left
 before projection, after plain projection, and after the map: the standard deviation of the depths

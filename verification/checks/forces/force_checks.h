@@ -13,6 +13,7 @@ std::vector<Check> force_checks();
 std::vector<Check> spring_checks();               // springs
 std::vector<Check> bending_checks();              // forces, momentum (BMF03 section 4)
 std::vector<Check> bending_mode_checks();         // the twelve motions of a hinge
+std::vector<Check> buckling_spring_checks();      // Choi and Ko's
 std::vector<Check> bending_alternative_checks();  // other models than the paper's
 std::vector<Check> bending_angle_checks();        // the angle's sine, extreme and lost shapes
 std::vector<Check> bending_energy_checks();       // energies and work around closed paths

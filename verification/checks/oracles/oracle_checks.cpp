@@ -91,6 +91,17 @@ constexpr Comparison comparisons[] = {
      "The oracle's rigidities of a periodic cell are those of a patch of hinges, and of the same "
      "mesh turned by 45 degrees.",
      rigidities_agree},
+    {"oracle.free-folds-agree",
+     "The oracle's free fold by shooting from its lift-off is that by collocation between clamps.",
+     free_folds_agree},
+    {"oracle.tipping-ribbons-agree",
+     "The oracle's load under which a ribbon on edge tips over is the same by power series and by "
+     "GSL, and ribbons of more rows gain the rigidity of a periodic cell.",
+     tipping_ribbons_agree},
+    {"oracle.hung-chains-agree",
+     "The oracle's hanging chains are the same by functions, by power series and by GSL: shapes, "
+     "pulls and frequencies.",
+     hung_chains_agree},
     {"oracle.depth-maps-agree",
      "The oracle's depth maps in closed form are solutions of the differential equations that "
      "define them.",

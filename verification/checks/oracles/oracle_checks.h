@@ -29,11 +29,14 @@ Table runge_kutta_limits_agree();
 Table forecasts_agree();
 Table limited_springs_agree();
 
-// oracle_static_checks.cpp
+// oracle_static_checks.cpp, oracle_strip_checks.cpp
 Table heavy_cantilevers_agree();
 Table loaded_tips_agree();
 Table bent_strips_agree();
 Table rigidities_agree();
+Table free_folds_agree();
+Table tipping_ribbons_agree();
+Table hung_chains_agree();
 Table depth_maps_agree();
 Table dense_algebra_agrees();
 

@@ -1,5 +1,5 @@
-// Checks of the fold-preserving projection. One function per file; the list of all is
-// verification/checks.cpp.
+// Checks of what is done to a run afterwards: the fold-preserving projection, smoothing. One
+// function per file; the list of all is verification/checks.cpp.
 #pragma once
 
 #include <vector>
@@ -13,5 +13,6 @@ std::vector<Check> depth_map_checks();         // maps of depth
 std::vector<Check> projection_exact_checks();  // triangles against objects, without rounding
 std::vector<Check> projection_cloth_checks();  // pinched and subdivided cloth
 std::vector<Check> projection_mesh_checks();   // out of a triangle mesh
+std::vector<Check> smooth_cloth_checks();      // smooth surfaces without crossings
 
 }  // namespace foldproof

@@ -1,0 +1,200 @@
+// lateral-buckling: a ribbon on edge, clamped at one end, tips sideways under its own weight.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "convergence/validation/comparison.h"
+#include "convergence/validation/plane_stiffness.h"
+#include "convergence/validation/studies.h"
+#include "reference/mesh/shapes.h"
+#include "verification/oracles/chains_and_ribbons.h"
+#include "verification/oracles/homogenised_bending.h"
+
+namespace foldproof {
+
+namespace {
+
+constexpr double resolution = 0.02;  // of the load [1]
+constexpr double edge = 0.013;       // m
+constexpr double ke = 0.0017;        // J
+constexpr double density = 0.23;     // kg/m^2
+
+// an isotropic sheet's Poisson ratio in the benchmark of Romero et al. 2021
+constexpr double isotropic_poisson = 0.3;
+
+double width_of(int rows) { return rows * edge * std::numbers::sqrt3 / 2; }
+
+/// Equilateral triangles with rows of edges along x, on edge: gravity along its width.
+struct Ribbon {
+  Scene scene;
+  double length;  // from the clamp [m]
+};
+
+Ribbon ribbon_of(int rows, int slenderness) {
+  const int columns = int(std::lround(slenderness * width_of(rows) / edge)) + 1;
+  Ribbon ribbon{
+      scene_at_rest(make_sheet({SheetPattern::equilateral, columns * edge, 0, columns, rows}),
+                    density),
+      0};
+  Scene& scene = ribbon.scene;
+  scene.bending = BendingMaterial{ke, 0, Weighting::rest, DampingFactor::edge, "sine"};
+  scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
+  scene.stretch = StretchMaterial{1e6 * ke / (edge * edge), 0, 1};
+  scene.gravity = Vector3(0, -1, 0);
+  // even rows are held at 0 and 1 edge, odd ones at 0, 1/2 and 3/2: clamped halfway between the
+  // last two on average, three quarters of an edge from the end
+  for (int i = 0; i < scene.mesh.particles(); ++i)
+    if (scene.mesh.rest(0, i) < 1.6 * edge)
+      scene.prescribed.push_back({i, scene.mesh.rest.col(i), Motion{}});
+  ribbon.length = (columns - 0.75) * edge;
+  return ribbon;
+}
+
+/// A ribbon that tips, with its load as rho_A g L^3/(ke/4).
+struct TippedRibbon {
+  double gamma, unfinished;
+  Curve mode;  // twist over the distance from the clamp
+};
+
+TippedRibbon tipped(const Subject& subject, int rows, int slenderness) {
+  const Ribbon ribbon = ribbon_of(rows, slenderness);
+  const Tipping tipping = tipping_of(subject, ribbon.scene, 2 * edge);
+  TippedRibbon result{density * tipping.load * std::pow(ribbon.length, 3) / (ke / 4),
+                      tipping.unfinished,
+                      {fmt::format("simulated, {} rows", rows), {}, {}, nan, {}}};
+  // twist: the difference of the upper and the lower border, which are alike where rows is even
+  const PerParticle3& rest = ribbon.scene.mesh.rest;
+  const double top = width_of(rows), clamp = 0.75 * edge;
+  std::vector<std::array<double, 2>> upper, lower;
+  for (Eigen::Index i = 0; i < rest.cols(); ++i) {
+    const double across = rest(1, i);
+    if (across < 0.1 * edge) lower.push_back({rest(0, i), tipping.mode[i]});
+    if (across > top - 0.1 * edge) upper.push_back({rest(0, i), tipping.mode[i]});
+  }
+  const std::size_t stride = std::max<std::size_t>(upper.size() / 40, 1);
+  const double tip = upper.back()[1] - lower.back()[1];
+  for (std::size_t k = 0; k < upper.size(); k += stride)
+    result.mode.point((upper[k][0] - clamp) / ribbon.length, (upper[k][1] - lower[k][1]) / tip);
+  return result;
+}
+
+/// rho_A g L^3/(ke/4) at which a ribbon of these rigidities (over ke [m]) tips.
+oracles::Estimate load_of(const oracles::RibbonRigidity& rigidity, double width) {
+  const oracles::Estimate q = oracles::tipping_load_by_series();
+  const double factor = 4 * std::sqrt(rigidity.bending * rigidity.twisting) / width;
+  return {factor * q.value, factor * (q.uncertainty + 1e-12 * q.value)};
+}
+
+/// Of an isotropic sheet whose rigidity D is ke/4.
+double isotropic_load(double poisson) {
+  return load_of({(1 - poisson * poisson) / 4, (1 - poisson) / 2}, 1).value;
+}
+
+/// Ribbons of so many rows, longer and longer.
+Comparison compare_ribbons(const Subject& subject, int rows, Tier tier, StudyResult& result) {
+  std::vector<int> slenderness{40, 80, 160};
+  if (tier == Tier::full) slenderness.push_back(320);
+  Ladder loads;
+  loads.formal_order = 1;  // at the clamp the ribbon cannot warp, over a length like its width
+  Table levels{{"length over width", "1"}, {"rho_A g L^3/D", "1"}};
+  for (const int ratio : slenderness) {
+    const TippedRibbon ribbon = tipped(subject, rows, ratio);
+    loads.values.push_back(ribbon.gamma);
+    update_worst(loads.floor, ribbon.unfinished * ribbon.gamma);
+    levels.row(ratio, ribbon.gamma);
+    if (ratio == slenderness.back()) result.figures[0].curves.push_back(ribbon.mode);
+  }
+  const oracles::Estimate should = load_of(oracles::equilateral_ribbon(edge, rows), width_of(rows));
+  result.tables.push_back(
+      {fmt::format("{}-rows", rows), fmt::format("Ribbons of {} rows of triangles", rows), levels});
+  return compare_ladder("rho_A g L^3/D", loads, should);
+}
+
+NamedFinding load_agrees(const Comparison& ribbons, int rows) {
+  const double scale = resolution * ribbons.should.value;
+  Table table = no_comparisons("1");
+  add_comparison(table, ribbons, scale);
+  return {
+      fmt::format("lateral-buckling.load-agrees.{}-rows", rows),
+      fmt::format(
+          "A ribbon of {} rows of equilateral triangles, on edge, tips under the weight that the "
+          "theory of narrow ribbons gives for the mesh's own rigidities, within two percent.",
+          rows),
+      judge_comparisons(std::move(table), scale, "two percent of the load",
+                        "S at the longest ribbon; D = ke/4")};
+}
+
+NamedFinding isotropic_differs(const Comparison& widest) {
+  const double isotropic = isotropic_load(isotropic_poisson);
+  const double excess = (widest.simulated - combined_uncertainty(widest)) / isotropic - 1;
+  Table table = no_comparisons("1");
+  add_comparison(
+      table, {"rho_A g L^3/D", widest.simulated, widest.numerical, {isotropic, 1e-11 * isotropic}},
+      resolution * isotropic);
+  return {"lateral-buckling.isotropic-sheet-differs",
+          "A ribbon of equilateral hinges tips later than one of an isotropic sheet with the same "
+          "rigidity D and Poisson's ratio 0.3, by more than two percent.",
+          {{resolution / excess, 1, 0, "1",
+            "beyond the resolution, with the uncertainty taken off: the hinges' own Poisson ratio "
+            "is -1/3, which stiffens twist"},
+           std::move(table),
+           "a larger D cannot make up for it: bending and twist need different factors"}};
+}
+
+Figure mode_figure() {
+  Figure figure{"modes",
+                "How a ribbon on edge tips over",
+                {"distance from the clamp over L", "1", Scale::linear},
+                {"twist over the free end's", "1", Scale::linear},
+                nan,
+                "The mode of the longest ribbons beside the theory's, a power series.",
+                {}};
+  Curve exact{"narrow ribbon", {}, {}, nan, {}};
+  const double Q = oracles::tipping_load_by_series().value;
+  for (int i = 0; i <= 100; ++i) {
+    double term = 1, sum = 1;
+    for (int k = 0; k < 20; ++k) {
+      term *= -Q * Q / 4 * std::pow(1 - i / 100.0, 6) / ((6 * k + 6) * (6 * k + 5));
+      sum += term;
+    }
+    exact.point(i / 100.0, sum);
+  }
+  figure.curves.push_back(exact);
+  return figure;
+}
+
+StudyResult run_lateral_buckling(const Subject& subject, Tier tier, const Progress& progress) {
+  StudyResult result;
+  result.figures.push_back(mode_figure());
+  for (const int rows : {2, 4}) {
+    const Comparison ribbons = compare_ribbons(subject, rows, tier, result);
+    result.findings.push_back(load_agrees(ribbons, rows));
+    if (rows == 4) result.findings.push_back(isotropic_differs(ribbons));
+    progress(rows / 4.0);
+  }
+  return result;
+}
+
+}  // namespace
+
+Study lateral_buckling_study() {
+  return {"lateral-buckling",
+          "A ribbon on edge tips under its weight when the theory of narrow ribbons says so, with "
+          "the bending and twisting rigidities of its mesh; an isotropic sheet tips earlier.",
+          "Romero et al. 2021 for the test; Timoshenko for the load",
+          "A ribbon is clamped with its width upright. Forces along its normal give its stiffness "
+          "against leaving the plane, at rest and under the tensions that its weight makes in the "
+          "plane; the load is sought at which that stiffness vanishes. S is that of the longest of "
+          "three ribbons (four in the full tier), 40, 80, 160 times as long as wide; near the "
+          "clamp a ribbon cannot warp, which counts in inverse proportion to its length. D is the "
+          "theory of narrow ribbons, by a power series that a check holds against GSL, with "
+          "bending and twisting rigidity of just this ribbon of triangles from the definition of a "
+          "hinge: with two rows they are already those of an endless sheet.",
+          run_lateral_buckling,
+          "validation"};
+}
+
+}  // namespace foldproof
