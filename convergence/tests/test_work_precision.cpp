@@ -46,6 +46,16 @@ TEST_CASE("methods nearer in cost than two tried steps are alike", "[work-precis
   CHECK(won.texts("alike").front().empty());
 }
 
+TEST_CASE("the next best method is the cheapest of those that are not alike", "[work-precision]") {
+  const PrecisionScene scene =
+      scene_of({costing("C", 400), costing("RK4", 300), costing("B", 105), costing("A", 100)});
+  const Table table = cheapest_of(scene);
+  CHECK(table.texts("cheapest method").front() == "A");
+  CHECK(table.texts("alike").front() == "B");
+  CHECK(table.texts("next best").front() == "RK4");
+  CHECK(table.numbers("it costs this many times as much").front() == Approx(3));
+}
+
 TEST_CASE("a step lasts whose energy is at most twice that of half the step", "[work-precision]") {
   const double none = std::nan("");
   const auto is_stable = [](const LongerEnergy& with_step, const LongerEnergy& with_half) {

@@ -98,7 +98,9 @@ struct Currency {
 const std::array<Currency, 2> currencies = {
     {{"work", &Price::applications}, {"seconds", &Price::seconds}}};
 
-/// The two cheapest methods of a scene at a wanted error, and scheme C.
+/// The cheapest method of a scene at a wanted error; the next one, which is the cheapest of
+/// those that are not alike (they cost more than it does times the ratio of two steps that were
+/// tried); and scheme C.
 struct Podium {
   std::string first = "none", second = "none";
   Price best{LimitedBy::not_reached, nan, nan, nan, nan}, next = best, scheme_C = best;

@@ -107,9 +107,9 @@ Table cheapest(const std::vector<PrecisionScene>& scenes) {
                   at.next.*currency.cost / best.*currency.cost, alike(scene, wanted, currency, at));
       }
   return {"cheapest",
-          "The cheapest method for a wanted position error, by counted work and by seconds; "
-          "methods are alike if their costs differ by less than the ratio of two neighbouring "
-          "steps that were tried",
+          "The cheapest method for a wanted position error, by counted work and by seconds; alike "
+          "are those that cost more by less than the ratio of two steps that were tried; the next "
+          "best is the cheapest of the others",
           table};
 }
 
@@ -234,19 +234,19 @@ Podium podium(const PrecisionScene& scene, double wanted, const Currency& curren
   Podium podium;
   for (const PrecisionCurve& curve : scene.curves) {
     const Price price = price_at(curve, scene.problem.end, wanted);
-    const std::string name(curve.integrator.name);
-    if (name == "C") podium.scheme_C = price;
+    if (curve.integrator.name == "C") podium.scheme_C = price;
     const double cost = price.*currency.cost;
-    if (std::isnan(cost)) continue;
-    if (!(cost >= podium.best.*currency.cost)) {
-      podium.next = podium.best;
-      podium.second = podium.first;
-      podium.best = price;
-      podium.first = name;
-    } else if (!(cost >= podium.next.*currency.cost)) {
-      podium.next = price;
-      podium.second = name;
-    }
+    if (std::isnan(cost) || cost >= podium.best.*currency.cost) continue;
+    podium.best = price;
+    podium.first = curve.integrator.name;
+  }
+  const double alike = scene.problem.ratio * (podium.best.*currency.cost);
+  for (const PrecisionCurve& curve : scene.curves) {
+    const Price price = price_at(curve, scene.problem.end, wanted);
+    const double cost = price.*currency.cost;
+    if (!(cost > alike) || cost >= podium.next.*currency.cost) continue;
+    podium.next = price;
+    podium.second = curve.integrator.name;
   }
   return podium;
 }
