@@ -1,4 +1,4 @@
-#!/usr/bin/python3
+#!/ usr / bin / python3
 """Tests of `foldproof judge` and `foldproof subject --check` as an adapter's author meets them, and
 of the protocol's page: its transcript and all that the program really sends
 are what the schema describes."""
@@ -26,9 +26,8 @@ PYTHON = "exec /usr/bin/python3"
 TOY = f"{PYTHON} '{SUBJECTS}/adapters/toy_solver.py'"
 SCHEMA = json.loads((SUBJECTS / "protocol.schema.json").read_text(encoding="utf-8"))
 BYTES = {"f8": 8, "f4": 4, "i4": 4}
-
-# An adapter that writes down every header that comes or goes, and states its settings as its
-# mapping.
+#An adapter that writes down every header that comes or goes, and states its settings as its
+#mapping.
 LOGGING = """
 import json, sys
 sys.path.insert(0, {adapters!r})
@@ -47,7 +46,9 @@ class Logging(Pipe):
 
 class Stating(ToySolver):
     def prepare(self, scene):
-        return {{**super().prepare(scene), **scene.header["scene"]["settings"]}}
+        return {
+  { **super().prepare(scene), **scene.header["scene"]["settings"] }
+}
 
 log = open({log!r}, "a")
 inner = open_pipe()
@@ -164,8 +165,7 @@ class Judge(unittest.TestCase):
         self.assertEqual(done.returncode, 1)
         self.assertIn(
             (
-                "crashed with signal 11 (Segmentation fault) (during 'advance'); its last words: "
-                "about to touch address 0"
+                "crashed with signal 11 (Segmentation fault) (during 'advance'); its last words: about to touch address 0"
             ),
             done.stdout,
         )
@@ -238,12 +238,12 @@ class Judge(unittest.TestCase):
         wrong = bad("wrong", "gravity_scaled")
         done = run("judge", "--solver", wrong, "--baseline", kept, "--json")
         self.assertEqual(done.returncode, 1)
-        self.assertEqual(len(json.loads(done.stdout)["findings"]), 23)
+        self.assertEqual(len(json.loads(done.stdout)["findings"]), 32)
         self.assertRegex(done.stderr, r"worse: gravity.speed-grows-by-g-t: fails, measured/bound")
         self.assertTrue(done.stderr.endswith("against the baseline: 3 worse, 0 better\n"))
         done = run("judge", "--solver", "/nowhere/solver", "--baseline", kept)
         self.assertEqual(done.returncode, 1)
-        self.assertTrue(done.stdout.endswith("against the baseline: 23 worse, 0 better\n"))
+        self.assertTrue(done.stdout.endswith("against the baseline: 32 worse, 0 better\n"))
 
     def test_the_job_of_the_page_judges_against_its_baseline(self) -> None:
         """The commands of CI.md, in a repository as it describes."""
@@ -319,7 +319,7 @@ class Judge(unittest.TestCase):
 
     def test_the_transcript_is_what_the_schema_describes(self) -> None:
         rows = transcript()
-        self.assertEqual([side for side, _ in rows], [">", "<"] * (len(rows) // 2))
+        self.assertEqual([side for side, _ in rows], [">", "<"] * (len(rows)  // 2))
         for side, header in rows:
             validator("request" if side == ">" else "answer").validate(header)
         validator("declaration").validate(rows[1][1])
@@ -349,7 +349,7 @@ class Judge(unittest.TestCase):
         os.close(read_requests), os.close(write_answers)
         with os.fdopen(write_requests, "wb") as requests, os.fdopen(read_answers, "rb") as answers:
             for side, header in transcript():
-                # arrays of zeros: the headers of the answers are those of any numbers
+#arrays of zeros : the headers of the answers are those of any numbers
                 if side == ">":
                     requests.write(json.dumps(header).encode() + b"\n" + bytes(bytes_due(header)))
                     requests.flush()
