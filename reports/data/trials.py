@@ -1,7 +1,5 @@
-""
-    "Trials of other solvers: folders that `foldproof judge --out` wrote. Outcomes are the words that
-    the program stored;
-nothing is judged here."""
+"""Trials of other solvers: folders that `foldproof judge --out` wrote. Outcomes are the words that
+the program stored; nothing is judged here."""
 from __future__ import annotations
 
 import json
@@ -83,17 +81,14 @@ def _facts(path: Path) -> dict[str, Any]:
     texts = ("version", "level", "precision", "scheme", "command")
     with reading(path):
         return {
-  ** {
-  key: str(facts[key]) for key in texts
-  }
-  , ** {
-  key: dict(facts[key]) for key in ("settings", "mapping")
-  },
+            **{key: str(facts[key]) for key in texts},
+            **{key: dict(facts[key]) for key in ("settings", "mapping")},
             "capabilities": [str(one) for one in facts["capabilities"]],
             "order": int(facts["order"]),
             "solve_tolerance": float(facts["solve_tolerance"]),
             "calibration": [_calibration(one) for one in facts.get("calibration", [])],
-}
+        }
+
 
 def _calibration(table: dict[str, Any]) -> dict[str, Any]:
     """Effective moduli that a law measured: columns with units; null: no number."""

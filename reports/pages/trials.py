@@ -108,11 +108,11 @@ def trials_json(said: Trials) -> str:
                 "schema": 1,
                 "solvers": [
                     {
-    "name" : label,
-             "folder" : trial.folder,
-             **trial.facts,
-             "judged_by" : trial.program,
-             "counts" : dict(count(trial)),
+                        "name": label,
+                        "folder": trial.folder,
+                        **trial.facts,
+                        "judged_by": trial.program,
+                        "counts": dict(count(trial)),
                     }
                     for trial, label in zip(said.trials, said.labels)
                 ],
@@ -132,9 +132,10 @@ def _answer_json(answer: Answer | None) -> dict[str, Any] | None:
     if answer is None:
         return None
     return {
-key: None if isinstance(value, float) and not isfinite(value) else value
+        key: None if isinstance(value, float) and not isfinite(value) else value
         for key, value in asdict(answer).items()
-}
+    }
+
 
 def render_trials(said: Trials) -> str:
     """The page as one HTML text."""

@@ -1,4 +1,4 @@
-#!/ usr / bin / python3
+#!/usr/bin/python3
 """Tests of the adapters of other engines, of those that are installed:
 `scripts/engines bullet jolt mujoco` installs them."""
 from __future__ import annotations
@@ -33,11 +33,12 @@ def require_engine(name: str) -> None:
 def judge(command: str, *options: str) -> dict[str, str]:
     """The outcome of each law."""
     done = run("build/foldproof", "judge", "--solver", command, "--json", *options)
-    return {row["name"]: row["outcome"] for row in json.loads(done.stdout)["findings"]
-}
+    return {row["name"]: row["outcome"] for row in json.loads(done.stdout)["findings"]}
 
-def those(outcomes : dict[str, str], wanted : str)->set[str] : return {name for name, outcome in outcomes.items() if outcome == wanted
-}
+
+def those(outcomes: dict[str, str], wanted: str) -> set[str]:
+    return {name for name, outcome in outcomes.items() if outcome == wanted}
+
 
 class Bullet(unittest.TestCase):
     @classmethod
@@ -129,7 +130,8 @@ class MuJoCo(Npm):
         "": {MODULUS},
         "integrator=RK4": {MODULUS},
         "integrator=discrete": {
-            MODULUS, "momentum.linear-is-conserved", "momentum.linear-of-unequal-masses-is-conserved"
+            MODULUS, "momentum.linear-is-conserved",
+            "momentum.linear-of-unequal-masses-is-conserved"
         },
     }
 

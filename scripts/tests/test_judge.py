@@ -1,4 +1,4 @@
-#!/ usr / bin / python3
+#!/usr/bin/python3
 """Tests of `foldproof judge` and `foldproof subject --check` as an adapter's author meets them, and
 of the protocol's page: its transcript and all that the program really sends
 are what the schema describes."""
@@ -26,8 +26,9 @@ PYTHON = "exec /usr/bin/python3"
 TOY = f"{PYTHON} '{SUBJECTS}/adapters/toy_solver.py'"
 SCHEMA = json.loads((SUBJECTS / "protocol.schema.json").read_text(encoding="utf-8"))
 BYTES = {"f8": 8, "f4": 4, "i4": 4}
-#An adapter that writes down every header that comes or goes, and states its settings as its
-#mapping.
+
+# An adapter that writes down every header that comes or goes, and states its settings as its
+# mapping.
 LOGGING = """
 import json, sys
 sys.path.insert(0, {adapters!r})
@@ -46,9 +47,7 @@ class Logging(Pipe):
 
 class Stating(ToySolver):
     def prepare(self, scene):
-        return {
-  { **super().prepare(scene), **scene.header["scene"]["settings"] }
-}
+        return {{**super().prepare(scene), **scene.header["scene"]["settings"]}}
 
 log = open({log!r}, "a")
 inner = open_pipe()
@@ -165,7 +164,8 @@ class Judge(unittest.TestCase):
         self.assertEqual(done.returncode, 1)
         self.assertIn(
             (
-                "crashed with signal 11 (Segmentation fault) (during 'advance'); its last words: about to touch address 0"
+                "crashed with signal 11 (Segmentation fault) (during 'advance'); its last words: "
+                "about to touch address 0"
             ),
             done.stdout,
         )
@@ -199,7 +199,10 @@ class Judge(unittest.TestCase):
                     self.assertEqual(answer[key], row[key])
         text = page.read_text(encoding="utf-8")
         self.assertIn('Differences from a law <span class="quiet">35</span>', text)
-        for words in ("5 solvers on trial", "f4", "a spring per edge", "iterations</b> 20", "calibration.modulus-survives-refinement"):
+        for words in (
+            "5 solvers on trial", "f4", "a spring per edge", "iterations</b> 20",
+            "calibration.modulus-survives-refinement"
+        ):
             self.assertIn(words, text)
 
     def test_folders_that_are_not_all_trials_are_refused(self) -> None:
@@ -319,7 +322,7 @@ class Judge(unittest.TestCase):
 
     def test_the_transcript_is_what_the_schema_describes(self) -> None:
         rows = transcript()
-        self.assertEqual([side for side, _ in rows], [">", "<"] * (len(rows)  // 2))
+        self.assertEqual([side for side, _ in rows], [">", "<"] * (len(rows) // 2))
         for side, header in rows:
             validator("request" if side == ">" else "answer").validate(header)
         validator("declaration").validate(rows[1][1])
@@ -349,7 +352,7 @@ class Judge(unittest.TestCase):
         os.close(read_requests), os.close(write_answers)
         with os.fdopen(write_requests, "wb") as requests, os.fdopen(read_answers, "rb") as answers:
             for side, header in transcript():
-#arrays of zeros : the headers of the answers are those of any numbers
+                # arrays of zeros: the headers of the answers are those of any numbers
                 if side == ">":
                     requests.write(json.dumps(header).encode() + b"\n" + bytes(bytes_due(header)))
                     requests.flush()

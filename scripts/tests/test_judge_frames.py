@@ -1,4 +1,4 @@
-#!/ usr / bin / python3
+#!/usr/bin/python3
 """Tests `foldproof judge --frames`: frames that the program exported, whole and damaged, as a user
 without an adapter meets them."""
 
@@ -29,8 +29,7 @@ class JudgeFrames(FileTest):
     def judge(self, form: str, *words: str) -> dict[str, str]:
         done = run("judge", "--frames", str(self.path / form), "--case", CASE, "--json", *words)
         self.assertIn(done.returncode, (0, 1), done.stderr)
-        return {row["name"]: row["outcome"] for row in json.loads(done.stdout)["findings"]
-}
+        return {row["name"]: row["outcome"] for row in json.loads(done.stdout)["findings"]}
 
     def test_frames_of_the_reference_meet_every_law(self) -> None:
         for form, words in (("ply", ()), ("obj", RATE)):

@@ -1,4 +1,4 @@
-#!/ usr / bin / python3
+#!/usr/bin/python3
 """Solvers that break the protocol or themselves, each in one way, in the
 third step or so: broken.py KIND
 

@@ -42,7 +42,7 @@ class Implicit(ToySolver):
         known, new = self.forces(), v.copy()
         free = np.repeat(~np.isin(np.arange(len(x)), self.held), 3)
         matrix = np.diag(mass) - (dt * self.theta) ** 2 * self.jacobian()
-#at the start of the step : chord iterations
+        # at the start of the step: chord iterations
         inverse = np.linalg.inv(matrix[np.ix_(free, free)])
         size = np.inf
         for _ in range(40):

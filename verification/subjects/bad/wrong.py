@@ -1,12 +1,8 @@
-#!/ usr / bin / python3
-""
-    "Solvers that keep to the protocol and are wrong, each in one law of
-    physics or
-    one claim : wrong
-                    .py KIND
+#!/usr/bin/python3
+"""Solvers that keep to the protocol and are wrong, each in one law of
+physics or one claim: wrong.py KIND
 
-                        The portable suite must find each by the laws that it breaks."none" is the
-                            unspoiled toy;
+The portable suite must find each by the laws that it breaks. "none" is the unspoiled toy;
 "backward_euler" and "trapezoidal" are other correct schemes, which must raise no alarm, at f8;
 "single" and "backward_euler_single" are some at f4.
 """
@@ -132,7 +128,7 @@ class DependsOnNumbers(ToySolver):
     def advance(self, dt: float, steps: int) -> None:
         for _ in range(steps):
             x = self.x
-            for part in (slice(0, len(x)  // 2), slice(len(x) // 2, None)):
+            for part in (slice(0, len(x) // 2), slice(len(x) // 2, None)):
                 acceleration = self.forces() / self.mass[:, None]
                 self.v[part] += dt * acceleration[part]
                 self.v[self.held] = 0
@@ -228,49 +224,44 @@ class GravityScaledInSingle(Single):
 
 
 KINDS = {
-  "bends" : materials.Bends, "on_planes" : contact.OnPlanes,
-      "on_planes_single" : contact.OnPlanesInSingle,
-      "on_planes_backward_euler" : contact.OnPlanesBackwardEuler,
-      "on_planes_backward_euler_single" : contact.OnPlanesBackwardEulerInSingle,
-      "gravity_scaled_single" : GravityScaledInSingle,
-                                "springs_per_length" : materials.SpringsPerLength,
-                                "springs_of_one_stiffness" : materials.SpringsOfOneStiffness,
-                                "knows_its_units" : KnowsItsUnits,
-                                                    "knows_left_from_right" : KnowsLeftFromRight,
-                                                                              "rest_lengths_kept"
-      : RestLengthsKept,
-        "bends_fourfold" : materials.BendsFourfold,
-        "sinks_in" : contact.SinksIn,
-        "jitters" : contact.Jitters,
-        "friction_beyond_the_cone" : contact.FrictionBeyondTheCone,
-        "friction_halved" : contact.FrictionHalved,
-        "none" : Unspoiled,
-                 "backward_euler" : BackwardEuler,
-                                    "backward_euler_single" : BackwardEulerInSingle,
-                                                              "trapezoidal" : Trapezoidal,
-                                                                              "single"
-      : Single,
-        "wrong_mass" : WrongMass,
-                       "own_masses_ignored" : OwnMassesIgnored,
-                                              "gravity_scaled" : GravityScaled,
-                                                                 "momentum_dropped"
-      : MomentumDropped,
-        "single_for_double" : SingleForDouble,
-                              "first_order_as_second" : FirstOrderAsSecond,
-                                                        "hidden_damping" : HiddenDamping,
-                                                                           "state_not_restored"
-      : StateNotRestored,
-        "scene_leaves_traces" : SceneLeavesTraces,
-                                "random" : Random,
-                                           "knows_its_axes" : KnowsItsAxes,
-                                                              "depends_on_numbers"
-      : DependsOnNumbers,
-        "held_loosely" : HeldLoosely,
-                         "energy_halved" : EnergyHalved,
-                                           "pre_stressed" : PreStressed,
-                                                            "spin_damped" : SpinDamped,
-                                                                            "forces_unbalanced"
-      : ForcesUnbalanced,
+    "bends": materials.Bends,
+    "on_planes": contact.OnPlanes,
+    "on_planes_single": contact.OnPlanesInSingle,
+    "on_planes_backward_euler": contact.OnPlanesBackwardEuler,
+    "on_planes_backward_euler_single": contact.OnPlanesBackwardEulerInSingle,
+    "gravity_scaled_single": GravityScaledInSingle,
+    "springs_per_length": materials.SpringsPerLength,
+    "springs_of_one_stiffness": materials.SpringsOfOneStiffness,
+    "knows_its_units": KnowsItsUnits,
+    "knows_left_from_right": KnowsLeftFromRight,
+    "rest_lengths_kept": RestLengthsKept,
+    "bends_fourfold": materials.BendsFourfold,
+    "sinks_in": contact.SinksIn,
+    "jitters": contact.Jitters,
+    "friction_beyond_the_cone": contact.FrictionBeyondTheCone,
+    "friction_halved": contact.FrictionHalved,
+    "none": Unspoiled,
+    "backward_euler": BackwardEuler,
+    "backward_euler_single": BackwardEulerInSingle,
+    "trapezoidal": Trapezoidal,
+    "single": Single,
+    "wrong_mass": WrongMass,
+    "own_masses_ignored": OwnMassesIgnored,
+    "gravity_scaled": GravityScaled,
+    "momentum_dropped": MomentumDropped,
+    "single_for_double": SingleForDouble,
+    "first_order_as_second": FirstOrderAsSecond,
+    "hidden_damping": HiddenDamping,
+    "state_not_restored": StateNotRestored,
+    "scene_leaves_traces": SceneLeavesTraces,
+    "random": Random,
+    "knows_its_axes": KnowsItsAxes,
+    "depends_on_numbers": DependsOnNumbers,
+    "held_loosely": HeldLoosely,
+    "energy_halved": EnergyHalved,
+    "pre_stressed": PreStressed,
+    "spin_damped": SpinDamped,
+    "forces_unbalanced": ForcesUnbalanced,
 }
 
 if __name__ == "__main__":
