@@ -26,8 +26,8 @@ constexpr int side = 4;  // particles along each side of a sheet
 btSoftBodyRigidBodyCollisionConfiguration configuration;
 btCollisionDispatcher dispatcher(&configuration);
 
-/// A square sheet of springs, in one of two orders of its particles; where it is stretched, it is
-/// uneven, too.
+/// A square sheet of springs, in one of two orders of its particles; where it is stretched, it
+/// is uneven, too.
 struct Sheet {
   btDbvtBroadphase broadphase;
   btSoftBodyWorldInfo info;
