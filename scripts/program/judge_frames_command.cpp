@@ -53,7 +53,7 @@ std::string facts_of(const ReadMotion& motion, Matching matching, const Options&
                                 {"solve_tolerance", 0},
                                 {"command", "none: frames of " + options.frames},
                                 {"settings", nlohmann::json::object()},
-      {"calibration", nlohmann::json::array()},
+                                {"calibration", nlohmann::json::array()},
                                 {"mapping",
                                  {{"case", motion.of.scene.name},
                                   {"frames", span_text(motion.frames)},

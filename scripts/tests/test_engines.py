@@ -11,6 +11,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 RECORDED = "3.24"  # the version whose findings adapters/bullet/README.md records
+MODULUS = "calibration.young-s-modulus-is-the-scene-s"
+MODULI = {MODULUS, "calibration.modulus-survives-refinement"}
 SMOKE = {"smoke.sheet-at-rest-stays", "smoke.free-fall-within-5-percent"}
 
 
@@ -61,24 +63,38 @@ class Bullet(unittest.TestCase):
             done = run("build/foldproof", "subject", "--check", f"build/engines/{name}")
             self.assertEqual(done.returncode, 0, done.stdout)
 
-    def test_deformable_bodies_meet_every_law(self) -> None:
-        self.require(self.judged("bullet_deformable"), set())
-
-    def test_explicit_deformable_bodies_remember_more_than_their_state(self) -> None:
-        self.require(self.judged("bullet_deformable", "--settings", "implicit=0"),
-                     {"repeat.step-depends-on-its-state-alone"})
+    def test_deformable_bodies_meet_every_law_but_those_of_one_stiffness_an_edge(self) -> None:
+        for settings in ((), ("--settings", "implicit=0")):
+            self.require(self.judged("bullet_deformable", *settings), MODULI)
 
     def test_position_based_bodies_depend_on_the_numbering(self) -> None:
         self.require(self.judged("bullet_position_based"),
                      {"inertia.free-sheet-keeps-its-velocity", "gravity.speed-grows-by-g-t",
-                      "gravity.fall-is-as-exact-as-the-order-claims", "symmetry.renumbering"})
+                      "gravity.fall-is-as-exact-as-the-order-claims", "symmetry.renumbering",
+                      "momentum.angular-drift-falls-with-the-step"} | MODULI)
+
+    def test_what_its_page_records_is_seen_without_the_adapter(self) -> None:
+        program = ROOT / "build" / "engines" / "bullet_laws"
+        libraries = ("BulletSoftBody", "BulletDynamics", "BulletCollision", "LinearMath")
+        built = run(
+            "g++", "-std=c++17", "-w", "-DBT_USE_DOUBLE_PRECISION", "-isystem",
+            "/usr/include/bullet", "verification/subjects/adapters/bullet/repro/laws.cpp", "-o",
+            program, *(f"-l{name}-float64" for name in libraries)
+        )
+        self.assertEqual(built.returncode, 0, built.stderr)
+        lines = run(program).stdout.splitlines()[1:]
+        numbers, speed, drift, twice = (float(line.rsplit(" by ")[1].split()[0]) for line in lines)
+        self.assertGreater(numbers, 1e-6)  # m
+        self.assertAlmostEqual(speed, 4.75e-8, delta=1e-9)  # g t
+        self.assertGreater(drift, 1e-15)  # of the velocity
+        self.assertEqual(twice, 0)
 
 
 class Npm(unittest.TestCase):
     """Engines that npm has, in the version that scripts/engines pins."""
 
     name, version = "jolt", "1.1.0"
-    applicable = 16  # laws, of 23
+    applicable = 21  # laws, of 32
     failing = {"": set()}  # what fails, by setting
 
     @classmethod
@@ -97,7 +113,7 @@ class Npm(unittest.TestCase):
             self.assertLessEqual(SMOKE, those(outcomes, "holds"))
             self.assertEqual(those(outcomes, "fails"), failing, setting)
             applicable = those(outcomes, "holds") | failing
-            self.assertEqual((len(applicable), len(outcomes)), (self.applicable, 23), setting)
+            self.assertEqual((len(applicable), len(outcomes)), (self.applicable, 32), setting)
 
     def test_an_adapter_is_short(self) -> None:
         text = (ROOT / f"verification/subjects/adapters/{self.name}/{self.name}.mjs").read_text()
@@ -109,12 +125,13 @@ class Jolt(Npm):
 
 
 class MuJoCo(Npm):
-    name, version, applicable = "mujoco", "3.14.0", 22
+    name, version, applicable = "mujoco", "3.14.0", 27
     failing = {
-        "": set(),
-        "integrator=RK4": set(),
+        "": {MODULUS},
+        "integrator=RK4": {MODULUS},
         "integrator=discrete": {
-            "momentum.linear-is-conserved", "momentum.linear-of-unequal-masses-is-conserved"
+            MODULUS, "momentum.linear-is-conserved",
+            "momentum.linear-of-unequal-masses-is-conserved"
         },
     }
 
@@ -148,7 +165,7 @@ class Template(unittest.TestCase):
         command = "exec node verification/subjects/adapters/toy_solver.mjs"
         done = run("build/foldproof", "subject", "--check", command)
         self.assertEqual(done.returncode, 0, done.stdout)
-        self.assertEqual(set(judge(command).values()), {"holds"})
+        self.assertEqual(set(judge(command).values()), {"holds", "not applicable"})
 
 
 class Script(unittest.TestCase):

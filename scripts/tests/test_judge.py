@@ -200,7 +200,10 @@ class Judge(unittest.TestCase):
                     self.assertEqual(answer[key], row[key])
         text = page.read_text(encoding="utf-8")
         self.assertIn('Differences from a law <span class="quiet">35</span>', text)
-        for words in ("5 solvers on trial", "f4", "a spring per edge", "iterations</b> 20", "calibration.modulus-survives-refinement"):
+        for words in (
+            "5 solvers on trial", "f4", "a spring per edge", "iterations</b> 20",
+            "calibration.modulus-survives-refinement"
+        ):
             self.assertIn(words, text)
 
     def test_folders_that_are_not_all_trials_are_refused(self) -> None:
@@ -239,12 +242,12 @@ class Judge(unittest.TestCase):
         wrong = bad("wrong", "gravity_scaled")
         done = run("judge", "--solver", wrong, "--baseline", kept, "--json")
         self.assertEqual(done.returncode, 1)
-        self.assertEqual(len(json.loads(done.stdout)["findings"]), 23)
+        self.assertEqual(len(json.loads(done.stdout)["findings"]), 32)
         self.assertRegex(done.stderr, r"worse: gravity.speed-grows-by-g-t: fails, measured/bound")
         self.assertTrue(done.stderr.endswith("against the baseline: 3 worse, 0 better\n"))
         done = run("judge", "--solver", "/nowhere/solver", "--baseline", kept)
         self.assertEqual(done.returncode, 1)
-        self.assertTrue(done.stdout.endswith("against the baseline: 23 worse, 0 better\n"))
+        self.assertTrue(done.stdout.endswith("against the baseline: 32 worse, 0 better\n"))
 
     def test_the_job_of_the_page_judges_against_its_baseline(self) -> None:
         """The commands of CI.md, in a repository as it describes."""

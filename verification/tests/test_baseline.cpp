@@ -74,7 +74,6 @@ TEST_CASE("baseline: what only one run has is named and is not worse") {
 
 TEST_CASE("baseline: a written run is read as it was, and other files are refused") {
   const ScratchFolder folder;
-  const std::string path = folder.file("");
   RunRecord run;
   run.records = {record_of("a", holds, 0.25), record_of("b", fails, std::nan(""))};
   write_verdicts(folder.file("."), run);
@@ -99,6 +98,7 @@ TEST_CASE("baseline: a written run is read as it was, and other files are refuse
 
 TEST_CASE("baseline: junit.xml fails where the exit code does") {
   const ScratchFolder folder;
+  const std::string path = folder.file("");
   RunRecord run;
   run.records = {record_of("known", fails, 3), record_of("worse", fails, 3),
                  record_of("new", fails, 3), record_of("lost", not_applicable, 0),

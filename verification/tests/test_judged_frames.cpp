@@ -119,8 +119,8 @@ TEST_CASE("judged frames: those of the reference meet every law that applies") {
 TEST_CASE("judged frames: files of six digits raise no alarm") {
   for (const char* text : {falling, hanging}) {
     Frames frames(text);
-    for (TimedMesh& frame : frames.frames)
-      frame.x = (frame.x.array() * 1e6).round() / 1e6;  // coordinates are below 1 m
+    // coordinates are below 1 m
+    for (TimedMesh& frame : frames.frames) frame.x = (frame.x.array() * 1e6).round() / 1e6;
     CHECK(frames.failing() == Names{});
   }
 }
@@ -147,8 +147,8 @@ TEST_CASE("judged frames: cloth that passes through itself is found") {
 
 TEST_CASE("judged frames: cloth inside an object is found") {
   Frames frames(falling);
-  for (TimedMesh& frame : frames.frames)
-    frame.x.row(1).array() -= 0.05 * frame.time / 0.2;  // sinks into the ball
+  // sinks into the ball
+  for (TimedMesh& frame : frames.frames) frame.x.row(1).array() -= 0.05 * frame.time / 0.2;
   CHECK(frames.failing().contains("frames.vertices-stay-outside"));
 }
 
@@ -177,9 +177,9 @@ TEST_CASE("judged frames: a triangle that goes through its neighbour is found") 
 
 TEST_CASE("judged frames: cloth that rises from nowhere is found") {
   Frames frames(hanging);
+  // swings up instead of down
   for (TimedMesh& frame : frames.frames)
-    for (Eigen::Index i = 0; i < frame.x.cols(); ++i)
-      frame.x(1, i) = -0.2 * frame.x(1, i);  // swings up instead of down
+    for (Eigen::Index i = 0; i < frame.x.cols(); ++i) frame.x(1, i) = -0.2 * frame.x(1, i);
   CHECK(frames.failing() == Names{"frames.energy-stays-in-budget"});
 }
 
@@ -189,8 +189,7 @@ TEST_CASE("judged frames: of another mesh crossings and depths are judged, the r
   for (TimedMesh& frame : frames.frames) {
     frame.triangles = finer.triangles;
     frame.x.resize(3, finer.rest.cols());
-    frame.x << finer.rest.row(0), Eigen::RowVectorXd::Zero(finer.rest.cols()),
-        -finer.rest.row(1);
+    frame.x << finer.rest.row(0), Eigen::RowVectorXd::Zero(finer.rest.cols()), -finer.rest.row(1);
   }
   const FramesJudgement judged = judge_frames(frames.of, frames.built, frames.frames);
   CHECK(judged.matching == Matching::surface);

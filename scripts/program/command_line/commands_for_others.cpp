@@ -34,7 +34,7 @@ void add_judged_frames(CLI::App* judge, CLI::Option* solver, Options& options) {
   for (CLI::Option* time : add_frame_times(judge, options)) time->needs(frames);
   add_overrides(judge, options);
   add_cache(judge, options);
-  for (const char* only_theirs : {"--set", "--cache"}) judge->get_option(only_theirs)->needs(frames);
+  for (const char* of_a_case : {"--set", "--cache"}) judge->get_option(of_a_case)->needs(frames);
 }
 
 /// Options that `campaign run` and `campaign emit` share with those who work for them.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "verification/subjects/pipe/declaration.h"
 #include "verification/subjects/pipe/message.h"
 
 namespace foldproof {
@@ -16,75 +17,6 @@ using nlohmann::json;
 
 constexpr size_t longest_header = 1 << 20;
 constexpr double longest_progress = 10;  // times the limit of silence that a call may last
-
-std::string text_of(const json& header, const char* key) {
-  const json value = header.value(key, json());
-  if (value.is_string()) return value.get<std::string>();
-  throw SolverFailure("header", fmt::format("sent no text as '{}'", key));
-}
-
-double number_of(const json& header, const char* key, double if_missing) {
-  const json value = header.value(key, json(if_missing));
-  if (value.is_number() && std::isfinite(value.get<double>())) return value.get<double>();
-  throw SolverFailure("header", fmt::format("sent no finite number as '{}'", key));
-}
-
-int level_of(const std::string& text) {
-  if (text.size() == 2 && text[0] == 'L' && text[1] >= '0' && text[1] <= '3') return text[1] - '0';
-  throw SolverFailure("header", "declared no level L0 to L3");
-}
-
-bool declares_single(const std::string& precision) {
-  if (precision == "f4" || precision == "f8") return precision == "f4";
-  throw SolverFailure("header", "declared a precision that is neither f4 nor f8");
-}
-
-std::vector<std::string> texts_of(const json& header, const char* key) {
-  std::vector<std::string> texts;
-  const json list = header.value(key, json::array());
-  if (!list.is_array()) throw SolverFailure("header", fmt::format("sent no list as '{}'", key));
-  for (const json& entry : list) {
-    if (!entry.is_string()) throw SolverFailure("header", fmt::format("sent no text in '{}'", key));
-    texts.push_back(entry.get<std::string>());
-  }
-  return texts;
-}
-
-/// Counters in the order of for_each_counter; zeros where the answer counts otherwise.
-Work work_of(const json& header) {
-  const json counts = header.value("work", json());
-  Work work;
-  size_t due = 0;
-  for_each_counter(work, [&](auto&) { ++due; });
-  if (!counts.is_array() || counts.size() != due) return {};
-  size_t k = 0;
-  for_each_counter(work, [&](auto& count) {
-    using Number = std::remove_reference_t<decltype(count)>;
-    const json& sent = counts[k++];
-    if (std::is_integral_v<Number> ? sent.is_number_integer() : sent.is_number())
-      count = sent.get<Number>();
-  });
-  return work;
-}
-
-Declaration read_declaration(const json& header) {
-  if (header.value("protocol", json()) != protocol_version)
-    throw SolverFailure("header", fmt::format("does not speak protocol {}", protocol_version));
-  const json scheme = header.value("scheme", json::object());
-  if (!scheme.is_object()) throw SolverFailure("header", "sent no object as 'scheme'");
-  Declaration declared;
-  declared.name = text_of(header, "name");
-  declared.version = text_of(header, "version");
-  declared.level = level_of(text_of(header, "level"));
-  declared.is_single = declares_single(text_of(header, "precision"));
-  declared.scheme = text_of(scheme, "name");
-  declared.order = int(std::clamp(number_of(scheme, "order", 0), 0.0, 9.0));
-  declared.capabilities = texts_of(header, "capabilities");
-  declared.solve_tolerance = number_of(header, "solve_tolerance", 0);
-  if (!(declared.solve_tolerance >= 0 && declared.solve_tolerance < 1))
-    throw SolverFailure("header", "declared a solve_tolerance outside [0, 1)");
-  return declared;
-}
 
 template <class Rows>
 std::vector<int> flat(const Rows& rows) {
@@ -152,14 +84,6 @@ const std::vector<std::string>& failure_causes() {
   static const std::vector<std::string> causes{"crash",  "exit",  "hang", "truncated", "oversized",
                                                "header", "shape", "nan",  "error"};
   return causes;
-}
-
-bool Declaration::offers(const std::string& capability) const {
-  return std::ranges::find(capabilities, capability) != capabilities.end();
-}
-
-double Declaration::rounding() const {
-  return is_single ? double(std::numeric_limits<float>::epsilon()) : epsilon;
 }
 
 struct PipedSolver::Impl {

@@ -8,12 +8,11 @@
 #include <vector>
 
 #include "verification/subjects/pipe/child_process.h"
+#include "verification/subjects/pipe/declaration.h"
 #include "verification/subjects/pipe/portable_scene.h"
 #include "verification/verdict.h"
 
 namespace foldproof {
-
-constexpr int protocol_version = 1;
 
 /// The causes of a SolverFailure:
 ///   crash, exit, hang    the process ended by a signal, ended by itself, or did not answer in time
@@ -29,20 +28,6 @@ struct SolverCommand {
   std::string command;                                        // for sh -c
   std::vector<std::pair<std::string, std::string>> settings;  // passed through in every scene
   ProcessLimits limits = {};
-};
-
-/// The solver's description of itself: its answer to `start`.
-struct Declaration {
-  std::string name, version;
-  int level = 0;           // 0 to 3
-  bool is_single = false;  // precision f4 instead of f8
-  std::string scheme;      // its integrator, in its own words
-  int order = 0;           // claimed, of the global error
-  std::vector<std::string> capabilities;
-  double solve_tolerance = 0;  // relative residual of its linear systems; 0: solves none
-
-  bool offers(const std::string& capability) const;
-  double rounding() const;  // the distance from 1 to the next number of its precision
 };
 
 /// Positions and velocities of a scene's particles, 3 x N [m], [m/s].

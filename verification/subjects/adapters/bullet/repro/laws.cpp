@@ -26,8 +26,8 @@ constexpr int side = 4;  // particles along each side of a sheet
 btSoftBodyRigidBodyCollisionConfiguration configuration;
 btCollisionDispatcher dispatcher(&configuration);
 
-/// A square sheet of springs, in one of two orders of its particles; where it is stretched, it is
-/// uneven, too.
+/// A square sheet of springs, in one of two orders of its particles; where it is stretched, it
+/// is uneven, too.
 struct Sheet {
   btDbvtBroadphase broadphase;
   btSoftBodyWorldInfo info;
@@ -43,8 +43,9 @@ struct Sheet {
     body = new btSoftBody(&info, n, nullptr, nullptr);
     for (int i = 0; i < n; ++i) {
       btSoftBody::Node& node = body->m_nodes[number[i]];
-      node.m_x = node.m_q = btVector3(0.1 * stretch * (i % side), 0.1 * stretch * (i / side), 0) +
-                            (stretch > 1 ? btVector3(0, 0, 0.02 * std::sin(2.0 * i)) : btVector3(0, 0, 0));
+      const double height = stretch > 1 ? 0.02 * std::sin(2.0 * i) : 0;  // m
+      node.m_x = btVector3(0.1 * stretch * (i % side), 0.1 * stretch * (i / side), height);
+      node.m_q = node.m_x;
       node.m_v = node.m_vn = v;
       node.index = number[i];
       body->setMass(number[i], 1e-3);
@@ -61,7 +62,7 @@ struct Sheet {
     body->m_cfg.piterations = 10;
     body->m_sleepingThreshold = 0;
     body->setActivationState(DISABLE_DEACTIVATION);
-    body->m_bUpdateRtCst = false;  // else the first step takes the lengths at the start for those at rest
+    body->m_bUpdateRtCst = false;  // else the first step takes the start for the rest shape
     body->updateLinkConstants();
   }
 

@@ -1,0 +1,40 @@
+// A solver's description of itself, and what else the header of an answer may say.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "reference/types.h"
+#include "verification/subjects/pipe/child_process.h"
+
+namespace foldproof {
+
+constexpr int protocol_version = 1;
+
+/// The solver's description of itself: its answer to `start`.
+struct Declaration {
+  std::string name, version;
+  int level = 0;           // 0 to 3
+  bool is_single = false;  // precision f4 instead of f8
+  std::string scheme;      // its integrator, in its own words
+  int order = 0;           // claimed, of the global error
+  std::vector<std::string> capabilities;
+  double solve_tolerance = 0;  // relative residual of its linear systems; 0: solves none
+
+  bool offers(const std::string& capability) const;
+  double rounding() const;  // the distance from 1 to the next number of its precision
+};
+
+/// Of the answer to `start`. Throws SolverFailure "header" for what no protocol has.
+Declaration read_declaration(const nlohmann::json& header);
+
+/// A field of a header. Throw SolverFailure "header" naming the field if it is of another kind.
+std::string text_of(const nlohmann::json& header, const char* key);
+double number_of(const nlohmann::json& header, const char* key, double if_missing);
+
+/// Counters in the order of for_each_counter; zeros where the answer counts otherwise.
+Work work_of(const nlohmann::json& header);
+
+}  // namespace foldproof
