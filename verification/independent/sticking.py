@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from closest import nearest_on_triangle, weights_of
+from closest import nearest_on, weights_of
 from forces import nothing
 from motion import Motion
 
@@ -101,12 +101,12 @@ class Sticky:
                 self.bonds = [bond for bond in self.bonds if bond.particle != particle]
         stuck = {bond.particle for bond in self.bonds}
         for particle in (p for p in self.particles if p not in stuck):
-            for number, triangle in enumerate(corners):
-                if self.carried is None and particle in self.triangles[number]:
-                    continue
-                foot = nearest_on_triangle(triangle, x[particle])
-                if np.linalg.norm(x[particle] - foot) <= self.near:
-                    self.bonds.append(bond_at(particle, number, triangle, x[particle]))
+            away = np.linalg.norm(x[particle] - nearest_on(corners, x[particle]), axis=1)
+            is_near = away <= self.near
+            if self.carried is None:
+                is_near &= np.all(self.triangles != particle, axis=1)
+            for number in np.flatnonzero(is_near):
+                self.bonds.append(bond_at(particle, number, corners[number], x[particle]))
 
     def elastic(self, time: float, x: np.ndarray) -> np.ndarray:
         corners, force = self.corners(time, x), np.zeros_like(x)
@@ -150,4 +150,4 @@ def bond_at(particle: int, number: int, corners: np.ndarray, p: np.ndarray) -> B
     a, b, c = corners
     normal = np.cross(b - a, c - a)
     height = float((p - a) @ normal / np.linalg.norm(normal))
-    return Bond(particle, number, weights_of(corners, p), height)
+    return Bond(particle, number, weights_of(corners[None], p)[0], height)
