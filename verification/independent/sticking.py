@@ -26,7 +26,7 @@ class Frame(NamedTuple):
 
 def frame_at(corners: np.ndarray, bond: Bond) -> Frame:
     """Place: weights . corners + height n, n = N/|N|, N = (b - a) x (c - a).
-    dn = (1 - n n^T) dN/|N|; dN = sum of (opposite edge) x d(corner), up to the sign."""
+    dn = (1 - n n^T) dN/|N|, dN = (c - b) x da + (a - c) x db + (b - a) x dc."""
     a, b, c = corners
     big = np.cross(b - a, c - a)
     size = np.linalg.norm(big)
@@ -78,7 +78,9 @@ class Sticky:
 
     def stiffness_at(self, time: float, distance: float) -> float:
         """Falls smoothly with the distance, and at the end of its time."""
-        fading = max(0.0, (time - (self.stop - self.release)) / self.release) if self.release else 0.0
+        fading = 0.0
+        if self.release:
+            fading = max(0.0, (time - (self.stop - self.release)) / self.release)
         if distance >= self.far or fading >= 1:
             return 0.0
         return self.stiffness * (1 - fading**2)**2 * (1 - (distance / self.far)**2)**2
