@@ -69,6 +69,8 @@ class Object:
     """The point X of a solid starts at turn X + move; then it has the motion."""
 
     def __init__(self, keys: dict, folder: Path) -> None:
+        if "keyframe" in keys or "deform" in keys or "frames" in keys:
+            raise Unsupported("keyframes, and bodies that deform")
         self.keys, self.motion = keys, Motion(keys)
         self.friction = keys.get("friction", 0.0)
         self.name = keys.get("name", "")
@@ -92,7 +94,8 @@ class Object:
         start = self.motion.start_of(p, span.start)
         phi, normal = self.distance(self.keys, (start - self.move) @ self.turn)
         if span.end > span.start:
-            velocity = (self.motion.place(start, span.end, span.start) - p) / (span.end - span.start)
+            end = self.motion.place(start, span.end, span.start)
+            velocity = (end - p) / (span.end - span.start)
         else:
             velocity = self.motion.speed(start, span.start, span.start)
         return Answer(phi, rotation @ self.turn @ normal, velocity, self.friction)

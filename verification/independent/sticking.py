@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from closest import nearest_on_triangle, weights_of
+from closest import nearest_on, weights_of
 from forces import nothing
 from motion import Motion
 
@@ -26,7 +26,7 @@ class Frame(NamedTuple):
 
 def frame_at(corners: np.ndarray, bond: Bond) -> Frame:
     """Place: weights . corners + height n, n = N/|N|, N = (b - a) x (c - a).
-    dn = (1 - n n^T) dN/|N|; dN = sum of (opposite edge) x d(corner), up to the sign."""
+    dn = (1 - n n^T) dN/|N|, dN = (c - b) x da + (a - c) x db + (b - a) x dc."""
     a, b, c = corners
     big = np.cross(b - a, c - a)
     size = np.linalg.norm(big)
@@ -78,7 +78,9 @@ class Sticky:
 
     def stiffness_at(self, time: float, distance: float) -> float:
         """Falls smoothly with the distance, and at the end of its time."""
-        fading = max(0.0, (time - (self.stop - self.release)) / self.release) if self.release else 0.0
+        fading = 0.0
+        if self.release:
+            fading = max(0.0, (time - (self.stop - self.release)) / self.release)
         if distance >= self.far or fading >= 1:
             return 0.0
         return self.stiffness * (1 - fading**2)**2 * (1 - (distance / self.far)**2)**2
@@ -101,12 +103,12 @@ class Sticky:
                 self.bonds = [bond for bond in self.bonds if bond.particle != particle]
         stuck = {bond.particle for bond in self.bonds}
         for particle in (p for p in self.particles if p not in stuck):
-            for number, triangle in enumerate(corners):
-                if self.carried is None and particle in self.triangles[number]:
-                    continue
-                foot = nearest_on_triangle(triangle, x[particle])
-                if np.linalg.norm(x[particle] - foot) <= self.near:
-                    self.bonds.append(bond_at(particle, number, triangle, x[particle]))
+            away = np.linalg.norm(x[particle] - nearest_on(corners, x[particle]), axis=1)
+            is_near = away <= self.near
+            if self.carried is None:
+                is_near &= np.all(self.triangles != particle, axis=1)
+            for number in np.flatnonzero(is_near):
+                self.bonds.append(bond_at(particle, number, corners[number], x[particle]))
 
     def elastic(self, time: float, x: np.ndarray) -> np.ndarray:
         corners, force = self.corners(time, x), np.zeros_like(x)
@@ -150,4 +152,4 @@ def bond_at(particle: int, number: int, corners: np.ndarray, p: np.ndarray) -> B
     a, b, c = corners
     normal = np.cross(b - a, c - a)
     height = float((p - a) @ normal / np.linalg.norm(normal))
-    return Bond(particle, number, weights_of(corners, p), height)
+    return Bond(particle, number, weights_of(corners[None], p)[0], height)

@@ -54,14 +54,16 @@ class StrainLimits:
         return worst
 
     def sweep_at_once(self, numbers: list[int], h: float, x: np.ndarray, v: np.ndarray) -> float:
-        """Each impulse is divided by the larger number of impulses at its two ends."""
+        """Each impulse is divided by the larger number of impulses at its two ends; prescribed
+        particles, which none can move, do not count."""
         found = {number: self.needed(number, h, x, v) for number in numbers}
         acting = {number: change for number, (_, change) in found.items() if change.any()}
         meeting = np.zeros(len(x))
         for number in acting:
             meeting[list(self.springs[number])] += 1
+        meeting[self.inverse_mass == 0] = 0
         for number, change in acting.items():
-            self.push(number, change / h / meeting[list(self.springs[number])].max(), v)
+            self.push(number, change / (h * meeting[list(self.springs[number])].max()), v)
         return max(violation for violation, _ in found.values())
 
     def needed(self, number: int, h: float, x: np.ndarray,

@@ -74,6 +74,33 @@ class IndependentTest(unittest.TestCase):
     def test_springs_of_scaled_rest_lengths(self) -> None:
         self.agrees("springs", {"stretch.rest_length_scale": 0.93})
 
+    def test_prescribed_particles_by_explicit_methods(self) -> None:
+        for method in ("RK2", "SSP-RK3", "RK4"):
+            self.agrees("led", {"time.integrator": method})
+
+    def test_contact_with_a_slope_that_moves_for_a_while(self) -> None:
+        for scheme in "ABC":
+            self.agrees("slope", {"time.integrator": scheme})
+
+    def test_contact_of_midpoints_and_centres(self) -> None:
+        self.agrees("slope", {"collision.points": "faces"})
+
+    def test_contact_forecast_over_several_steps(self) -> None:
+        self.agrees("slope", {"collision.forecast_time": 0.0043})
+
+    def test_contact_with_a_ball_that_spins_and_drifts(self) -> None:
+        self.agrees("ball")
+
+    def test_strain_limits_in_each_order(self) -> None:
+        for order in ("gauss_seidel", "alternating", "coloured", "jacobi"):
+            self.agrees("limits", {"strain_limits.order": order})
+
+    def test_sticking_to_a_body_that_moves(self) -> None:
+        self.agrees("carried")
+
+    def test_sticking_of_one_layer_to_another(self) -> None:
+        self.agrees("layers")
+
 
 if __name__ == "__main__":
     if OTHER:
