@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "convergence/contact/studies.h"
+#include "reference/dynamics/system.h"
 #include "verification/specimens/layered_cloth.h"
 #include "verification/specimens/stepper.h"
 
@@ -35,7 +36,8 @@ constexpr Landing landings[] = {
 Scene landing_scene(const Landing& landing) {
   Scene scene =
       layered_scene({2, 1.5 * landing.thickness, 0, 0, {landing.thickness, 8, 0.3, 8, true}, 7});
-  scene.stretch = StretchMaterial{20, 0.02, 1};
+  // so weak that every step is below the elastic limit: else instability makes contacts of its own
+  scene.stretch = StretchMaterial{0.8, 8e-4, 1};
   const Eigen::Index of_a_sheet = scene.x.cols() / 2;
   scene.v.rightCols(of_a_sheet).row(2).array() -= landing.speed;
   return scene;
@@ -59,6 +61,7 @@ StudyResult run_contact_answers(const Subject& subject, Tier, const Progress& pr
               {"thickness", "m"},
               {"start speed", "m/s"},
               {"step", "s"},
+              {"step over elastic limit", "1"},
               {"repulsions", "1"},
               {"impulses", "1"},
               {"particles in zones", "1"},
@@ -66,9 +69,11 @@ StudyResult run_contact_answers(const Subject& subject, Tier, const Progress& pr
   double calm = 0, largest = 0;
   for (const Landing& landing : landings) {
     const Answers answers = answers_of(subject, landing);
+    const Scene scene = landing_scene(landing);
+    const double limit = elastic_limit(build_system(scene), start_state(scene));
     const double share = answers.beyond_repulsion();
-    table.row(landing.words, landing.thickness, landing.speed, landing.step, answers.repulsions,
-              answers.impulses, answers.zone_particles, share);
+    table.row(landing.words, landing.thickness, landing.speed, landing.step, landing.step / limit,
+              answers.repulsions, answers.impulses, answers.zone_particles, share);
     if (landing.speed < 1 && landing.thickness > 0.002 && landing.step < 0.002)
       update_worst(calm, share);
     update_worst(largest, share);

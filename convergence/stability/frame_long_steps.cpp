@@ -221,14 +221,14 @@ StudyResult run_frame_long_steps(const Subject& subject, Tier tier, const Progre
 }  // namespace
 
 Study frame_long_steps_study() {
-  return {"frame-long-steps",
-          "In steps of a frame one linear solve keeps implicit methods bounded, though it may add "
-          "energy and errs more than twice as much as Newton's method; the price grows faster than "
-          "the mesh.",
-          "Baraff and Witkin (1998); Choi and Ko (2002)",
-          "A sheet held at two corners falls and swings. Steps are a thirtieth of a second, up to "
-          "hundreds of times the elastic limit.",
-          run_frame_long_steps};
+  return {
+      "frame-long-steps",
+      "In steps of a frame one linear solve keeps backward Euler bounded, though it may add energy "
+      "and errs more than twice as much as Newton's method; the price grows faster than the mesh.",
+      "Baraff and Witkin (1998); Choi and Ko (2002)",
+      "A sheet held at two corners falls and swings. Steps are a thirtieth of a second, up to "
+      "hundreds of times the elastic limit.",
+      run_frame_long_steps};
 }
 
 }  // namespace foldproof
