@@ -106,4 +106,15 @@ bool has_empirical_bound(const Record& record) {
   return record.finding.verdict.why_bound.starts_with("empirical");
 }
 
+double empirical_share(const std::vector<Record>& records) {
+  const auto is_judged = [](const Record& record) {
+    return record.outcome && record.outcome != Outcome::not_applicable;
+  };
+  const auto judged = std::count_if(records.begin(), records.end(), is_judged);
+  const auto empirical = std::count_if(records.begin(), records.end(), [&](const Record& record) {
+    return is_judged(record) && has_empirical_bound(record);
+  });
+  return judged == 0 ? 0 : double(empirical) / double(judged);
+}
+
 }  // namespace foldproof

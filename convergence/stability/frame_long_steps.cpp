@@ -223,7 +223,7 @@ StudyResult run_frame_long_steps(const Subject& subject, Tier tier, const Progre
 
 Study frame_long_steps_study() {
   return {"frame-long-steps",
-          "In steps of a frame one linear solve keeps implicit methods bounded, though it may add "
+          "In steps of a frame one linear solve keeps backward Euler bounded, though it may add "
           "energy and errs more than twice as much as Newton's method; the cost grows faster than "
           "the number of particles.",
           "Baraff and Witkin (1998); Choi and Ko (2002)",

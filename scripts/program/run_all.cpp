@@ -189,9 +189,17 @@ std::string summary(const RunRecord& run) {
       "{} hold{}, {} fail, {} inconclusive, {} not applicable", count(Outcome::holds), of_them,
       count(Outcome::fails), count(Outcome::inconclusive), count(Outcome::not_applicable));
   if (run.claims.empty()) return findings;
-  return findings + fmt::format("; {} claims ruled as recorded, {} otherwise, {} undecided",
-                                claims(Outcome::holds), claims(Outcome::fails),
-                                claims(Outcome::inconclusive));
+  const std::string ruled =
+      findings + fmt::format("; {} claims ruled as recorded, {} otherwise, {} undecided",
+                             claims(Outcome::holds), claims(Outcome::fails),
+                             claims(Outcome::inconclusive));
+  if (!has_too_many_empirical_bounds(run)) return ruled;
+  return ruled + fmt::format("; {:.1f} % of the bounds are empirical, more than {:.0f} %",
+                             100 * empirical_share(run.records), 100 * most_empirical);
+}
+
+bool has_too_many_empirical_bounds(const RunRecord& run) {
+  return !run.claims.empty() && empirical_share(run.records) > most_empirical;
 }
 
 int exit_code(const RunRecord& run) {
@@ -202,7 +210,8 @@ int exit_code(const RunRecord& run) {
     return outcome_of(c) == Outcome::fails ||
            (outcome_of(c) == Outcome::inconclusive && !is_out_of_reach(c) && run.tier == "full");
   };
-  const bool passes = std::none_of(run.records.begin(), run.records.end(), is_bad) &&
+  const bool passes = !has_too_many_empirical_bounds(run) &&
+                      std::none_of(run.records.begin(), run.records.end(), is_bad) &&
                       std::none_of(run.claims.begin(), run.claims.end(), is_wrong);
   return passes ? 0 : 1;
 }

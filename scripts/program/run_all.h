@@ -42,10 +42,13 @@ void run_selection(const Selection& selection, const Subject& subject, Tier tier
 /// "121 hold, 0 fail, 0 inconclusive, 0 not applicable", and the claims if any were ruled.
 std::string summary(const RunRecord& run);
 
-/// 0 if every finding holds (or is not applicable, or measured only) and every claim is ruled
-/// as recorded, else
-/// 1. A claim that is undecided, and recorded so, fails the full tier only, unless it says what no
-/// run has.
+/// The run rules claims, so it is of the whole suite, and more of its bounds are empirical than
+/// `most_empirical`.
+bool has_too_many_empirical_bounds(const RunRecord& run);
+
+/// 0 if every finding holds (or is not applicable, or measured only), every claim is ruled as
+/// recorded and few bounds are empirical, else 1. A claim that is undecided, and recorded so, fails
+/// the full tier only, unless it says what no run has.
 int exit_code(const RunRecord& run);
 
 /// A line for each finding: outcome, name, measured, bound, unit.

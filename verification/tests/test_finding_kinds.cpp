@@ -1,7 +1,9 @@
 // Labels of findings: derived from names, units and bounds, never from outcomes.
 #include <catch2/catch.hpp>
 #include <limits>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "verification/finding_kinds.h"
 
@@ -48,6 +50,24 @@ TEST_CASE("a timing without a spread is told as one") {
   const std::string name = "solver.cached-terms-save-time";
   CHECK(certainty_of(record_of(name, {0.4, 0.5, 0, "1", ""})) == Certainty::timed_once);
   CHECK(certainty_of(record_of(name, {0.4, 0.5, 1e-3, "1", ""})) == Certainty::estimated);
+}
+
+TEST_CASE("the share of measured bounds counts what is judged") {
+  std::vector<Record> records;
+  CHECK(empirical_share(records) == 0);
+  const auto add = [&](const char* why, std::optional<Outcome> outcome) {
+    records.push_back(record_of("a.b", {0, 1, 0, "1", why}));
+    records.back().outcome = outcome;
+  };
+  for (int k = 0; k < 18; ++k) add("derived", Outcome::holds);
+  add("empirical: measured 0.3", Outcome::holds);
+  add("empirical: measured 0.4", Outcome::not_applicable);
+  add("empirical: measured 0.5", std::nullopt);
+  CHECK(empirical_share(records) == Approx(1. / 19));
+  add("empirical: measured 0.6", Outcome::inconclusive);
+  CHECK(empirical_share(records) == Approx(2. / 20));
+  add("empirical: measured 0.7", Outcome::fails);
+  CHECK(empirical_share(records) == Approx(3. / 21));
 }
 
 TEST_CASE("a bound that was measured says so first") {

@@ -221,7 +221,7 @@ Examples:
 
 Exit codes:
   0    everything holds, and the ruling on every claim is as recorded
-  1    something fails or is inconclusive
+  1    something fails or is inconclusive, or more than 5 % of the bounds are empirical
   2    bad input, or a file that cannot be written)";
 
 constexpr const char* bench =
