@@ -89,11 +89,11 @@ PrecisionAnswer answer_for(const SceneKind& kind, Tier tier) {
   const LevelSetProvider level_sets = computing_provider();
   const PrecisionPlan plan =
       precision_plan(input_case, methods_of(tier), {1e-2, 1e-3}, budget, level_sets);
-  TrialRuns runs;
-  for (auto trials = next_trials(plan, runs); !trials.empty(); trials = next_trials(plan, runs))
+  Trials all;
+  for (auto trials = next_trials(plan, all); !trials.empty(); trials = next_trials(plan, all))
     for (const PrecisionTrial& trial : trials)
-      runs[trial.method][trial.parts] = run_trial(plan.input_case, trial, level_sets);
-  return precision_answer(plan, runs);
+      run_of(all, trial) = run_trial(plan.input_case, trial, level_sets);
+  return precision_answer(plan, all);
 }
 
 /// C beside the cheapest method that is not C.
