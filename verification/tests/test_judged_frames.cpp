@@ -180,7 +180,7 @@ TEST_CASE("judged frames: cloth that rises from nowhere is found") {
   // swings up instead of down
   for (TimedMesh& frame : frames.frames)
     for (Eigen::Index i = 0; i < frame.x.cols(); ++i) frame.x(1, i) = -0.2 * frame.x(1, i);
-  CHECK(frames.failing() == Names{"frames.energy-stays-in-budget"});
+  CHECK(frames.failing().contains("frames.energy-stays-in-budget"));
 }
 
 TEST_CASE("judged frames: of another mesh crossings and depths are judged, the rest declined") {
