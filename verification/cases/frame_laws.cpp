@@ -99,9 +99,10 @@ Finding springs_stay_within_limits(const FrameMotion& motion) {
     measured.row(frame.time, value_at(violation, scene, {}, frame));
   const Expectation* bound = stated(motion, violation.key);
   const double rounding = 2 * motion.rounding() / rest_lengths(scene.mesh).minCoeff();
-  return judge_worst(measured, (bound ? bound->bound : 0) + rounding,
+  return judge_worst(measured, (bound ? bound->bound : scene.strain_limits->tolerance) + rounding,
                      bound ? "of the case: " + bound->why
-                           : "the case's own limits; a file of six digits rounds an edge's length");
+                           : "the case's own limits and their tolerance; a file of six digits "
+                             "rounds an edge's length");
 }
 
 /// The mesh of the frames, if all have the same triangles and these form a surface.
@@ -191,7 +192,7 @@ Finding energy_stays_in_budget(const FrameMotion& motion) {
   const Energies start = energies(motion.built.system, start_state(motion.of.scene));
   Table measured{{"time", "s"},
                  {"potential less the start's total", "J"},
-                 {"allowed", "J"},
+                 {"allowed excess", "J"},
                  {"measured over allowed", "1"}};
   double largest = 0;
   for (const State& frame : motion.states) {

@@ -126,7 +126,7 @@ FrameNumbers numbers_of(const FrameMotion& motion, std::size_t k) {
 
 Table numbers_table(const std::vector<FrameNumbers>& frames) {
   Table rows{{"time", "s"},
-             {"crossings", "pairs"},
+             {"crossing pairs", "1"},
              {"depth in objects", "m"},
              {"largest extension", "1"},
              {"largest compression", "1"},
@@ -171,7 +171,7 @@ ComparisonEvidence evidence_of(const FrameMotion& motion) {
   evidence.figures.push_back({"strains",
                               "Strain of the edges",
                               time,
-                              {"strain", "1", Scale::linear},
+                              {"strain of edges", "1", Scale::linear},
                               nan,
                               "Length over rest length, less 1.",
                               {curve("largest extension", frames, &FrameNumbers::stretched),
