@@ -50,7 +50,7 @@ struct ColumnForces {
   }
 };
 
-ColumnForces forces_at(const Column& column, const Places& x) {
+ColumnForces forces_at(const BucklingColumn& column, const Places& x) {
   const int n = column.particles;
   ColumnForces all{Places::Zero(2, n), Eigen::MatrixXd::Zero(2 * n, 2 * n)};
   for (int i = 0; i + 1 < n; ++i) {
@@ -78,14 +78,14 @@ struct Shift {
 };
 constexpr double duration = 0.05, shortening = 0.2;  // s, of the length
 
-Shift shift_at(const Column& column, double t) {
+Shift shift_at(const BucklingColumn& column, double t) {
   const double way = -shortening * column.spacing * (column.particles - 1);
   const double part = std::min(t / duration, 1.0);
   return {way * part * part * (3 - 2 * part), way * 6 * part * (1 - part) / duration};
 }
 
 /// M (w - V) = s (F + K (X + s w - x)) with the ends' velocities known; X + s w is the next state.
-ColumnState step_to(const Column& column, const ColumnState& now, const ColumnState& stage,
+ColumnState step_to(const BucklingColumn& column, const ColumnState& now, const ColumnState& stage,
                     double s, const Shift& end) {
   const int n = column.particles;
   const ColumnForces at = forces_at(column, now.x);
@@ -146,9 +146,9 @@ double BucklingSpring::stiffness(double distance) const {
   return (force(distance + change) - force(distance - change)) / (2 * change);
 }
 
-double Column::elastic_limit() const { return std::sqrt(mass / pull); }
+double BucklingColumn::elastic_limit() const { return std::sqrt(mass / pull); }
 
-Shortening shorten(const Column& column, ColumnMethod method, double h, int steps) {
+Shortening shorten(const BucklingColumn& column, ColumnMethod method, double h, int steps) {
   ColumnState now{Places::Zero(2, column.particles), Places::Zero(2, column.particles)};
   Random random(19);
   for (int i = 0; i < column.particles; ++i) {
@@ -177,7 +177,7 @@ Shortening shorten(const Column& column, ColumnMethod method, double h, int step
   return result;
 }
 
-double stiffness_across(const Column& column, double strain) {
+double stiffness_across(const BucklingColumn& column, double strain) {
   // particles two apart push along x: across it, a push -f at the distance d is a stiffness f/d
   const int n = column.particles;
   const double distance = column.spring.length * (1 - strain);

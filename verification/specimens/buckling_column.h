@@ -35,7 +35,7 @@ enum class ColumnMethod { backward_euler, bdf2 };
 
 /// A column of particles in a plane. Neighbours are joined by springs that pull only; particles two
 /// apart by buckling springs. The two at each end are held.
-struct Column {
+struct BucklingColumn {
   int particles = 17;
   double spacing = 0.01;  // m
   double mass = 2e-5;     // kg, of each particle
@@ -51,10 +51,10 @@ struct Shortening {
   double at_the_stop, largest_after, at_the_end;
   double speed;  // the largest at the end [m/s]
 };
-Shortening shorten(const Column& column, ColumnMethod method, double h, int steps);
+Shortening shorten(const BucklingColumn& column, ColumnMethod method, double h, int steps);
 
 /// The least stiffness across a straight column that is shortened evenly by this strain [N/m]:
 /// negative once it gives way.
-double stiffness_across(const Column& column, double strain);
+double stiffness_across(const BucklingColumn& column, double strain);
 
 }  // namespace foldproof
