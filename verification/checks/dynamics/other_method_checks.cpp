@@ -121,11 +121,11 @@ Finding term_has_no_effect(const Subject& subject) {
   double most = 0;
   for (const double ratio : found.numbers("one over the other"))
     update_worst(most, std::abs(ratio - 1));
-  return {{most, 0.2, 0, "1",
-           "a fifth of the error is what a step shorter by a fifth is worth; both are of first "
-           "order"},
-          std::move(found),
-          "root of the mean square, after 0.24 s of a falling, swinging sheet"};
+  return {
+      {most, 0.2, 0, "1",
+       "a fifth of the error is what a step shorter by a fifth is worth; both are of first order"},
+      std::move(found),
+      "root of the mean square, after 0.24 s of a falling, swinging sheet"};
 }
 
 Finding term_matters(const Subject& subject) {
@@ -148,8 +148,8 @@ std::vector<Check> other_method_checks() {
            "breaks its symmetry as with it, to a fifth, on a swinging, weakly damped sheet.",
            "Baraff, Witkin 1998", term_has_no_effect},
           {"dynamics.dropped-damping-term-matters-in-strong-damping",
-           "On a strongly damped sheet one linear solve a step errs by more than a fifth more without "
-           "that term.",
+           "On a strongly damped sheet one linear solve a step errs by more than a fifth more "
+           "without that term.",
            "Baraff, Witkin 1998", term_matters}};
 }
 
