@@ -187,8 +187,8 @@ Figure shape_of(const LiftedPart& finest, const oracles::FreeFold& fold) {
 
 StudyResult run_free_fold(const Subject& subject, Tier tier, const Progress& progress) {
   const oracles::FreeFold fold = oracles::free_fold_by_shooting();
-  std::vector<int> panels{16, 32, 64};
-  if (tier == Tier::full) panels.push_back(128);
+  std::vector<int> panels{32, 64, 128};
+  if (tier == Tier::full) panels.push_back(256);
   Table levels{
       {"spacing of the rows", "1"},  {"lifted length", "1"},      {"height", "1"},
       {"error of the height", "1"},  {"end over the floor", "1"}, {"pull of the floor", "1"},

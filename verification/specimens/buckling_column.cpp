@@ -16,8 +16,9 @@ namespace {
 double half_angle(double ratio) {
   double a = std::sqrt(6 * (1 - ratio));
   for (int turn = 0; turn < 40; ++turn) {
-    const double sinc = std::sin(a) / a;
-    a -= (sinc - ratio) / ((std::cos(a) - sinc) / a);
+    const double sinc = std::sin(a) / a, step = (sinc - ratio) / ((std::cos(a) - sinc) / a);
+    a -= step;
+    if (!(std::abs(step) > 1e-15)) break;
   }
   return a;
 }
@@ -124,15 +125,20 @@ double BucklingSpring::force(double distance) const {
 
 double BucklingSpring::energy(double distance) const {
   if (!(distance < length)) return 0;
-  // the line up to where it meets the arc's force, then the arc; the meeting by bisection
-  const auto line_is_weaker = [&](double d) { return slope * (d - length) > arc_force(d); };
-  if (line_is_weaker(distance)) return slope * std::pow(distance - length, 2) / 2;
-  double nearer = distance, farther = length;
+  const double straight = std::max(distance, meeting) - length;
+  const double along_line = slope * straight * straight / 2;
+  return distance > meeting ? along_line : along_line + arc_energy(distance) - arc_energy(meeting);
+}
+
+BucklingSpring make_buckling_spring(double length, double bending, double slope) {
+  BucklingSpring spring{length, bending, slope, 0};
+  double nearer = 0.1 * length, farther = length;
   for (int turn = 0; turn < 60; ++turn) {
     const double middle = (nearer + farther) / 2;
-    (line_is_weaker(middle) ? farther : nearer) = middle;
+    (slope * (middle - length) > spring.arc_force(middle) ? farther : nearer) = middle;
   }
-  return slope * std::pow(nearer - length, 2) / 2 + arc_energy(distance) - arc_energy(nearer);
+  spring.meeting = nearer;
+  return spring;
 }
 
 double BucklingSpring::stiffness(double distance) const {

@@ -17,6 +17,7 @@ struct BucklingSpring {
   double length;   // L [m]
   double bending;  // k_b [N m^2]
   double slope;    // c_b [N/m]
+  double meeting;  // the distance at which the line meets the arc's force [m]
 
   double arc_force(double distance) const;   // [N], of the arc alone, distance < L
   double arc_energy(double distance) const;  // [J]
@@ -24,6 +25,9 @@ struct BucklingSpring {
   double energy(double distance) const;      // [J], of force()
   double stiffness(double distance) const;   // [N/m], its derivative
 };
+
+/// With the meeting found by bisection. length [m], bending [N m^2], slope [N/m].
+BucklingSpring make_buckling_spring(double length, double bending, double slope);
 
 /// Which implicit method takes the steps of a column, each with one linear solve in which the
 /// springs' push counts for nothing across them.
@@ -36,7 +40,7 @@ struct BucklingColumn {
   double spacing = 0.01;  // m
   double mass = 2e-5;     // kg, of each particle
   double pull = 1000;     // N/m
-  BucklingSpring spring{0.02, 1e-6, 100};
+  BucklingSpring spring = make_buckling_spring(0.02, 1e-6, 100);
 
   /// Longest stable step of an explicit method, from the pulling springs alone [s].
   double elastic_limit() const;

@@ -88,26 +88,6 @@ Finding gains_on_the_way(const Subject&) {
           "while the ends are still"};
 }
 
-/// Particles two apart on a strip whose rest shape is folded by an angle.
-Finding mirror_images_are_alike(const Subject&) {
-  Table found{{"rest angle", "rad"}, {"force at rest", "N"}, {"force in the mirror image", "N"}};
-  const BucklingSpring spring = BucklingColumn{}.spring;
-  double most = 0;
-  for (const double angle : {.3, .9, 1.6}) {
-    const auto far_corners = [&](double theta) {  // of a fold of two panels, half the length each
-      const double half = spring.length / 2;
-      return std::hypot(half + half * std::cos(theta), half * std::sin(theta));
-    };
-    BucklingSpring folded = spring;
-    folded.length = far_corners(angle);
-    const double at_rest = folded.force(far_corners(angle)),
-                 mirrored = folded.force(far_corners(-angle));
-    found.row(angle, at_rest, mirrored);
-    update_worst(most, std::abs(mirrored - at_rest));
-  }
-  return {{most, 0, 0, "N", "a distance has no sign: both folds are the rest shape"}, found, ""};
-}
-
 }  // namespace
 
 std::vector<Check> buckling_spring_checks() {
@@ -124,11 +104,7 @@ std::vector<Check> buckling_spring_checks() {
        source, comes_to_rest},
       {"bending.buckling-columns-gain-energy-on-the-way",
        "In some such steps the energy of a held column of buckling springs rises on the way.",
-       source, gains_on_the_way},
-      {"bending.buckling-springs-do-not-tell-a-fold-from-its-mirror-image",
-       "A buckling spring that is given the length of a folded rest shape has no force in the "
-       "fold's mirror image either.",
-       source, mirror_images_are_alike}};
+       source, gains_on_the_way}};
 }
 
 }  // namespace foldproof

@@ -40,7 +40,7 @@ NestedRidges nested_ridges(double gap, double slope) {
 }
 
 std::vector<NestedRidges> all_ridges() {
-  return {nested_ridges(0.03, 0.9), nested_ridges(0.011, 1.3), nested_ridges(0.002, 0.4)};
+  return {nested_ridges(0.015, 0.9), nested_ridges(0.011, 1.3), nested_ridges(0.002, 0.4)};
 }
 
 long crossings(const PerParticle3& x, const std::vector<Triangle>& triangles) {
