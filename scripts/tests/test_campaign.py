@@ -17,6 +17,7 @@ import sys
 import tempfile
 import time
 import unittest
+from collections import Counter
 from pathlib import Path
 
 import h5py
@@ -82,14 +83,16 @@ class CampaignTest(unittest.TestCase):
         ) as file:
             return list(csv.DictReader(file))
 
-    def result_lines(self) -> list[dict]:
-        lines = [
+    def lines(self) -> list[dict]:
+        return [
             json.loads(line)
             for path in self.out.glob("store/batches/*/shards/*.jsonl")
             for line in path.read_text().splitlines(keepends=True)
             if line.endswith("\n")
         ]
-        return [line for line in lines if "result" in line]
+
+    def result_lines(self) -> list[dict]:
+        return [line for line in self.lines() if "result" in line]
 
     def test_a_grid_becomes_a_table(self) -> None:
         file = self.write(GRID)
@@ -284,6 +287,8 @@ class CampaignTest(unittest.TestCase):
         self.assertEqual(running.wait(), 1)
         self.assertIn("crashed after 3 starts", running.communicate()[1])
         self.assertEqual(self.status(file)["crashed"], 3)
+        starts = Counter(line["start"] for line in self.lines() if "start" in line)
+        self.assertEqual(sorted(starts.values()), [3, 3, 3])
 
     def test_two_campaigns_at_once_share_their_work(self) -> None:
         files = [

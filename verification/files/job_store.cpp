@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -14,6 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr long layout = 1;                 // of the index
 constexpr size_t rows_at_a_time = 50'000;  // sorted by key, which is what makes inserting fast
 
@@ -46,7 +48,7 @@ JobResult result_of(const json& content) {
   result.reason = content.at("reason").get<std::string>();
   result.digest = content.at("digest").get<std::string>();
   for (const auto& [name, value] : content.at("values").items())
-    result.values[name] = value.is_null() ? nan : value.get<double>();
+    result.values[name] = value.is_null() ? not_a_number : value.get<double>();
   return result;
 }
 
