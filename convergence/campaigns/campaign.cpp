@@ -104,7 +104,7 @@ CampaignBlock read_block(const KeyTable& keys) {
   if (const auto grid = keys.table("grid"))
     for (const auto& [key, value] : grid->entries) {
       static_cast<void>(grid->has(key));
-      CampaignAxis axis{{key}, {}};
+      CampaignAxis axis{{key}, {}, false};
       for (const std::string& text : values_of(*grid, key)) axis.rows.push_back({text});
       block.axes.push_back(axis);
     }
@@ -195,6 +195,19 @@ void add_parameters(const CampaignBlock& block, bool is_one_of_several,
     add_parameters(part, is_one_of_several || block.parts.size() > 1, names);
 }
 
+void add_sampled(const CampaignBlock& block, std::set<std::string>& names) {
+  for (const CampaignAxis& axis : block.axes)
+    if (axis.is_sample) names.insert(axis.keys.begin(), axis.keys.end());
+  for (const CampaignBlock& part : block.parts) add_sampled(part, names);
+}
+
+std::map<std::string, std::string> read_names(const KeyTable& keys) {
+  std::map<std::string, std::string> names;
+  if (const auto table = keys.table("names"))
+    for (const auto& [key, value] : table->entries) names[key] = table->text(key);
+  return names;
+}
+
 std::string campaign_name(const std::string& path) {
   std::string name = std::filesystem::path(path).filename().string();
   for (const std::string& end : {std::string(".toml"), std::string(".campaign")})
@@ -240,6 +253,7 @@ Campaign read_campaign_text(const std::string& text, const std::string& path) {
   campaign.limits = read_limits(*keys);
   campaign.expectations = read_expectations(*keys);
   campaign.figures = read_figures(*keys);
+  campaign.names = read_names(*keys);
   campaign.quantities = quantities_of(*keys);
   keys->reject_unused();
   return campaign;
@@ -255,6 +269,12 @@ std::vector<Assignment> job_assignments(const Campaign& campaign, size_t i) {
   std::vector<Assignment> sorted;
   for (const auto& [key, value] : values) sorted.push_back({key, value});
   return sorted;
+}
+
+std::vector<std::string> sampled_parameters(const Campaign& campaign) {
+  std::set<std::string> names;
+  add_sampled(campaign.root, names);
+  return {names.begin(), names.end()};
 }
 
 std::vector<std::string> varied_parameters(const Campaign& campaign) {

@@ -86,7 +86,7 @@ class CampaignTest(unittest.TestCase):
     def lines(self) -> list[dict]:
         return [
             json.loads(line)
-            for path in self.out.glob("store/batches/*/shards/*.jsonl")
+            for path in self.out.glob("store/batches/*/shards/**/*.jsonl")
             for line in path.read_text().splitlines(keepends=True)
             if line.endswith("\n")
         ]
@@ -289,6 +289,40 @@ class CampaignTest(unittest.TestCase):
         self.assertEqual(self.status(file)["crashed"], 3)
         starts = Counter(line["start"] for line in self.lines() if "start" in line)
         self.assertEqual(sorted(starts.values()), [3, 3, 3])
+
+    def test_watching_shows_a_line_and_a_page_until_nothing_runs(self) -> None:
+        file = self.write('title = "<b>"\n' + LONG)
+        page = self.out / "campaigns/grid/watch.html"
+        for how, code in ((signal.SIGTERM, 1), (None, 0)):
+            running = subprocess.Popen(
+                [PROGRAM, "campaign", "run", file, "--out", self.out, "--threads", "1"],
+                cwd=ROOT,
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.DEVNULL,
+            )
+            done = len(self.result_lines())
+            while len(self.result_lines()) == done:
+                time.sleep(0.01)
+            watching = subprocess.Popen(
+                [PROGRAM, "campaign", "watch", file, "--out", self.out],
+                cwd=ROOT,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.PIPE,
+                text=True,
+            )
+            while not page.exists() or 'http-equiv="refresh"' not in page.read_text():
+                self.assertIsNone(watching.poll())
+                time.sleep(0.01)
+            self.assertRegex(page.read_text(), r"&lt;b&gt;: \d+ of 12|\d+ of 12: &lt;b&gt;")
+            if how:
+                running.send_signal(how)
+            said, line = watching.communicate()
+            running.wait()
+            self.assertEqual(watching.returncode, code, said)
+            self.assertRegex(line, r"^grid: \d+ of 12 done, \d+ running")
+            self.assertNotIn("refresh", page.read_text())
+        self.assertIn("12 of 12 done", page.read_text())
+        self.assertIn("12 jobs, 12 holds", said)
 
     def test_two_campaigns_at_once_share_their_work(self) -> None:
         files = [

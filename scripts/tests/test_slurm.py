@@ -78,7 +78,7 @@ class SlurmTest(unittest.TestCase):
 
     def lines(self) -> list[dict]:
         whole = []
-        for path in (self.path / "out/store/batches").glob("*/shards/*.jsonl"):
+        for path in (self.path / "out/store/batches").glob("*/shards/**/*.jsonl"):
             text = path.read_text()
             self.assertTrue(not text or text.endswith("\n") or "n" in path.name, path)
             whole += [
@@ -124,7 +124,7 @@ class SlurmTest(unittest.TestCase):
         )
         local = [
             json.loads(line)
-            for path in (self.path / "local").glob("store/batches/*/shards/*.jsonl")
+            for path in (self.path / "local").glob("store/batches/*/shards/**/*.jsonl")
             for line in path.read_text().splitlines()
         ]
         self.assertEqual(

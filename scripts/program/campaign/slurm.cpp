@@ -18,8 +18,9 @@ namespace foldproof {
 
 namespace {
 
-constexpr double seconds_a_slice = 120;  // long against the second or two that Slurm takes to start
-constexpr size_t usual_slice = 50;       // jobs, where their time is not known
+// of work for each core [s]: long against the second or two that Slurm takes to start a slice
+constexpr double shortest_slice = 30, longest_slice = 120;
+constexpr size_t usual_slice = 50;  // jobs for each core, where their time is not known
 
 struct Output {
   int code;
@@ -45,12 +46,61 @@ std::string quoted(const std::string& word) {
   return text + "'";
 }
 
-/// Elements of one array: MaxArraySize is one more than the highest index.
-size_t largest_array() {
+/// A number of Slurm's configuration.
+size_t configured(const std::string& name, size_t otherwise) {
   const std::string text = output_of("scontrol show config").text;
-  const size_t at = text.find("MaxArraySize");
+  const size_t at = text.find("\n" + name + " ");
   const size_t equals = at == std::string::npos ? at : text.find('=', at);
-  return equals == std::string::npos ? 1000 : size_t(std::max(1L, std::atol(&text[equals + 1])));
+  return equals == std::string::npos ? otherwise
+                                     : size_t(std::max(1L, std::atol(&text[equals + 1])));
+}
+
+/// Elements of one array: MaxArraySize is one more than the highest index.
+size_t largest_array() { return configured("MaxArraySize", 1000); }
+
+/// What an option of sbatch is given, as --name=VALUE, --name VALUE, -nVALUE or -n VALUE; "" if
+/// it is not there.
+std::string value_of_option(const std::string& options, const std::string& name,
+                            const std::string& letter) {
+  std::istringstream words(options);
+  for (std::string word, next; words >> word;) {
+    if (word == name || word == letter) return words >> next ? next : "";
+    if (word.starts_with(name + "=")) return word.substr(name.size() + 1);
+    if (word.starts_with(letter) && !word.starts_with("--")) return word.substr(letter.size());
+  }
+  return "";
+}
+
+/// What a batch may count on.
+struct Cluster {
+  size_t cores = 1, cores_a_slice = 1;
+  size_t most_slices = 100'000;
+};
+
+/// Of the partition that the options name, or of all that is there; of nodes of different sizes the
+/// smallest counts. Half of the jobs that the controller keeps are left to others.
+Cluster cluster_for(const std::string& options) {
+  const std::string partition = value_of_option(options, "--partition", "-p");
+  const Output output =
+      output_of("sinfo -h -o '%D %c'" + (partition.empty() ? "" : " -p " + quoted(partition)));
+  Cluster cluster{
+      0, 1, std::clamp(configured("MaxJobCount", 10'000) / 2, size_t(1), Cluster().most_slices)};
+  size_t smallest = 0;
+  std::istringstream lines(output.code == 0 ? output.text : "");
+  for (std::string line; std::getline(lines, line);) {
+    long nodes = 0, cores = 0;
+    if (std::sscanf(line.c_str(), "%ld %ld", &nodes, &cores) != 2 || nodes < 1 || cores < 1)
+      continue;
+    cluster.cores += size_t(nodes * cores);
+    smallest = smallest == 0 ? size_t(cores) : std::min(smallest, size_t(cores));
+  }
+  cluster.cores = std::max(cluster.cores, size_t(1));
+  const long asked = std::atol(value_of_option(options, "--cpus-per-task", "-c").c_str());
+  if (asked > 0)
+    cluster.cores_a_slice = size_t(asked);
+  else if (options.find("--exclusive") != std::string::npos && smallest > 0)
+    cluster.cores_a_slice = smallest;
+  return cluster;
 }
 
 std::string job_name(const Batch& batch) { return "foldproof:" + batch.name; }
@@ -94,11 +144,15 @@ std::string slurm_missing() {
   return output.code == 0 ? "" : "sbatch, squeue, scancel or scontrol is not installed here";
 }
 
-size_t slurm_jobs_a_slice(size_t jobs, double seconds) {
-  const double of_time =
-      seconds > 0 ? std::max(1.0, std::floor(seconds_a_slice / seconds)) : double(usual_slice);
-  // a million jobs of a millisecond are still a thousand slices
-  return size_t(std::clamp(of_time, std::max(1.0, double(jobs) / 100'000), 10'000.0));
+size_t slurm_jobs_a_slice(size_t jobs, double seconds, const EngineSettings& settings) {
+  const Cluster cluster = cluster_for(settings.options);
+  const double cores = double(cluster.cores_a_slice);
+  const double each = double(jobs) / double(cluster.cores);  // jobs of a core, shared out evenly
+  double a_core = std::min(double(usual_slice), each);
+  if (seconds > 0) a_core = std::clamp(each, shortest_slice / seconds, longest_slice / seconds);
+  // so many slices at most, and jobs for every core of a slice
+  const double least = std::max(cores, double(jobs) / double(cluster.most_slices));
+  return size_t(std::max({1.0, std::ceil(least), std::round(a_core * cores)}));
 }
 
 void slurm_submit(Batch& batch, const EngineSettings& settings,
