@@ -88,6 +88,18 @@ TEST_CASE("campaign: ranges are spread evenly, or by factors, up to their very e
   CHECK_THROWS_WITH(values("{ from = 0, to = 4, count = 1 }"), Contains("'count' must be 2"));
 }
 
+TEST_CASE("campaign: a list can be the names in the files of a folder") {
+  const ScratchFolder scratch;
+  write(scratch.file("b.toml"), "[[fault]]\nname = \"z\"\n[[other]]\nname = \"o\"\n");
+  write(scratch.file("a.toml"), "[[fault]]\nname = \"y-1\"\nlaw = \"\"\n[[fault]]\nname = \"x\"\n");
+  write(scratch.file("c.txt"), "no TOML");
+  const std::string text = "[grid]\nname = { folder = \".\", every = \"fault\" }\n";
+  CHECK(jobs_of(read_campaign_text(text, scratch.file("d.campaign.txt"))) ==
+        std::vector<std::string>{"name=y-1;", "name=x;", "name=z;"});
+  CHECK_THROWS_WITH(campaign_of("[grid]\nname = { folder = \"nowhere\", every = \"fault\" }\n"),
+                    Contains("name.campaign.toml:2: there is no folder"));
+}
+
 TEST_CASE("campaign: a Latin hypercube has one sample in each stratum of every parameter") {
   const Campaign campaign = campaign_of(
       "[sample]\ncount = 40\nseed = 3\na = { from = 10, to = 20 }\n"

@@ -11,11 +11,13 @@ import contextlib
 import csv
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
 import tempfile
 import time
+import tomllib
 import unittest
 from collections import Counter
 from pathlib import Path
@@ -218,6 +220,23 @@ class CampaignTest(unittest.TestCase):
         for key, folder in kept.items():
             self.assertIn(key, folder)
             self.assertTrue((self.out / "store" / folder / "hinge.h5").is_file())
+
+    def test_shipped_campaigns_have_the_jobs_that_their_page_says(self) -> None:
+        shipped = ROOT / "cases/campaigns"
+        page = (shipped / "README.md").read_text(encoding="utf-8")
+        rows = dict(re.findall(r"^\| \[`(\w+)`\]\(\1\.campaign\.toml\) \| ([\d,]+|all) \|", page, re.M))
+        files = sorted(shipped.glob("*.campaign.toml"))
+        self.assertEqual(sorted(rows), [path.name.split(".")[0] for path in files])
+        faults = sum(
+            len(tomllib.loads(path.read_text(encoding="utf-8")).get("fault", []))
+            for path in (ROOT / "verification/faults").glob("*.toml")
+        )
+        for name, said in rows.items():
+            jobs = faults if said == "all" else int(said.replace(",", ""))
+            self.assertEqual(self.status(name)["jobs"], jobs, name)
+        mutants = tomllib.loads((shipped / "mutants.campaign.toml").read_text(encoding="utf-8"))
+        for file in mutants["grid"]["name"]:
+            self.assertTrue((ROOT / file).is_file(), file)
 
     def test_other_commands_are_jobs(self) -> None:
         file = self.write(

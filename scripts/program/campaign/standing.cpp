@@ -71,7 +71,7 @@ OpenCampaign open_campaign(const std::string& file, const std::string& out) {
   const std::string beside = fs::absolute(path).parent_path().string();
   const std::string program = program_digest();
   const std::string store = fs::absolute(out + "/store").string();
-  JobKeys keys(campaign, program,
+  JobKeys keys(campaign, program + script_digest(campaign.run),
                [beside](const std::string& name) { return case_of_campaign(beside, name); });
   const std::string folder = out + "/campaigns/" + campaign.name;
   const std::vector<std::string> varied = varied_parameters(campaign);
