@@ -468,5 +468,6 @@ def figure_notes(table: CampaignTable, figure: CampaignFigure) -> list[str]:
     if "fails" in table.outcomes:
         notes.append("A ring is around runs that fail one of their case's expectations.")
     if layout.panels_left_out:
-        notes.append(f"{layout.panels_left_out} more values of {table.label(figure.over[2])[0]} are not drawn.")
+        of = layout.labels[2][0]
+        notes.append(f"{layout.panels_left_out} more values of {of} are not drawn.")
     return notes

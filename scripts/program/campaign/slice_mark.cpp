@@ -17,6 +17,10 @@ namespace {
 constexpr std::chrono::seconds between_renewals(2);
 constexpr std::chrono::seconds until_dead(8);  // four renewals that did not come
 
+std::string path_of_mark(const Batch& batch, size_t slice) {
+  return fmt::format("{}/{:06}.alive", shard_folder(batch, slice), slice);
+}
+
 std::string text_of_mark(const std::string& path) {
   std::ifstream file(path);
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
@@ -24,8 +28,12 @@ std::string text_of_mark(const std::string& path) {
 
 }  // namespace
 
+std::string mark_of_slice(const Batch& batch, size_t slice) {
+  return text_of_mark(path_of_mark(batch, slice));
+}
+
 SliceMark::SliceMark(const Batch& batch, size_t slice, const InterruptionWatch& watch)
-    : path_(fmt::format("{}/{:06}.alive", shard_folder(batch, slice), slice)) {
+    : path_(path_of_mark(batch, slice)) {
   std::string last = text_of_mark(path_);
   for (auto seen = std::chrono::steady_clock::now();
        !last.empty() && std::chrono::steady_clock::now() - seen < until_dead;) {

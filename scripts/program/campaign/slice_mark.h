@@ -9,6 +9,9 @@
 
 namespace foldproof {
 
+/// What the mark of a slice says now; "" without one.
+std::string mark_of_slice(const Batch& batch, size_t slice);
+
 /// STORE/batches/NAME/shards/0000/000000.alive, while a process works on the slice. Clocks of nodes
 /// may differ, so that it is alive which changes, not which is young.
 class SliceMark {

@@ -4,13 +4,17 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <map>
+#include <optional>
 #include <sstream>
 
 #include "reference/types.h"
+#include "scripts/program/campaign/slice_mark.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
 
@@ -20,6 +24,7 @@ namespace {
 
 // of work for each core [s]: long against the second or two that Slurm takes to start a slice
 constexpr double shortest_slice = 30, longest_slice = 120;
+constexpr std::chrono::seconds until_a_ghost(120);  // sixty renewals of a mark that did not come
 constexpr size_t usual_slice = 50;  // jobs for each core, where their time is not known
 
 struct Output {
@@ -137,6 +142,39 @@ std::string submit_array(const Batch& batch, const EngineSettings& settings, siz
   return number;
 }
 
+/// The slice of an element, as 21_7 of the arrays 21+0,22+1000; none for another batch's.
+std::optional<size_t> slice_of(const Batch& batch, const std::string& element) {
+  long job = 0, index = 0;
+  if (std::sscanf(element.c_str(), "%ld_%ld", &job, &index) != 2) return {};
+  std::istringstream arrays(batch.handle);
+  for (std::string array; std::getline(arrays, array, ',');) {
+    long number = 0, first = 0;
+    if (std::sscanf(array.c_str(), "%ld+%ld", &number, &first) == 2 && number == job)
+      return size_t(first + index);
+  }
+  return {};
+}
+
+/// Whether Slurm believes that the element runs, though no one works on its slice: where a node's
+/// daemon and a slice's process die together, and the controller with them, Slurm may not notice.
+/// Remembers since when this process has seen each mark as it is.
+bool is_a_ghost(const Batch& batch, const std::string& element) {
+  struct Seen {
+    std::string mark;
+    std::chrono::steady_clock::time_point since;
+  };
+  static std::map<std::string, Seen> seen;
+  const std::optional<size_t> slice = slice_of(batch, element);
+  if (!slice) return false;
+  const auto now = std::chrono::steady_clock::now();
+  const std::string mark = mark_of_slice(batch, *slice);
+  const auto [of, is_new] = seen.try_emplace(batch.name + " " + element, Seen{mark, now});
+  if (is_new || of->second.mark != mark) of->second = {mark, now};
+  if (now - of->second.since < until_a_ghost) return false;
+  seen.erase(of);  // looked at anew after it was requeued
+  return true;
+}
+
 }  // namespace
 
 std::string slurm_missing() {
@@ -163,7 +201,8 @@ void slurm_submit(Batch& batch, const EngineSettings& settings,
   const size_t most = largest_array();
   for (size_t first = 0; first < batch.slices; first += most) {
     const size_t count = std::min(most, batch.slices - first);
-    batch.handle += (batch.handle.empty() ? "" : ",") + submit_array(batch, settings, first, count);
+    batch.handle += fmt::format("{}{}+{}", batch.handle.empty() ? "" : ",",
+                                submit_array(batch, settings, first, count), first);
     write_terms(batch);
   }
   show(0);
@@ -174,10 +213,14 @@ BatchState slurm_ask(const Batch& batch) {
   if (output.code != 0) return BatchState::unknown;
   std::istringstream lines(output.text);
   bool is_there = false;
-  for (std::string line; std::getline(lines, line); is_there = true)
+  for (std::string line; std::getline(lines, line); is_there = true) {
+    const std::string element = line.substr(0, line.find(' '));
     // an element whose node failed at its start waits for someone to release it
     if (line.find("held") != std::string::npos || line.find("Held") != std::string::npos)
-      static_cast<void>(output_of("scontrol release " + line.substr(0, line.find(' '))));
+      static_cast<void>(output_of("scontrol release " + element));
+    if (line.find(" RUNNING ") != std::string::npos && is_a_ghost(batch, element))
+      static_cast<void>(output_of("scontrol requeue " + element));
+  }
   return is_there ? BatchState::runs : BatchState::has_ended;
 }
 
