@@ -233,7 +233,7 @@ def _draw_colour_bar(canvas: Figure, layout: Layout, norm: Normalize, left: floa
         with_unit(*layout.value),
         (1.0, 1.0),
         xycoords="axes fraction",
-        xytext=(38, 14),
+        xytext=(38, 27),  # above the titles of panels
         textcoords="offset points",
         ha="right",
         va="bottom",

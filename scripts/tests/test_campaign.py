@@ -258,6 +258,16 @@ class CampaignTest(unittest.TestCase):
         self.assertEqual(self.status(file)["done"], 6)
         self.assertEqual(len(self.result_lines()), 6)
 
+    def test_a_slice_that_is_started_twice_at_once_is_worked_on_once(self) -> None:
+        [line] = self.campaign("emit", self.write(LONG), "--slice", "12").stdout.splitlines()
+        running = [subprocess.Popen(line, shell=True, stderr=subprocess.DEVNULL)]
+        while not self.result_lines():
+            time.sleep(0.01)
+        running.append(subprocess.Popen(line, shell=True, stderr=subprocess.DEVNULL))
+        self.assertEqual([process.wait() for process in running], [0, 0])
+        keys = [line["result"] for line in self.result_lines()]
+        self.assertEqual((len(keys), len(set(keys))), (12, 12))
+
     def test_a_campaign_that_is_killed_goes_on(self) -> None:
         file = self.write(LONG)
         for how in (signal.SIGINT, signal.SIGKILL, signal.SIGTERM):

@@ -200,6 +200,16 @@ class SlurmTest(unittest.TestCase):
         self.finish(running)
         self.assert_same_as_local(file, 30)
 
+    def test_a_slice_that_stands_still_is_started_again(self) -> None:
+        file = self.write(24, 2)
+        running = self.start(file, "--slice", "8")
+        self.wait_for_results(2)
+        worker = self.workers()[0]
+        above = int(Path(f"/proc/{worker}/stat").read_text().rpartition(")")[2].split()[1])
+        os.kill(above, signal.SIGSTOP)  # Slurm still says that it runs
+        self.finish(running)
+        self.assert_same_as_local(file, 24)
+
     def test_two_campaigns_at_once_on_one_store(self) -> None:
         one, two = self.write(30, 1, "one"), self.write(59, 1, "two")
         running = [self.start(file, "--slice", "5") for file in (one, two)]
