@@ -55,7 +55,7 @@ class CampaignTable:
     seconds: np.ndarray
 
     def label(self, name: str) -> tuple[str, str]:
-        """Words and unit of a parameter or a quantity: the campaign's own, else those of the key."""
+        """Words and unit of a parameter or a quantity: the campaign's own, else the key's."""
         is_quantity = name in self.values
         unit = self.units.get(name, "1") if is_quantity else unit_of_key(name)
         said = self.names.get(name)

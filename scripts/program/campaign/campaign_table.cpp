@@ -126,8 +126,11 @@ std::vector<Sensitivity> sensitivities_of(const Campaign& campaign, const Campai
 std::string text_of(const std::vector<Sensitivity>& sensitivities) {
   std::string text;
   for (const auto& [quantity, parameter, of] : sensitivities)
-    text += fmt::format("{}: {:.3f} +- {:.3f} of its variance by {} alone ({} samples)\n", quantity,
-                        of.index, of.error, parameter, of.samples);
+    text += std::isnan(of.index)
+                ? fmt::format("{}: {} samples do not say what comes from {}\n", quantity,
+                              of.samples, parameter)
+                : fmt::format("{}: {:.3f} +- {:.3f} of its variance by {} alone ({} samples)\n",
+                              quantity, of.index, of.error, parameter, of.samples);
   return text;
 }
 
