@@ -10,6 +10,7 @@ import functools
 import hashlib
 import json
 import math
+import os
 import re
 import shlex
 import subprocess
@@ -28,6 +29,7 @@ PYTHON_TESTS = {
     "EvaluateTest": ROOT / "scripts/tests/test_evaluate.py",
     "ResumeTest": ROOT / "scripts/tests/test_resume.py",
     "CampaignTest": ROOT / "scripts/tests/test_campaign.py",
+    "SlicesTest": ROOT / "scripts/tests/test_slices.py",
     "IndependentTest": ROOT / "verification/independent/test_independent.py",
 }
 APART_FOLDER = BUILD / "faults" / "apart"
@@ -163,6 +165,14 @@ def compile_mutant(plan: Plan, edit: Edit, overlay: Path) -> dict[str, list[Path
     return objects
 
 
+def write_at_once(path: Path, text: str) -> None:
+    """Another program that reads the file now finds the old text, or the new one."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    part = path.with_suffix(f".{os.getpid()}.part")
+    part.write_text(text, encoding="utf-8")
+    part.replace(path)
+
+
 APART = collections.defaultdict(threading.Lock)
 
 
@@ -173,8 +183,9 @@ def compile_apart(plan: Plan, unit: Unit, source: Path) -> Path:
     with APART[target]:
         if not target.exists() or target.stat().st_mtime < (BUILD / unit.object).stat().st_mtime:
             target.parent.mkdir(parents=True, exist_ok=True)
-            compile_unit(plan, unit, source, target.with_suffix(".part"), target.parent)
-            target.with_suffix(".part").replace(target)
+            part = target.with_suffix(f".{os.getpid()}.part")  # other programs may make it, too
+            compile_unit(plan, unit, source, part, target.parent)
+            part.replace(target)
     return target
 
 

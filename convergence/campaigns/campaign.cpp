@@ -47,8 +47,26 @@ std::string toml_of(const KeyValue& value) {
   return text_of(value);
 }
 
-/// The values of one parameter: a list, or { from, to, count, spacing }.
-std::vector<std::string> values_of(const KeyTable& table, const std::string& key) {
+/// The names in all TOML files of a folder: of [[fault]] tables, say. In the order of
+/// the files' names.
+std::vector<std::string> names_in_files(const KeyTable& asked, const std::string& folder) {
+  namespace fs = std::filesystem;
+  const std::string below = folder + "/" + asked.text("folder"), every = asked.text("every");
+  std::error_code none;
+  std::set<std::string> files;
+  for (const auto& entry : fs::directory_iterator(below, none))
+    if (entry.path().extension() == ".toml") files.insert(entry.path().string());
+  if (none) throw InputError(asked.where("folder") + ": there is no folder " + below);
+  std::vector<std::string> names;
+  for (const std::string& file : files)
+    for (const auto& table : parse_keys(read_text(file), file)->tables(every))
+      names.push_back(text_of(table->entries.at("name")));
+  return names;
+}
+
+/// The values of one parameter: a list, { from, to, count, spacing } or { folder, every }.
+std::vector<std::string> values_of(const KeyTable& table, const std::string& key,
+                                   const std::string& folder) {
   std::vector<std::string> values;
   const KeyValue& entry = table.entries.at(key);
   if (const auto* list = std::get_if<std::vector<KeyValue>>(&entry.data)) {
@@ -56,6 +74,7 @@ std::vector<std::string> values_of(const KeyTable& table, const std::string& key
     for (const KeyValue& value : *list) values.push_back(text_of(value));
   } else if (std::holds_alternative<std::shared_ptr<KeyTable>>(entry.data)) {
     const auto range = table.table(key);
+    if (range->has("every")) return names_in_files(*range, folder);
     const long count = range->integer("count");
     if (count < 2 || count > long(most_jobs))
       throw InputError(range->where("count") + ": 'count' must be 2 to 10000000");
@@ -81,11 +100,11 @@ std::vector<Assignment> fixed_in(const KeyTable& block) {
   return fixed;
 }
 
-CampaignAxis zipped(const KeyTable& table) {
+CampaignAxis zipped(const KeyTable& table, const std::string& folder) {
   CampaignAxis axis;
   for (const auto& [key, value] : table.entries) {
     static_cast<void>(table.has(key));
-    const std::vector<std::string> values = values_of(table, key);
+    const std::vector<std::string> values = values_of(table, key, folder);
     if (axis.keys.empty()) axis.rows.resize(values.size());
     if (values.size() != axis.rows.size())
       throw InputError(fmt::format(
@@ -98,19 +117,19 @@ CampaignAxis zipped(const KeyTable& table) {
   return axis;
 }
 
-CampaignBlock read_block(const KeyTable& keys) {
+CampaignBlock read_block(const KeyTable& keys, const std::string& folder) {
   CampaignBlock block;
   block.fixed = fixed_in(keys);
   if (const auto grid = keys.table("grid"))
     for (const auto& [key, value] : grid->entries) {
       static_cast<void>(grid->has(key));
-      CampaignAxis axis{{key}, {}};
-      for (const std::string& text : values_of(*grid, key)) axis.rows.push_back({text});
+      CampaignAxis axis{{key}, {}, false};
+      for (const std::string& text : values_of(*grid, key, folder)) axis.rows.push_back({text});
       block.axes.push_back(axis);
     }
-  for (const auto& table : keys.tables("zip")) block.axes.push_back(zipped(*table));
+  for (const auto& table : keys.tables("zip")) block.axes.push_back(zipped(*table, folder));
   if (const auto table = keys.table("sample")) block.axes.push_back(latin_hypercube(*table));
-  for (const auto& part : keys.tables("part")) block.parts.push_back(read_block(*part));
+  for (const auto& part : keys.tables("part")) block.parts.push_back(read_block(*part, folder));
   double jobs = 0;
   for (const CampaignBlock& part : block.parts) jobs += double(part.jobs);
   if (block.parts.empty()) jobs = 1;
@@ -195,6 +214,19 @@ void add_parameters(const CampaignBlock& block, bool is_one_of_several,
     add_parameters(part, is_one_of_several || block.parts.size() > 1, names);
 }
 
+void add_sampled(const CampaignBlock& block, std::set<std::string>& names) {
+  for (const CampaignAxis& axis : block.axes)
+    if (axis.is_sample) names.insert(axis.keys.begin(), axis.keys.end());
+  for (const CampaignBlock& part : block.parts) add_sampled(part, names);
+}
+
+std::map<std::string, std::string> read_names(const KeyTable& keys) {
+  std::map<std::string, std::string> names;
+  if (const auto table = keys.table("names"))
+    for (const auto& [key, value] : table->entries) names[key] = table->text(key);
+  return names;
+}
+
 std::string campaign_name(const std::string& path) {
   std::string name = std::filesystem::path(path).filename().string();
   for (const std::string& end : {std::string(".toml"), std::string(".campaign")})
@@ -236,10 +268,12 @@ Campaign read_campaign_text(const std::string& text, const std::string& path) {
   } catch (const InputError& error) {
     throw InputError(keys->where("keep") + ": " + error.what());
   }
-  campaign.root = read_block(*keys);
+  const std::string folder = std::filesystem::absolute(path).parent_path().string();
+  campaign.root = read_block(*keys, folder);
   campaign.limits = read_limits(*keys);
   campaign.expectations = read_expectations(*keys);
   campaign.figures = read_figures(*keys);
+  campaign.names = read_names(*keys);
   campaign.quantities = quantities_of(*keys);
   keys->reject_unused();
   return campaign;
@@ -255,6 +289,12 @@ std::vector<Assignment> job_assignments(const Campaign& campaign, size_t i) {
   std::vector<Assignment> sorted;
   for (const auto& [key, value] : values) sorted.push_back({key, value});
   return sorted;
+}
+
+std::vector<std::string> sampled_parameters(const Campaign& campaign) {
+  std::set<std::string> names;
+  add_sampled(campaign.root, names);
+  return {names.begin(), names.end()};
 }
 
 std::vector<std::string> varied_parameters(const Campaign& campaign) {

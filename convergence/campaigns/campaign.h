@@ -1,6 +1,7 @@
 // A campaign: one question asked of many parameters, as its file states it.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -18,6 +19,7 @@ struct Assignment {
 struct CampaignAxis {
   std::vector<std::string> keys;
   std::vector<std::vector<std::string>> rows;
+  bool is_sample = false;
 };
 
 /// What [set], [grid], [[zip]], [sample] and [[part]] say at one level: every combination of the
@@ -65,6 +67,7 @@ struct Campaign {
   std::string quantities;  // its [[quantity]] tables as one TOML assignment; "" without any
   std::vector<CampaignExpectation> expectations;
   std::vector<CampaignFigure> figures;
+  std::map<std::string, std::string> names;  // of parameters and quantities, for readers
 };
 
 /// Reads a campaign file. Throws InputError "file:line: ..." for unknown keys, lists of different
@@ -80,6 +83,9 @@ std::vector<Assignment> job_assignments(const Campaign& campaign, size_t i);
 
 /// The parameters that differ between jobs, sorted.
 std::vector<std::string> varied_parameters(const Campaign& campaign);
+
+/// Those that vary with others as samples, sorted.
+std::vector<std::string> sampled_parameters(const Campaign& campaign);
 
 /// A value as TOML, or as the bare word that means the same after --set.
 std::string text_of(const KeyValue& value);

@@ -12,19 +12,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string folder_digest(const fs::path& folder) {
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(folder))
-    if (entry.is_regular_file()) files.push_back(entry.path());
-  std::ranges::sort(files);
-  WideKey key;
-  for (const fs::path& file : files) {
-    key.add(file.filename().string());
-    key.add(file_digest(file.string()));
-  }
-  return key.text();
-}
-
 /// Adds the meshes and folders of frames that a case file names, with their content.
 void add_files(const KeyTable& table, const fs::path& folder, WideKey& key) {
   const auto add_below = [&](const KeyValue& value) {
@@ -40,7 +27,7 @@ void add_files(const KeyTable& table, const fs::path& folder, WideKey& key) {
     std::error_code none;
     if (fs::is_regular_file(folder / *text, none)) key.add(file_digest((folder / *text).string()));
     if (name == "frames" && fs::is_directory(folder / *text, none))
-      key.add(folder_digest(folder / *text));
+      key.add(folder_digest((folder / *text).string()));
   }
 }
 
@@ -54,6 +41,19 @@ std::string file_digest(const std::string& path) {
   if (!file) throw InputError(path + ": cannot be read");
   WideKey key;
   key.add(bytes);
+  return key.text();
+}
+
+std::string folder_digest(const std::string& folder) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.is_regular_file()) files.push_back(entry.path());
+  std::ranges::sort(files);
+  WideKey key;
+  for (const fs::path& file : files) {
+    key.add(file.filename().string());
+    key.add(file_digest(file.string()));
+  }
   return key.text();
 }
 

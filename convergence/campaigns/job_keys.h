@@ -42,6 +42,9 @@ class JobKeys {
   std::unordered_map<std::string, std::string> digests_;  // of the files that a value names
 };
 
+/// The digest of a folder's files, by their names and bytes; folders in it are left out.
+std::string folder_digest(const std::string& folder);
+
 /// The digest of a file's bytes. Throws InputError if it cannot be read.
 std::string file_digest(const std::string& path);
 

@@ -55,6 +55,7 @@ CampaignAxis latin_hypercube(const KeyTable& table) {
     throw InputError(table.where("count") + ": 'count' must be 1 to 10000000");
   std::mt19937_64 random(std::uint64_t(table.integer_or("seed", 1)));
   CampaignAxis axis;
+  axis.is_sample = true;
   axis.rows.resize(size_t(count));
   for (const auto& [key, value] : table.entries) {
     if (key == "count" || key == "seed") continue;

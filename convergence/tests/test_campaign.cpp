@@ -6,6 +6,7 @@
 
 #include "convergence/campaigns/job_keys.h"
 #include "convergence/campaigns/sample.h"
+#include "convergence/campaigns/sensitivity.h"
 #include "verification/specimens/scratch_folder.h"
 
 namespace foldproof {
@@ -87,6 +88,18 @@ TEST_CASE("campaign: ranges are spread evenly, or by factors, up to their very e
   CHECK_THROWS_WITH(values("{ from = 0, to = 4, count = 1 }"), Contains("'count' must be 2"));
 }
 
+TEST_CASE("campaign: a list can be the names in the files of a folder") {
+  const ScratchFolder scratch;
+  write(scratch.file("b.toml"), "[[fault]]\nname = \"z\"\n[[other]]\nname = \"o\"\n");
+  write(scratch.file("a.toml"), "[[fault]]\nname = \"y-1\"\nlaw = \"\"\n[[fault]]\nname = \"x\"\n");
+  write(scratch.file("c.txt"), "no TOML");
+  const std::string text = "[grid]\nname = { folder = \".\", every = \"fault\" }\n";
+  CHECK(jobs_of(read_campaign_text(text, scratch.file("d.campaign.txt"))) ==
+        std::vector<std::string>{"name=y-1;", "name=x;", "name=z;"});
+  CHECK_THROWS_WITH(campaign_of("[grid]\nname = { folder = \"nowhere\", every = \"fault\" }\n"),
+                    Contains("name.campaign.toml:2: there is no folder"));
+}
+
 TEST_CASE("campaign: a Latin hypercube has one sample in each stratum of every parameter") {
   const Campaign campaign = campaign_of(
       "[sample]\ncount = 40\nseed = 3\na = { from = 10, to = 20 }\n"
@@ -105,6 +118,53 @@ TEST_CASE("campaign: a Latin hypercube has one sample in each stratum of every p
   CHECK(normal_quantile(0.975) == Approx(1.959963984540054).epsilon(1e-13));
   CHECK(normal_quantile(1e-9) == Approx(-5.997807015007687).epsilon(1e-12));
   CHECK(normal_quantile(0.5) == 0);
+}
+
+TEST_CASE("sensitivity: the indices of Ishigami's function are found from a Latin hypercube") {
+  // f = sin x1 + 7 sin^2 x2 + 0.1 x3^4 sin x1 over (-pi, pi)^3 (Ishigami and Homma 1990)
+  const double pi = 3.14159265358979323846, a = 7, b = 0.1;
+  const double from_x1 = std::pow(1 + b * std::pow(pi, 4) / 5, 2) / 2, from_x2 = a * a / 8;
+  const double variance = a * a / 8 + b * std::pow(pi, 4) / 5 + b * b * std::pow(pi, 8) / 18 + 0.5;
+  const double exact[3] = {from_x1 / variance, from_x2 / variance, 0};
+  for (const char* seed : {"3", "17", "40"}) {
+    const std::string range =
+        " = { from = -3.14159265358979323846, to = 3.14159265358979323846 }\n";
+    const Campaign campaign = campaign_of(std::string("[sample]\ncount = 2000\nseed = ") + seed +
+                                          "\nx1" + range + "x2" + range + "x3" + range);
+    CHECK(sampled_parameters(campaign) == std::vector<std::string>{"x1", "x2", "x3"});
+    std::vector<double> x[3], f;
+    for (const auto& row : campaign.root.axes[0].rows) {
+      for (size_t k = 0; k < 3; ++k) x[k].push_back(std::stod(row[k]));
+      const double x1 = x[0].back(), x2 = x[1].back(), x3 = x[2].back();
+      f.push_back(std::sin(x1) + a * std::pow(std::sin(x2), 2) +
+                  b * std::pow(x3, 4) * std::sin(x1));
+    }
+    for (size_t k = 0; k < 3; ++k) {
+      const FirstOrderIndex found = first_order_index(x[k], f);
+      CAPTURE(seed, k, found.index, found.error);
+      CHECK(found.bins == 44);
+      CHECK(std::abs(found.index - exact[k]) < 3 * found.error);  // 370 to 1 for a normal error
+      CHECK(found.error < 0.034);  // twice 2 sqrt(s) (1 - s)/sqrt(n), its largest for a normal y
+    }
+  }
+}
+
+TEST_CASE("sensitivity: without scatter, with too few samples, and with values that are missing") {
+  std::vector<double> x, line, none;
+  for (int k = 0; k < 400; ++k) {
+    x.push_back(0.7 * ((k * 37) % 400));
+    line.push_back(3 - 2 * x.back());
+    none.push_back(std::nan(""));
+  }
+  // bins of a straight line keep 1/400 of its variance to themselves
+  CHECK(first_order_index(x, line).index == Approx(1).margin(2.0 / 400));
+  CHECK(std::isnan(first_order_index(x, std::vector<double>(400, 5.0)).index));
+  CHECK(std::isnan(first_order_index(x, none).index));
+  std::vector<double> some = line;
+  for (size_t k = 0; k < some.size(); k += 2) some[k] = std::nan("");
+  CHECK(first_order_index(x, some).samples == 200);
+  CHECK(first_order_index(x, some).index == Approx(1).margin(2.0 / 196));
+  CHECK(std::isnan(first_order_index(std::span(x).first(39), std::span(line).first(39)).index));
 }
 
 TEST_CASE("campaign: what makes no sense is refused with its place") {

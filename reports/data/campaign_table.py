@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
@@ -9,10 +10,21 @@ from typing import Any
 
 import numpy as np
 
+from data.case_keys import unit_of_key, words_of_key
 from data.unreadable import Unreadable, reading
 
 WITH_VALUE = ("holds", "fails")  # outcomes of runs that came to their end
-OF_EVERY_RUN = ("steps", "end_time", "cg_iterations", "exit_code")
+OF_EVERY_RUN = (
+    "steps",
+    "end_time",
+    "cg_iterations",
+    "exit_code",
+    "repulsions",
+    "impulses",
+    "zone_particles",
+    "share_of_impulses",
+)
+NAMED_WITH_UNIT = re.compile(r"(.*\S)\s*\[([^\]]+)\]")
 MOST_FIGURES = 6  # of a campaign that names none
 
 
@@ -36,9 +48,21 @@ class CampaignTable:
     settings: dict[str, list[str]]  # a column a parameter
     values: dict[str, np.ndarray]  # a column a quantity
     units: dict[str, str]
+    names: dict[str, str]  # of parameters and quantities, for readers, as "length [m]"
+    sensitivities: list[dict[str, Any]]
     outcomes: list[str]
     reasons: list[str]
     seconds: np.ndarray
+
+    def label(self, name: str) -> tuple[str, str]:
+        """Words and unit of a parameter or a quantity: the campaign's own, else the key's."""
+        is_quantity = name in self.values
+        unit = self.units.get(name, "1") if is_quantity else unit_of_key(name)
+        said = self.names.get(name)
+        if said is None:
+            return words_of_key(name.removeprefix("expect.")), unit
+        with_unit = NAMED_WITH_UNIT.fullmatch(said)
+        return (with_unit[1], with_unit[2]) if with_unit else (said, unit)
 
     def counts(self) -> dict[str, int]:
         """How many jobs had each outcome, the commonest first."""
@@ -77,6 +101,8 @@ def _table_of(said: dict[str, Any]) -> CampaignTable:
         settings,
         values,
         said["units"],
+        said.get("names", {}),
+        said.get("sensitivities", []),
         outcomes,
         [str(reason) for reason in said["reasons"]],
         np.array([np.nan if s is None else s for s in said["seconds"]], dtype=float),

@@ -17,6 +17,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
 
 from data.campaign_table import WITH_VALUE, CampaignFigure, CampaignTable
+from data.quantities import unit_text
 from plots.map_plots import COLOURS_OF_VALUES
 from plots.plot_style import (
     COLOURS,
@@ -44,6 +45,7 @@ MARKS = {
     "crashed": "P",
     "missing": "1",
 }
+NO_VALUE = "not set"  # of a parameter that only some parts of a campaign vary
 MOST_PANELS, MOST_CURVES, MOST_NAMED = 12, 11, 8
 NUMBER = re.compile(r"(?<![\w.])([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)(?![\w.])")
 LETTER = 0.075  # width [inch], with the space around a tick's name shared out
@@ -60,7 +62,9 @@ class Levels:
 
     def named(self) -> list[str]:
         """As ticks."""
-        return self.texts if self.numbers is None else [level_text(v) for v in self.numbers]
+        if self.numbers is not None:
+            return [level_text(v) for v in self.numbers]
+        return [text or NO_VALUE for text in self.texts]
 
 
 @dataclass(frozen=True)
@@ -76,7 +80,8 @@ class Layout:
     """What all panels of a figure share."""
 
     figure: CampaignFigure
-    unit: str
+    labels: list[tuple[str, str]]  # words and unit of each parameter
+    value: tuple[str, str]  # of the quantity
     x: Levels
     y: Levels  # a single level for one parameter
     panels: list[Panel]
@@ -127,10 +132,18 @@ def layout_of(table: CampaignTable, figure: CampaignFigure) -> Layout:
     jobs: list[dict[tuple[int, int], list[int]]] = [defaultdict(list) for _ in z.texts]
     for job, (a, b, c) in enumerate(zip(*(columns + [everywhere] * 2)[:3])):
         jobs[place[2][c]][place[0][a], place[1][b]].append(job)
-    titles = [f"{figure.over[2]} = {text}" if len(figure.over) > 2 else "" for text in z.named()]
+    labels = [table.label(name) for name in figure.over]
+    titles = [panel_title(labels[2], text) if len(labels) > 2 else "" for text in z.named()]
     panels = [Panel(title, dict(cells)) for title, cells in zip(titles, jobs)]
-    unit = table.units.get(figure.quantity, "1")
-    return Layout(figure, unit, x, y, panels[:MOST_PANELS], len(panels[MOST_PANELS:]))
+    value = table.label(figure.quantity)
+    return Layout(figure, labels, value, x, y, panels[:MOST_PANELS], len(panels[MOST_PANELS:]))
+
+
+def panel_title(label: tuple[str, str], text: str) -> str:
+    """A value of the third parameter."""
+    words, unit = label
+    is_bare = unit in ("", "1") or not text or text == NO_VALUE
+    return f"{words}: {text or NO_VALUE}" + ("" if is_bare else f" {unit_text(unit)}")
 
 
 def plot_campaign_figure(
@@ -182,7 +195,7 @@ def _draw_panels(layout: Layout, table: CampaignTable, values: np.ndarray, draw)
         left = 0.75 + (k % columns) * across
         bottom = below + 0.5 + (rows - 1 - k // columns) * up
         axes = canvas.add_axes((left / width, bottom / height, wide / width, high / height))
-        label_axes(axes, layout.figure.over[0], "1", "", "1")
+        label_axes(axes, *layout.labels[0], "", "1")
         draw(Drawing(axes, layout, panel, values, table.outcomes, norm))
         axes.annotate(
             panel.title,
@@ -218,10 +231,10 @@ def _draw_colour_bar(canvas: Figure, layout: Layout, norm: Normalize, left: floa
     scale_axis(axes, "y", scale, np.array([norm.vmin, norm.vmax]))
     axes.set_ylim(norm.vmin, norm.vmax)
     axes.annotate(
-        with_unit(layout.figure.quantity, layout.unit),
+        with_unit(*layout.value),
         (1.0, 1.0),
         xycoords="axes fraction",
-        xytext=(38, 14),
+        xytext=(38, 27),  # above the titles of panels
         textcoords="offset points",
         ha="right",
         va="bottom",
@@ -243,7 +256,7 @@ def _draw_legend(canvas: Figure, layout: Layout, table: CampaignTable, has_curve
     keys += [_key(mark, o, face_of(o)) for o, mark in MARKS.items() if o in seen]
     if not keys:
         return
-    title = layout.figure.over[1] if has_curves and len(layout.figure.over) > 1 else None
+    title = with_unit(*layout.labels[1]) if has_curves and len(layout.labels) > 1 else None
     canvas.legend(
         handles=keys,
         title=title,
@@ -283,7 +296,7 @@ def is_sparse(layout: Layout) -> bool:
 
 def _draw_map(drawing: Drawing) -> None:
     axes, layout = drawing.axes, drawing.layout
-    label_axes(axes, layout.figure.over[0], "1", layout.figure.over[1], "1")
+    label_axes(axes, *layout.labels[0], *layout.labels[1])
     axes.grid(False)
     if is_sparse(layout) and layout.x.numbers is not None and layout.y.numbers is not None:
         _draw_points(drawing)
@@ -353,7 +366,7 @@ def _draw_points(drawing: Drawing) -> None:
 
 def _draw_curves(drawing: Drawing) -> None:
     axes, layout = drawing.axes, drawing.layout
-    label_axes(axes, layout.figure.over[0], "1", layout.figure.quantity, layout.unit)
+    label_axes(axes, *layout.labels[0], *layout.value)
     if not np.isfinite(drawing.values).any():
         say_in_the_middle(axes, "no run has a value")
         return
@@ -444,5 +457,6 @@ def figure_notes(table: CampaignTable, figure: CampaignFigure) -> list[str]:
     if "fails" in table.outcomes:
         notes.append("A ring is around runs that fail one of their case's expectations.")
     if layout.panels_left_out:
-        notes.append(f"{layout.panels_left_out} more values of {figure.over[2]} are not drawn.")
+        of = layout.labels[2][0]
+        notes.append(f"{layout.panels_left_out} more values of {of} are not drawn.")
     return notes

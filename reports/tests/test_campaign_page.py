@@ -14,6 +14,7 @@ from unittest import mock
 import numpy as np
 
 import make_campaign
+from data.case_keys import LENGTHS, unit_of_key, units_of_keys
 from data.campaign_table import WITH_VALUE, CampaignFigure, figures_of, load_campaign
 from plots.campaign_plots import (
     MARKS,
@@ -113,7 +114,7 @@ class CampaignPageTest(unittest.TestCase):
         )
         table = load_campaign(self.path)
         layout = layout_of(table, CampaignFigure("height", ("a", "b", "c"), "", False))
-        self.assertEqual([panel.title for panel in layout.panels], ["c = 0", "c = 1"])
+        self.assertEqual([panel.title for panel in layout.panels], ["c: 0", "c: 1"])
         one = layout_of(table, CampaignFigure("height", ("a",), "", False))
         heights = table.values["height"]
         self.assertEqual(cells_of(one, one.panels[0], heights)[0, 0], (heights[0] + heights[3]) / 2)
@@ -146,6 +147,46 @@ class CampaignPageTest(unittest.TestCase):
         self.assertEqual(len(drawn), 2)
         words = [set(re.findall(r"<text[^>]*>([^<]+)</text>", text)) for text in drawn]
         return words[0] & words[1]  # on the map and on the curves
+
+    def test_axes_have_words_and_units(self) -> None:
+        self.assertEqual(unit_of_key("bending.stiffness"), "J")
+        self.assertEqual(unit_of_key("hold.0.velocity"), "m/s")
+        self.assertEqual(unit_of_key("object.friction"), "1")
+        self.assertEqual(unit_of_key("object.turn"), "degrees")
+        self.assertEqual(unit_of_key("object.move"), "m")
+        self.assertEqual(unit_of_key("cloth.width"), "m")
+        self.assertEqual(unit_of_key("time.integrator"), "1")
+        self.assertEqual(units_of_keys(self.path / "KEYS.md"), {})
+        self.put(units={"height": "m", "steps": "1"})
+        drawn = self.words_drawn()
+        self.assertLessEqual({"time step [s]", "height [m]"}, drawn)
+        self.put(names={"time.step": "pause [ms]", "height": "rise"})
+        drawn = self.words_drawn()
+        self.assertLessEqual({"pause [ms]", "rise [m]"}, drawn)
+
+    def words_drawn(self) -> set[str]:
+        """The words in the curves of the height over the step."""
+        self.page("--quantity", "height", "--over", "time.step")
+        text = (self.path / "figures/figure-1-curves.svg").read_text(encoding="utf-8")
+        return set(re.findall(r"<text[^>]*>([^<]+)</text>", text))
+
+    def test_every_length_of_a_shape_is_a_key(self) -> None:
+        keys = (ROOT / "cases/KEYS.md").read_text(encoding="utf-8")
+        for name in LENGTHS:
+            self.assertIn(f"`{name}", keys)
+
+    def test_sensitivities_are_shown_with_their_error(self) -> None:
+        self.assertNotIn('id="sensitivity"', self.page_of(sensitivities=[]))
+        one = {"quantity": "height", "parameter": "time.step", "samples": 60, "bins": 7}
+        page = self.page_of(sensitivities=[one | {"index": 0.12345, "error": 0.0067},
+                                           one | {"index": None, "error": None}])
+        self.assertIn("0.123</td><td class=\"num\">0.007</td>", page)
+        self.assertIn("none</td>", page)
+
+    def page_of(self, **changed: Any) -> str:
+        """The page of a campaign with these changes."""
+        self.put(**changed)
+        return self.page()
 
     def test_samples_are_points(self) -> None:
         many = 30

@@ -50,6 +50,16 @@ void ProgressLine::show(double fraction) {
   std::fflush(stderr);
 }
 
+void show_line(const std::string& line) {
+  if (!isatty(STDERR_FILENO)) return log_line(line);
+  fmt::print(stderr, "\r\033[K{}", line);
+  std::fflush(stderr);
+}
+
+void end_line() {
+  if (isatty(STDERR_FILENO)) std::fputs("\r\033[K", stderr);
+}
+
 void log_line(const std::string& line) {
   if (isatty(STDERR_FILENO)) std::fputs("\r\033[K", stderr);
   fmt::print(stderr, "{}\n", line);

@@ -25,6 +25,13 @@ class ProgressLine {
   double last_shown_ = 0;  // s
 };
 
+/// A line on standard error that takes the place of the one before it; elsewhere than on a terminal
+/// one after the other.
+void show_line(const std::string& line);
+
+/// Wipes the line of show_line.
+void end_line();
+
 /// A plain line on standard error.
 void log_line(const std::string& line);
 

@@ -11,12 +11,15 @@ import contextlib
 import csv
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
 import tempfile
 import time
+import tomllib
 import unittest
+from collections import Counter
 from pathlib import Path
 
 import h5py
@@ -82,14 +85,16 @@ class CampaignTest(unittest.TestCase):
         ) as file:
             return list(csv.DictReader(file))
 
-    def result_lines(self) -> list[dict]:
-        lines = [
+    def lines(self) -> list[dict]:
+        return [
             json.loads(line)
-            for path in self.out.glob("store/batches/*/shards/*.jsonl")
+            for path in self.out.glob("store/batches/*/shards/**/*.jsonl")
             for line in path.read_text().splitlines(keepends=True)
             if line.endswith("\n")
         ]
-        return [line for line in lines if "result" in line]
+
+    def result_lines(self) -> list[dict]:
+        return [line for line in self.lines() if "result" in line]
 
     def test_a_grid_becomes_a_table(self) -> None:
         file = self.write(GRID)
@@ -216,6 +221,24 @@ class CampaignTest(unittest.TestCase):
             self.assertIn(key, folder)
             self.assertTrue((self.out / "store" / folder / "hinge.h5").is_file())
 
+    def test_shipped_campaigns_have_the_jobs_that_their_page_says(self) -> None:
+        shipped = ROOT / "cases/campaigns"
+        page = (shipped / "SHIPPED.md").read_text(encoding="utf-8")
+        row = r"^\| \[`(\w+)`\]\(\1\.campaign\.toml\) \| ([\d,]+|all) \|"
+        rows = dict(re.findall(row, page, re.M))
+        files = sorted(shipped.glob("*.campaign.toml"))
+        self.assertEqual(sorted(rows), [path.name.split(".")[0] for path in files])
+        faults = sum(
+            len(tomllib.loads(path.read_text(encoding="utf-8")).get("fault", []))
+            for path in (ROOT / "verification/faults").glob("*.toml")
+        )
+        for name, said in rows.items():
+            jobs = faults if said == "all" else int(said.replace(",", ""))
+            self.assertEqual(self.status(name)["jobs"], jobs, name)
+        mutants = tomllib.loads((shipped / "mutants.campaign.toml").read_text(encoding="utf-8"))
+        for file in mutants["grid"]["name"]:
+            self.assertTrue((ROOT / file).is_file(), file)
+
     def test_other_commands_are_jobs(self) -> None:
         file = self.write(
             'run = "check"\n[grid]\nname = ["bending.forces-sum-to-zero", '
@@ -234,6 +257,16 @@ class CampaignTest(unittest.TestCase):
             subprocess.run(line, shell=True, check=True, capture_output=True)
         self.assertEqual(self.status(file)["done"], 6)
         self.assertEqual(len(self.result_lines()), 6)
+
+    def test_a_slice_that_is_started_twice_at_once_is_worked_on_once(self) -> None:
+        [line] = self.campaign("emit", self.write(LONG), "--slice", "12").stdout.splitlines()
+        running = [subprocess.Popen(line, shell=True, stderr=subprocess.DEVNULL)]
+        while not self.result_lines():
+            time.sleep(0.01)
+        running.append(subprocess.Popen(line, shell=True, stderr=subprocess.DEVNULL))
+        self.assertEqual([process.wait() for process in running], [0, 0])
+        keys = [line["result"] for line in self.result_lines()]
+        self.assertEqual((len(keys), len(set(keys))), (12, 12))
 
     def test_a_campaign_that_is_killed_goes_on(self) -> None:
         file = self.write(LONG)
@@ -284,6 +317,42 @@ class CampaignTest(unittest.TestCase):
         self.assertEqual(running.wait(), 1)
         self.assertIn("crashed after 3 starts", running.communicate()[1])
         self.assertEqual(self.status(file)["crashed"], 3)
+        starts = Counter(line["start"] for line in self.lines() if "start" in line)
+        self.assertEqual(sorted(starts.values()), [3, 3, 3])
+
+    def test_watching_shows_a_line_and_a_page_until_nothing_runs(self) -> None:
+        file = self.write('title = "<b>"\n' + LONG)
+        page = self.out / "campaigns/grid/watch.html"
+        for how, code in ((signal.SIGTERM, 1), (None, 0)):
+            running = subprocess.Popen(
+                [PROGRAM, "campaign", "run", file, "--out", self.out, "--threads", "1"],
+                cwd=ROOT,
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.DEVNULL,
+            )
+            done = len(self.result_lines())
+            while len(self.result_lines()) == done:
+                time.sleep(0.01)
+            watching = subprocess.Popen(
+                [PROGRAM, "campaign", "watch", file, "--out", self.out],
+                cwd=ROOT,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.PIPE,
+                text=True,
+            )
+            while not page.exists() or 'http-equiv="refresh"' not in page.read_text():
+                self.assertIsNone(watching.poll())
+                time.sleep(0.01)
+            self.assertRegex(page.read_text(), r"&lt;b&gt;: \d+ of 12|\d+ of 12: &lt;b&gt;")
+            if how:
+                running.send_signal(how)
+            said, line = watching.communicate()
+            running.wait()
+            self.assertEqual(watching.returncode, code, said)
+            self.assertRegex(line, r"^grid: \d+ of 12 done, \d+ running")
+            self.assertNotIn("refresh", page.read_text())
+        self.assertIn("12 of 12 done", page.read_text())
+        self.assertIn("12 jobs, 12 holds", said)
 
     def test_two_campaigns_at_once_share_their_work(self) -> None:
         files = [

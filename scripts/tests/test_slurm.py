@@ -78,7 +78,7 @@ class SlurmTest(unittest.TestCase):
 
     def lines(self) -> list[dict]:
         whole = []
-        for path in (self.path / "out/store/batches").glob("*/shards/*.jsonl"):
+        for path in (self.path / "out/store/batches").glob("*/shards/**/*.jsonl"):
             text = path.read_text()
             self.assertTrue(not text or text.endswith("\n") or "n" in path.name, path)
             whole += [
@@ -124,7 +124,7 @@ class SlurmTest(unittest.TestCase):
         )
         local = [
             json.loads(line)
-            for path in (self.path / "local").glob("store/batches/*/shards/*.jsonl")
+            for path in (self.path / "local").glob("store/batches/*/shards/**/*.jsonl")
             for line in path.read_text().splitlines()
         ]
         self.assertEqual(
@@ -199,6 +199,16 @@ class SlurmTest(unittest.TestCase):
         os.kill(victims[0], signal.SIGKILL)
         self.finish(running)
         self.assert_same_as_local(file, 30)
+
+    def test_a_slice_that_stands_still_is_started_again(self) -> None:
+        file = self.write(24, 2)
+        running = self.start(file, "--slice", "8")
+        self.wait_for_results(2)
+        worker = self.workers()[0]
+        above = int(Path(f"/proc/{worker}/stat").read_text().rpartition(")")[2].split()[1])
+        os.kill(above, signal.SIGSTOP)  # Slurm still says that it runs
+        self.finish(running)
+        self.assert_same_as_local(file, 24)
 
     def test_two_campaigns_at_once_on_one_store(self) -> None:
         one, two = self.write(30, 1, "one"), self.write(59, 1, "two")

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -14,6 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr long layout = 1;                 // of the index
 constexpr size_t rows_at_a_time = 50'000;  // sorted by key, which is what makes inserting fast
 
@@ -30,8 +32,8 @@ json content_of(const JobResult& result) {
 
 json json_of(const std::string& key, const JobResult& result) {
   return {{"result", key},         {"content", content_of(result)}, {"seconds", result.seconds},
-          {"bytes", result.bytes}, {"kept", result.kept},           {"host", result.host},
-          {"date", result.date},   {"commit", result.commit}};
+          {"clock", result.clock}, {"bytes", result.bytes},         {"kept", result.kept},
+          {"host", result.host},   {"date", result.date},           {"commit", result.commit}};
 }
 
 JobEnd end_named(const std::string& name) {
@@ -46,7 +48,7 @@ JobResult result_of(const json& content) {
   result.reason = content.at("reason").get<std::string>();
   result.digest = content.at("digest").get<std::string>();
   for (const auto& [name, value] : content.at("values").items())
-    result.values[name] = value.is_null() ? nan : value.get<double>();
+    result.values[name] = value.is_null() ? not_a_number : value.get<double>();
   return result;
 }
 
@@ -113,6 +115,23 @@ ShardState read_shard_state(const std::vector<std::string>& paths) {
   std::erase_if(state.open_starts, [](const auto& entry) { return entry.second <= 0; });
   return state;
 }
+
+namespace {
+
+/// Shards of all batches, sorted: path; name, as BATCH/SHARD.
+std::vector<std::pair<std::string, std::string>> shards_in(const std::string& batches) {
+  std::vector<std::pair<std::string, std::string>> shards;
+  std::error_code is_missing;
+  for (const auto& batch : fs::directory_iterator(batches, is_missing))
+    for (const auto& shard : fs::recursive_directory_iterator(batch.path() / "shards", is_missing))
+      if (shard.path().extension() == ".jsonl")
+        shards.emplace_back(shard.path(),
+                            batch.path().filename().string() + "/" + shard.path().stem().string());
+  std::ranges::sort(shards);
+  return shards;
+}
+
+}  // namespace
 
 struct JobIndex::Row {
   std::string key;
@@ -232,15 +251,7 @@ long JobIndex::merge_shard(const std::string& path, const std::string& name) {
 }
 
 long JobIndex::merge() {
-  std::vector<std::pair<std::string, std::string>> shards;  // path; name, as BATCH/SHARD
-  if (fs::is_directory(store_ + "/batches"))
-    for (const auto& batch : fs::directory_iterator(store_ + "/batches"))
-      if (fs::is_directory(batch.path() / "shards"))
-        for (const auto& shard : fs::directory_iterator(batch.path() / "shards"))
-          if (shard.path().extension() == ".jsonl")
-            shards.emplace_back(shard.path(), batch.path().filename().string() + "/" +
-                                                  shard.path().stem().string());
-  std::ranges::sort(shards);
+  const auto shards = shards_in(store_ + "/batches");
   long added = 0;
   database_->run("begin immediate");
   try {

@@ -28,6 +28,7 @@ struct JobResult {
 
   // what may differ between repetitions
   double seconds = 0;  // of the processor
+  double clock = 0;    // seconds of the clock; in shards only
   long bytes = 0;      // of files that were kept
   std::string kept;    // their folder, below the store; "": none
   std::string host, date, commit;
@@ -79,8 +80,8 @@ class JobIndex {
   /// An index that is damaged, or of another layout, is deleted.
   explicit JobIndex(const std::string& store);
 
-  /// Reads what shards have gained since the last time: STORE/batches/*/shards/*.jsonl. Returns the
-  /// number of new results. Several programs may merge at a time.
+  /// Reads what shards have gained since the last time: STORE/batches/*/shards/**/*.jsonl. Returns
+  /// the number of new results. Several programs may merge at a time.
   long merge();
 
   /// While it lives, look-ups see one state of the index and take no lock each, which makes a

@@ -30,7 +30,7 @@ JobResult job_specimen() {
 }
 
 std::string shard_path(const ScratchFolder& scratch, const std::string& name) {
-  return scratch.file("store/batches/batch/shards/" + name + ".jsonl");
+  return scratch.file("store/batches/batch/shards/0007/" + name + ".jsonl");
 }
 
 /// While it lives, no file grows beyond so many bytes.

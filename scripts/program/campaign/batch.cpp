@@ -26,7 +26,13 @@ std::string text_of_json(const json& value, int indent) {
   return value.dump(indent, ' ', false, json::error_handler_t::replace);
 }
 
+constexpr size_t slices_a_folder = 100;  // of shards, which a slice lists when it starts
+
 std::string slice_name(size_t slice) { return fmt::format("{:06}", slice); }
+
+std::string slice_file(const Batch& batch, size_t slice) {
+  return batch.folder + "/slices/" + slice_name(slice) + ".jsonl";
+}
 
 json json_of(const BatchJob& job) {
   json set = json::array();
@@ -60,29 +66,40 @@ void write_terms(const Batch& batch) {
                                                "\n");
 }
 
-Batch write_batch(const BatchTerms& terms, const std::string& engine,
-                  const std::vector<BatchJob>& jobs, size_t jobs_a_slice) {
-  Batch batch;
-  batch.name = terms.campaign + "-" + new_shard_name();
-  batch.folder = terms.store + "/batches/" + batch.name;
-  batch.terms = terms;
-  batch.engine = engine;
-  batch.jobs = jobs.size();
-  batch.slices = (jobs.size() + jobs_a_slice - 1) / jobs_a_slice;
-  fs::create_directories(batch.folder + "/slices");
-  fs::create_directories(batch.folder + "/shards");
-  for (size_t slice = 0; slice < batch.slices; ++slice) {
-    std::string text;
-    const size_t end = std::min(jobs.size(), (slice + 1) * jobs_a_slice);
-    for (size_t k = slice * jobs_a_slice; k < end; ++k)
-      text += text_of_json(json_of(jobs[k]), -1) + "\n";
-    const std::string path = batch.folder + "/slices/" + slice_name(slice) + ".jsonl";
-    std::ofstream file(path);
-    if (!(file << text).flush()) throw std::runtime_error(path + ": cannot be written");
-  }
-  mark_alive(batch);
-  write_terms(batch);
-  return batch;
+BatchWriter::BatchWriter(const BatchTerms& terms, const std::string& engine, size_t jobs_a_slice)
+    : jobs_a_slice_(jobs_a_slice) {
+  batch_.name = terms.campaign + "-" + new_shard_name();
+  batch_.folder = terms.store + "/batches/" + batch_.name;
+  batch_.terms = terms;
+  batch_.engine = engine;
+}
+
+void BatchWriter::add(const BatchJob& job) {
+  if (batch_.jobs % jobs_a_slice_ == 0) next_slice();
+  file_ << text_of_json(json_of(job), -1) << '\n';
+  ++batch_.jobs;
+}
+
+void BatchWriter::next_slice() {
+  end_slice();
+  fs::create_directories(batch_.folder + "/slices");
+  path_ = slice_file(batch_, batch_.slices++);
+  file_.open(path_);
+}
+
+void BatchWriter::end_slice() {
+  if (batch_.slices == 0) return;
+  file_.close();
+  if (!file_) throw std::runtime_error(path_ + ": cannot be written");
+}
+
+std::optional<Batch> BatchWriter::finish() {
+  if (batch_.jobs == 0) return {};
+  end_slice();
+  fs::create_directories(batch_.folder + "/shards");
+  mark_alive(batch_);
+  write_terms(batch_);
+  return batch_;
 }
 
 Batch read_batch(const std::string& folder) {
@@ -110,7 +127,7 @@ Batch read_batch(const std::string& folder) {
 }
 
 std::vector<BatchJob> read_slice(const Batch& batch, size_t slice) {
-  const std::string path = batch.folder + "/slices/" + slice_name(slice) + ".jsonl";
+  const std::string path = slice_file(batch, slice);
   std::ifstream file(path);
   if (!file) throw InputError(path + ": cannot be read; the batch has no such slice");
   std::vector<BatchJob> jobs;
@@ -122,16 +139,22 @@ std::vector<BatchJob> read_slice(const Batch& batch, size_t slice) {
   return jobs;
 }
 
+std::string shard_folder(const Batch& batch, size_t slice) {
+  return fmt::format("{}/shards/{:04}", batch.folder, slice / slices_a_folder);
+}
+
 std::vector<std::string> shards_of_slice(const Batch& batch, size_t slice) {
   std::vector<std::string> paths;
-  for (const auto& entry : fs::directory_iterator(batch.folder + "/shards"))
-    if (entry.path().filename().string().starts_with(slice_name(slice) + "-"))
+  std::error_code is_missing;  // before the first shard
+  for (const auto& entry : fs::directory_iterator(shard_folder(batch, slice), is_missing))
+    if (entry.path().extension() == ".jsonl" &&
+        entry.path().filename().string().starts_with(slice_name(slice) + "-"))
       paths.push_back(entry.path().string());
   return paths;
 }
 
-std::string new_shard_of_slice(const Batch& batch, size_t slice) {
-  return batch.folder + "/shards/" + slice_name(slice) + "-" + new_shard_name() + ".jsonl";
+std::string new_shard_of_slice(size_t slice) {
+  return slice_name(slice) + "-" + new_shard_name() + ".jsonl";
 }
 
 void mark_alive(const Batch& batch) { std::ofstream(batch.folder + "/alive") << "\n"; }

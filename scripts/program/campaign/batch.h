@@ -1,6 +1,7 @@
 // A batch: jobs that an engine was given together, as a folder of the store.
 #pragma once
 
+#include <fstream>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +17,9 @@ struct BatchJob {
   int starts = 0;  // without an end, before this batch
 };
 
+/// The engine of batches that were printed as commands, of which no one knows when they run.
+constexpr const char* emitted = "emitted";
+
 /// What all jobs of a batch share.
 struct BatchTerms {
   std::string store;     // its folder, absolute
@@ -29,7 +33,7 @@ struct BatchTerms {
 /// STORE/batches/NAME:
 ///   batch.json           the terms, the engine and its handle
 ///   slices/000000.jsonl  a job a line
-///   shards/*.jsonl       results (verification/files/job_store.h)
+///   shards/0000/*.jsonl  results (verification/files/job_store.h), a folder for 100 slices
 ///   alive                touched by who runs it here, every few seconds
 ///   ended                it has come to its end, or was given up
 struct Batch {
@@ -39,10 +43,27 @@ struct Batch {
   size_t jobs = 0, slices = 0;
 };
 
-/// Writes a new batch of slices of at most `jobs_a_slice` jobs. Throws std::runtime_error naming a
-/// file that cannot be written.
-Batch write_batch(const BatchTerms& terms, const std::string& engine,
-                  const std::vector<BatchJob>& jobs, size_t jobs_a_slice);
+/// Writes a new batch, a job at a time, as a million need not be in memory together. Throws
+/// std::runtime_error naming a file that cannot be written.
+class BatchWriter {
+ public:
+  BatchWriter(const BatchTerms& terms, const std::string& engine, size_t jobs_a_slice);
+
+  void add(const BatchJob& job);
+  size_t jobs() const { return batch_.jobs; }
+
+  /// The batch with all its jobs; before, no one can see it. None without a job.
+  std::optional<Batch> finish();
+
+ private:
+  void next_slice();
+  void end_slice();
+
+  Batch batch_;
+  size_t jobs_a_slice_;
+  std::string path_;  // of the slice that is being written
+  std::ofstream file_;
+};
 
 /// Writes what has become known of it: its handle.
 void write_terms(const Batch& batch);
@@ -52,11 +73,14 @@ Batch read_batch(const std::string& folder);
 
 std::vector<BatchJob> read_slice(const Batch& batch, size_t slice);
 
+/// Where the shards of a slice lie.
+std::string shard_folder(const Batch& batch, size_t slice);
+
 /// The shard files that a slice has so far.
 std::vector<std::string> shards_of_slice(const Batch& batch, size_t slice);
 
-/// A new one.
-std::string new_shard_of_slice(const Batch& batch, size_t slice);
+/// The name of a new one.
+std::string new_shard_of_slice(size_t slice);
 
 void mark_alive(const Batch& batch);
 void mark_ended(const Batch& batch);

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <thread>
@@ -13,7 +11,6 @@
 #include "scripts/program/campaign/run_job.h"
 #include "scripts/program/campaign/standing.h"
 #include "scripts/program/campaign/standing_text.h"
-#include "scripts/program/interruption.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/report_commands.h"
 #include "scripts/program/run_all.h"
@@ -73,22 +70,11 @@ int exit_code_of(const std::vector<Record>& verdicts) {
   return all_hold;
 }
 
-/// Seconds of the clock that the rest takes, at the rate since the first look; NaN: not known.
-double time_left(size_t done_before, size_t done_now, size_t left, double seconds) {
-  return done_now > done_before ? double(left) * seconds / double(done_now - done_before) : nan;
-}
-
-std::string watch_page(const std::string& text) {
-  return "<!doctype html><meta charset=utf-8><meta http-equiv=refresh content=5><title>foldproof "
-         "campaign</title><pre>" +
-         text + "</pre>\n";
-}
-
 }  // namespace
 
 int plan_campaign(const Options& options) {
   OpenCampaign of = open_campaign(options.file, options.out);
-  const Standing standing = stand(of, nullptr);
+  const Standing standing = stand(of, {});
   fmt::print("{}", standing_text(of, standing));
   if (standing.missing == 0) return all_hold;
   fmt::print("{}", forecast_text(sample_three(of), standing.missing));
@@ -105,8 +91,8 @@ int show_campaign_table(const Options& options) {
   if (options.json)
     fmt::print("{}\n", json_of_table(of.campaign, table, verdicts));
   else
-    fmt::print("{}{}/table.csv: {} rows, also table.h5\n", listing(judged), of.folder,
-               table.keys.size());
+    fmt::print("{}{}{}/table.csv: {} rows, also table.h5\n", listing(judged),
+               text_of(sensitivities_of(of.campaign, table)), of.folder, table.keys.size());
   return exit_code_of(verdicts);
 }
 
@@ -119,38 +105,10 @@ int report_campaign(const Options& options) {
 
 int show_campaign_status(const Options& options) {
   OpenCampaign of = open_campaign(options.file, options.out);
-  const Standing standing = stand(of, nullptr);
+  const Standing standing = stand(of, {});
   fmt::print("{}", options.json ? standing_json(of, standing) : standing_text(of, standing));
   if (standing.missing + standing.elsewhere > 0) return some_fail;
   return all_hold;
-}
-
-int watch_campaign(const Options& options) {
-  OpenCampaign of = open_campaign(options.file, options.out);
-  const InterruptionWatch interruption;
-  const auto start = std::chrono::steady_clock::now();
-  fs::create_directories(of.folder);
-  Standing standing = stand(of, nullptr);
-  const size_t first = standing.done();
-  try {
-    while (standing.elsewhere > 0) {
-      const double seconds =
-          std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-      const double left = time_left(first, standing.done(), standing.elsewhere, seconds);
-      const std::string text = standing_text(of, standing) +
-                               (std::isnan(left) ? "" : fmt::format("{:.0f} s left\n", left));
-      log_line(text.substr(0, text.size() - 1));
-      write_text(of.folder + "/watch.html", watch_page(text));
-      for (int k = 0; k < 20; ++k, interruption.check())
-        std::this_thread::sleep_for(std::chrono::milliseconds(100));
-      standing = stand(of, nullptr);
-    }
-  } catch (const Interrupted& interrupted) {
-    end_by(interrupted);
-  }
-  write_text(of.folder + "/watch.html", watch_page(standing_text(of, standing)));
-  fmt::print("{}", standing_text(of, standing));
-  return standing.missing > 0 ? some_fail : all_hold;
 }
 
 int cancel_campaign(const Options& options) {

@@ -9,6 +9,7 @@
 
 #include "scripts/program/campaign/campaign_commands.h"
 #include "scripts/program/campaign/engine.h"
+#include "scripts/program/campaign/slice_mark.h"
 #include "scripts/program/campaign/standing.h"
 #include "scripts/program/campaign/standing_text.h"
 #include "scripts/program/data_folder.h"
@@ -23,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::chrono::milliseconds between_looks(500);
+constexpr std::chrono::milliseconds between_looks(500), between_checks(100);
 
 EngineSettings engine_settings(const Options& options) {
   EngineSettings settings;
@@ -49,23 +50,32 @@ double mean_seconds(const Standing& standing) {
 std::optional<Batch> next_batch(OpenCampaign& of, const Engine& engine, const Options& options,
                                 Standing& standing) {
   const StoreLock lock(of.store);
-  std::vector<BatchJob> missing;
-  standing = stand(of, &missing);
-  if (missing.empty()) return {};
-  size_t slice = engine.jobs_a_slice(missing.size(), mean_seconds(standing));
-  if (options.slice > 0) slice = size_t(options.slice);
-  return write_batch(terms_of(of), engine.name, missing, slice);
+  standing = stand(of, {});
+  if (standing.missing == 0) return {};
+  const size_t jobs = std::min(standing.missing, engine.most_jobs);
+  const size_t slice = options.slice > 0 ? size_t(options.slice)
+                                         : engine.jobs_a_slice(jobs, mean_seconds(standing),
+                                                               engine_settings(options));
+  BatchWriter writer(terms_of(of), engine.name, slice);
+  stand(of, [&](const BatchJob& job) {
+    if (writer.jobs() < jobs) writer.add(job);
+  });
+  return writer.finish();
 }
 
-/// Looks on until the engine says that the batch is over.
+/// Looks on until the engine says that the batch is over; where a look takes long, less often.
 void follow(OpenCampaign& of, const Batch& batch, const InterruptionWatch& watch,
             const std::function<void(size_t)>& show) {
   const Engine& engine = engine_named(batch.engine);
   for (size_t ended = 0; engine.ask(batch) != BatchState::has_ended;) {
-    watch.check();
+    const auto start = std::chrono::steady_clock::now();
     ended += size_t(of.index.merge());
     show(std::min(ended, batch.jobs));
-    std::this_thread::sleep_for(between_looks);
+    const auto next = std::max<std::chrono::steady_clock::duration>(
+        between_looks, 4 * (std::chrono::steady_clock::now() - start));
+    for (const auto until = std::chrono::steady_clock::now() + next;
+         std::chrono::steady_clock::now() < until; watch.check())
+      std::this_thread::sleep_for(between_checks);
   }
 }
 
@@ -127,20 +137,38 @@ Standing run_rounds(OpenCampaign& of, const Engine& engine, const Options& optio
   }
 }
 
-std::vector<BatchJob> missing_jobs(const Batch& batch, size_t slice) {
-  std::vector<BatchJob> jobs = missing_of_slice(batch, slice);
-  std::erase_if(jobs, [](const BatchJob& job) { return job.starts >= most_starts; });
-  return jobs;
-}
-
 /// Shards that were written on the node's own disk become the batch's, each whole or not at all.
-void bring_home(const std::string& scratch, const Batch& batch) {
+void bring_home(const std::string& scratch, const std::string& folder) {
+  fs::create_directories(folder);
   for (const auto& entry : fs::directory_iterator(scratch)) {
-    const std::string to = batch.folder + "/shards/" + entry.path().filename().string();
+    const std::string to = folder + "/" + entry.path().filename().string();
     fs::copy_file(entry.path(), to + ".partial");
     fs::rename(to + ".partial", to);
   }
   fs::remove_all(scratch);
+}
+
+int work_on_slice(const Batch& batch, size_t slice, const WorkSettings& work) {
+  const InterruptionWatch watch;
+  SliceMark mark(batch, slice, watch);
+  const std::vector<BatchJob> missing =
+      missing_in(shards_of_slice(batch, slice), read_slice(batch, slice));
+  const auto home = [&] {
+    if (!work.shards.empty()) bring_home(work.shards, shard_folder(batch, slice));
+  };
+  try {
+    const auto show = [&](size_t) {
+      watch.check();
+      mark.renew();
+    };
+    const std::vector<std::string> shards = work_through(batch, slice, missing, work, show).shards;
+    const bool is_done = missing_in(shards, missing).empty();
+    home();
+    return is_done ? all_hold : some_fail;
+  } catch (const Interrupted&) {
+    home();
+    throw;
+  }
 }
 
 }  // namespace
@@ -167,28 +195,23 @@ int work_on_batch(const Options& options) {
     work.shards = options.scratch + "/" + batch.name + "-" + new_shard_name();
   if (!work.shards.empty()) fs::create_directories(work.shards);
   try {
-    const InterruptionWatch watch;
-    work_through(batch, size_t(options.slice), missing_jobs(batch, size_t(options.slice)), work,
-                 [&](size_t) { watch.check(); });
+    return work_on_slice(batch, size_t(options.slice), work);
   } catch (const Interrupted& interrupted) {
-    if (!work.shards.empty()) bring_home(work.shards, batch);
     end_by(interrupted);
   }
-  if (!work.shards.empty()) bring_home(work.shards, batch);
-  return missing_of_slice(batch, size_t(options.slice)).empty() ? all_hold : some_fail;
 }
 
 int emit_campaign(const Options& options) {
   OpenCampaign of = open_campaign(options.file, options.out);
   const StoreLock lock(of.store);
-  std::vector<BatchJob> missing;
-  stand(of, &missing, of.campaign.root.jobs);
-  if (missing.empty()) {
+  BatchWriter writer(terms_of(of), emitted, options.slice > 0 ? size_t(options.slice) : 50);
+  stand(of, [&](const BatchJob& job) { writer.add(job); });
+  const std::optional<Batch> written = writer.finish();
+  if (!written) {
     log_line("nothing is missing");
     return all_hold;
   }
-  const Batch batch =
-      write_batch(terms_of(of), "emitted", missing, options.slice > 0 ? size_t(options.slice) : 50);
+  const Batch& batch = *written;
   mark_ended(batch);  // no engine of ours can say when it ends, so it keeps no one from its jobs
   for (size_t slice = 0; slice < batch.slices; ++slice)
     fmt::print("{}\n", with_option({program_file(), "campaign", "work", batch.folder, "--slice",

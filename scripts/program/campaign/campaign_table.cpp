@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -37,6 +38,24 @@ double quantile_of(std::vector<double> values, double share, bool is_at_most) {
   if (!is_at_most) std::ranges::reverse(values);
   const size_t needed = size_t(std::ceil(share * double(values.size()) * (1 - 1e-12)));
   return values[std::max(size_t(1), needed) - 1];
+}
+
+/// The column of a name; its size if there is none.
+size_t place_of(const std::vector<std::string>& names, const std::string& name) {
+  return size_t(std::ranges::find(names, name) - names.begin());
+}
+
+/// The numbers of a parameter; none if a value is no number.
+std::vector<double> numbers_of(const CampaignTable& table, size_t parameter) {
+  std::vector<double> numbers;
+  for (const auto& row : table.settings) {
+    const std::string& text = row[parameter];
+    double number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc() || end != text.data() + text.size()) return {};
+    numbers.push_back(number);
+  }
+  return numbers;
 }
 
 template <class T>
@@ -83,6 +102,36 @@ CampaignTable campaign_table(OpenCampaign& of) {
     table.values.push_back(row);
   }
   return table;
+}
+
+std::vector<Sensitivity> sensitivities_of(const Campaign& campaign, const CampaignTable& table) {
+  std::vector<Sensitivity> all;
+  std::set<std::string> quantities;
+  for (const CampaignFigure& figure : campaign.figures) quantities.insert(figure.quantity);
+  for (const std::string& quantity : quantities) {
+    const size_t k = place_of(table.quantities, quantity);
+    if (k == table.quantities.size()) continue;
+    std::vector<double> y = column_of(table.values, k);
+    for (size_t i = 0; i < y.size(); ++i)
+      if (table.ends[i] != name_of(JobEnd::holds) && table.ends[i] != name_of(JobEnd::fails))
+        y[i] = nan;
+    for (const std::string& parameter : sampled_parameters(campaign)) {
+      const auto x = numbers_of(table, place_of(table.parameters, parameter));
+      if (!x.empty()) all.push_back({quantity, parameter, first_order_index(x, y)});
+    }
+  }
+  return all;
+}
+
+std::string text_of(const std::vector<Sensitivity>& sensitivities) {
+  std::string text;
+  for (const auto& [quantity, parameter, of] : sensitivities)
+    text += std::isnan(of.index)
+                ? fmt::format("{}: {} samples do not say what comes from {}\n", quantity,
+                              of.samples, parameter)
+                : fmt::format("{}: {:.3f} +- {:.3f} of its variance by {} alone ({} samples)\n",
+                              quantity, of.index, of.error, parameter, of.samples);
+  return text;
 }
 
 std::string csv_of(const CampaignTable& table) {
@@ -155,7 +204,7 @@ std::vector<Record> judge_campaign(const Campaign& campaign, const CampaignTable
 std::string json_of_table(const Campaign& campaign, const CampaignTable& table,
                           const std::vector<Record>& verdicts) {
   using nlohmann::json;
-  json figures = json::array(), findings = json::array();
+  json figures = json::array(), findings = json::array(), sensitivities = json::array();
   for (const CampaignFigure& f : campaign.figures)
     figures.push_back({{"quantity", f.quantity},
                        {"title", f.title},
@@ -170,12 +219,21 @@ std::string json_of_table(const Campaign& campaign, const CampaignTable& table,
                         {"unit", record.finding.verdict.unit},
                         {"why", record.finding.verdict.why_bound},
                         {"note", record.finding.note}});
+  for (const auto& [quantity, parameter, of] : sensitivities_of(campaign, table))
+    sensitivities.push_back({{"quantity", quantity},
+                             {"parameter", parameter},
+                             {"index", of.index},
+                             {"error", of.error},
+                             {"samples", of.samples},
+                             {"bins", of.bins}});
   return json_text({{"name", campaign.name},
                     {"title", campaign.title},
                     {"about", campaign.about},
                     {"run", campaign.run},
                     {"figures", figures},
                     {"findings", findings},
+                    {"sensitivities", sensitivities},
+                    {"names", campaign.names},
                     {"parameters", table.parameters},
                     {"quantities", table.quantities},
                     {"units", table.units},

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "convergence/campaigns/sensitivity.h"
 #include "scripts/program/campaign/standing.h"
 #include "verification/verdict.h"
 
@@ -21,6 +22,19 @@ struct CampaignTable {
 };
 
 CampaignTable campaign_table(OpenCampaign& of);
+
+/// What the scatter of a quantity comes from.
+struct Sensitivity {
+  std::string quantity, parameter;
+  FirstOrderIndex of;
+};
+
+/// One for each quantity that a figure shows and each parameter of [sample] that is a number; of
+/// the runs that came to their end.
+std::vector<Sensitivity> sensitivities_of(const Campaign& campaign, const CampaignTable& table);
+
+/// A line for each; "" without any.
+std::string text_of(const std::vector<Sensitivity>& sensitivities);
 
 /// CSV by RFC 4180; numbers to 17 digits.
 std::string csv_of(const CampaignTable& table);

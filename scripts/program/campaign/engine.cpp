@@ -58,10 +58,11 @@ void cancel_locally(const Batch& batch) {
 
 const std::vector<Engine>& engines() {
   static const std::vector<Engine> table = {
-      {"local", "all cores of this machine", [] { return std::string(); },
-       [](size_t jobs, double) { return jobs; }, run_locally, ask_locally, cancel_locally},
-      {"slurm", "job arrays of a Slurm cluster", slurm_missing, slurm_jobs_a_slice, slurm_submit,
-       slurm_ask, slurm_cancel},
+      {"local", "all cores of this machine", [] { return std::string(); }, 100'000,
+       [](size_t jobs, double, const EngineSettings&) { return jobs; }, run_locally, ask_locally,
+       cancel_locally},
+      {"slurm", "job arrays of a Slurm cluster", slurm_missing, 1'000'000, slurm_jobs_a_slice,
+       slurm_submit, slurm_ask, slurm_cancel},
   };
   return table;
 }

@@ -28,8 +28,11 @@ struct Engine {
   /// Whether it can be used here; "" or a reason.
   std::string (*missing)();
 
+  /// Jobs of a batch: a batch waits for its slowest job, and is rarely much smaller than it may be.
+  size_t most_jobs;
+
   /// Jobs a slice, of so many jobs of so many seconds each (NaN: not known).
-  size_t (*jobs_a_slice)(size_t jobs, double seconds);
+  size_t (*jobs_a_slice)(size_t jobs, double seconds, const EngineSettings& settings);
 
   /// Submits the batch and returns at once, with batch.handle set; or runs it here and now. `show`
   /// gets the number of jobs that have ended, and may throw to interrupt it.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -50,6 +51,16 @@ Case case_of(const BatchTerms& terms, const BatchJob& job) {
   return input_case;
 }
 
+/// What answered contacts of the cloth with itself, summed over all steps; without contacts, no
+/// share is known.
+void add_answers(const Work& work, const auto& add) {
+  const double repulsions = double(work.close_pairs), impulses = double(work.crossings);
+  add("repulsions", repulsions, "1");
+  add("impulses", impulses, "1");
+  add("zone_particles", double(work.zone_particles), "1");
+  add("share_of_impulses", impulses / (repulsions + impulses), "1");
+}
+
 void add_values(const CaseRun& run, const Case& input_case, JobAnswer& answer) {
   const auto add = [&](const std::string& name, double value, const std::string& unit) {
     answer.result.values[name] = value;
@@ -58,6 +69,7 @@ void add_values(const CaseRun& run, const Case& input_case, JobAnswer& answer) {
   add("steps", double(run.result.steps), "1");
   add("end_time", run.result.last.time, "s");
   add("cg_iterations", double(run.result.work.cg_iterations), "1");
+  if (input_case.scene.self_collision) add_answers(run.result.work, add);
   for (const MeasuredQuantity& quantity : run.quantities)
     add(quantity.name, quantity.value, quantity.unit);
   for (size_t k = 0; k < run.findings.size() && k < input_case.expectations.size(); ++k) {
@@ -137,6 +149,7 @@ void sign(JobResult& result) {
 JobAnswer run_job(const BatchTerms& terms, const BatchJob& job, const LevelSetProvider& level_sets,
                   const Progress& progress) {
   const double start = processor_seconds();
+  const auto clock_start = std::chrono::steady_clock::now();
   JobAnswer answer;
   try {
     answer = terms.run == "simulate" ? simulate_job(terms, job, level_sets, progress)
@@ -153,6 +166,8 @@ JobAnswer run_job(const BatchTerms& terms, const BatchJob& job, const LevelSetPr
     answer.result.reason = std::string("error: ") + error.what();
   }
   if (answer.result.seconds == 0) answer.result.seconds = processor_seconds() - start;
+  answer.result.clock =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - clock_start).count();
   sign(answer.result);
   return answer;
 }

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "convergence/campaigns/job_keys.h"
 #include "scripts/program/campaign/run_job.h"
 #include "scripts/program/provenance.h"
 
@@ -42,6 +43,15 @@ std::vector<std::string> campaign_commands() {
   std::vector<std::string> names;
   for (const CampaignCommand& command : commands) names.emplace_back(command.name);
   return names;
+}
+
+std::string script_digest(const std::string& run) {
+  std::string digest;
+  for (const CampaignCommand& command : commands)
+    if (run == command.name && command.is_script)
+      for (const char* folder : {"/verification/faults", "/scripts", "/scripts/tests"})
+        digest += folder_digest(source_folder() + folder);
+  return digest;
 }
 
 ScriptedCommand scripted_command(const std::string& run, const std::vector<Assignment>& set,

@@ -45,6 +45,13 @@ void reject_unreadable_case(OpenCampaign& of) {
   static_cast<void>(of.keys.key_of(first));
 }
 
+/// One without a handle is being submitted right now; or its program died before or after the
+/// engine took it, which the engine knows.
+bool is_live(const Batch& batch) {
+  if (batch.handle.empty() && is_marked_alive(batch)) return true;
+  return batch.engine != emitted && engine_named(batch.engine).ask(batch) != BatchState::has_ended;
+}
+
 std::set<std::string> keys_in(const std::vector<Batch>& batches) {
   std::set<std::string> keys;
   for (const Batch& batch : batches)
@@ -64,7 +71,7 @@ OpenCampaign open_campaign(const std::string& file, const std::string& out) {
   const std::string beside = fs::absolute(path).parent_path().string();
   const std::string program = program_digest();
   const std::string store = fs::absolute(out + "/store").string();
-  JobKeys keys(campaign, program,
+  JobKeys keys(campaign, program + script_digest(campaign.run),
                [beside](const std::string& name) { return case_of_campaign(beside, name); });
   const std::string folder = out + "/campaigns/" + campaign.name;
   const std::vector<std::string> varied = varied_parameters(campaign);
@@ -113,11 +120,7 @@ bool answers(const OpenCampaign& of, const JobResult& result) {
 std::vector<Batch> live_batches(const std::string& store) {
   std::vector<Batch> live;
   for (const Batch& batch : open_batches(store)) {
-    // one without a handle is being submitted right now
-    const BatchState state =
-        batch.handle.empty() ? (is_marked_alive(batch) ? BatchState::runs : BatchState::has_ended)
-                             : engine_named(batch.engine).ask(batch);
-    if (state == BatchState::has_ended)
+    if (!is_live(batch))
       mark_ended(batch);
     else
       live.push_back(batch);
@@ -125,7 +128,7 @@ std::vector<Batch> live_batches(const std::string& store) {
   return live;
 }
 
-Standing stand(OpenCampaign& of, std::vector<BatchJob>* missing, size_t most) {
+Standing stand(OpenCampaign& of, const std::function<void(const BatchJob&)>& take_missing) {
   Standing standing;
   const std::set<std::string> elsewhere = keys_in(live_batches(of.store));
   of.index.merge();  // after batches were asked: what ended since then is in their shards
@@ -137,6 +140,8 @@ Standing stand(OpenCampaign& of, std::vector<BatchJob>* missing, size_t most) {
     const std::optional<JobResult> result = of.index.find(key);
     if (result && answers(of, *result)) {
       ++standing.ended[result->end];
+      if (result->end != JobEnd::holds)
+        ++standing.reasons[{result->end, result->reason.substr(0, result->reason.find(" ("))}];
       standing.seconds += result->seconds;
       continue;
     }
@@ -148,9 +153,10 @@ Standing stand(OpenCampaign& of, std::vector<BatchJob>* missing, size_t most) {
       ++standing.crashed;
     } else {
       ++standing.missing;
-      if (!missing || missing->size() >= most || !asked.insert(key).second) continue;
-      missing->push_back(batch_job(of, i));
-      missing->back().starts = count;
+      if (!take_missing || !asked.insert(key).second) continue;
+      BatchJob job = batch_job(of, i);
+      job.starts = count;
+      take_missing(job);
     }
   }
   return standing;

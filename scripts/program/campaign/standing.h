@@ -43,14 +43,18 @@ struct Standing {
   size_t crashed = 0;
   size_t elsewhere = 0;  // in a batch that runs now
   size_t missing = 0;    // in none
-  double seconds = 0;    // of the jobs that ended
+  double seconds = 0;    // of the processor, of the jobs that ended
+
+  /// How many did not hold, for each end and reason. What a reason has in brackets, as the step at
+  /// which a run diverged, is left out.
+  std::map<std::pair<JobEnd, std::string>, size_t> reasons;
 
   size_t done() const;
 };
 
-/// Looks up every job. `missing` gets those that no live batch has, up to `most` of them, unless it
-/// is null. Batches whose engine says that they are over are marked as ended.
-Standing stand(OpenCampaign& of, std::vector<BatchJob>* missing, size_t most = 100'000);
+/// Looks up every job. `take_missing`, unless it is empty, gets each that no live batch has, once.
+/// Batches whose engine says that they are over are marked as ended.
+Standing stand(OpenCampaign& of, const std::function<void(const BatchJob&)>& take_missing);
 
 /// Batches that an engine still has, of this campaign or of all.
 std::vector<Batch> live_batches(const std::string& store);

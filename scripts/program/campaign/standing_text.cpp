@@ -2,21 +2,73 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "scripts/program/json_text.h"
 
 namespace foldproof {
 
+namespace {
+
+constexpr size_t most_reasons = 5;
+
+struct Reason {
+  JobEnd end;
+  std::string words;
+  size_t count;
+};
+
+/// The commonest first.
+std::vector<Reason> commonest_reasons(const Standing& standing) {
+  std::vector<Reason> reasons;
+  for (const auto& [of, count] : standing.reasons) reasons.push_back({of.first, of.second, count});
+  std::ranges::stable_sort(reasons, std::greater(), &Reason::count);
+  if (reasons.size() > most_reasons) reasons.resize(most_reasons);
+  return reasons;
+}
+
+/// Counts that are not zero, each with its name.
+std::vector<std::pair<std::string, size_t>> counts_of(const Standing& standing) {
+  std::vector<std::pair<std::string, size_t>> counts;
+  for (const auto& [end, count] : standing.ended) counts.emplace_back(name_of(end), count);
+  for (const auto& [name, count] : {std::pair("crashed", standing.crashed),
+                                    {"running", standing.elsewhere},
+                                    {"missing", standing.missing}})
+    if (count > 0) counts.emplace_back(name, count);
+  return counts;
+}
+
+/// Processor hours of what runs and what is missing, at the mean of the jobs that ended.
+std::string work_left(const Standing& standing) {
+  const size_t left = standing.elsewhere + standing.missing;
+  if (left == 0 || standing.done() == 0) return "";
+  const double hours = standing.seconds / double(standing.done()) * double(left) / 3600;
+  return fmt::format(", about {:.3g} hours of it left", hours);
+}
+
+std::string html(const std::string& text) {
+  std::string escaped;
+  for (const char c : text)
+    escaped += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
+  return escaped;
+}
+
+std::string clock_left(double seconds) {
+  if (std::isnan(seconds)) return "";
+  return seconds < 90 ? fmt::format("{:.0f} s left", seconds)
+                      : fmt::format("{:.0f} min left", seconds / 60);
+}
+
+}  // namespace
+
 std::string standing_text(OpenCampaign& of, const Standing& standing) {
   std::string text = fmt::format("{}: {} jobs", of.campaign.name, of.campaign.root.jobs);
-  for (const auto& [end, count] : standing.ended)
-    text += fmt::format(", {} {}", count, name_of(end));
-  for (const auto& [count, what] : {std::pair(standing.crashed, "crashed"),
-                                    {standing.elsewhere, "running"},
-                                    {standing.missing, "missing"}})
-    if (count > 0) text += fmt::format(", {} {}", count, what);
-  text += fmt::format("; {:.3g} s of processor time\n", standing.seconds);
+  for (const auto& [name, count] : counts_of(standing)) text += fmt::format(", {} {}", count, name);
+  text += fmt::format("; {:.3g} s of processor time{}\n", standing.seconds, work_left(standing));
+  for (const Reason& reason : commonest_reasons(standing))
+    text += fmt::format("  {} {}: {}\n", reason.count, name_of(reason.end), reason.words);
   const auto conflicts = of.index.conflicts();
   if (!conflicts.empty())
     text += fmt::format(
@@ -27,12 +79,17 @@ std::string standing_text(OpenCampaign& of, const Standing& standing) {
 }
 
 std::string standing_json(OpenCampaign& of, const Standing& standing) {
-  nlohmann::json ended = nlohmann::json::object();
+  using nlohmann::json;
+  json ended = json::object(), reasons = json::array();
   for (const auto& [end, count] : standing.ended) ended[name_of(end)] = count;
+  for (const Reason& reason : commonest_reasons(standing))
+    reasons.push_back(
+        {{"outcome", name_of(reason.end)}, {"reason", reason.words}, {"jobs", reason.count}});
   return json_text({{"campaign", of.campaign.name},
                     {"jobs", of.campaign.root.jobs},
                     {"done", standing.done()},
                     {"ended", ended},
+                    {"reasons", reasons},
                     {"crashed", standing.crashed},
                     {"running", standing.elsewhere},
                     {"missing", standing.missing},
@@ -40,6 +97,35 @@ std::string standing_json(OpenCampaign& of, const Standing& standing) {
                     {"repeated", of.index.repeated()},
                     {"conflicts", of.index.conflicts().size()}}) +
          "\n";
+}
+
+std::string watch_line(const OpenCampaign& of, const Standing& standing, double seconds_left) {
+  std::string line =
+      fmt::format("{}: {} of {} done", of.campaign.name, standing.done(), of.campaign.root.jobs);
+  for (const auto& [name, count] : counts_of(standing))
+    if (name != "holds") line += fmt::format(", {} {}", count, name);
+  const std::string left = clock_left(seconds_left);
+  return left.empty() ? line : line + "; " + left;
+}
+
+std::string watch_page(const OpenCampaign& of, const Standing& standing, double seconds_left) {
+  const std::string title = html(of.campaign.title);
+  std::string rows;
+  for (const auto& [name, count] : counts_of(standing))
+    rows += fmt::format("<tr><td>{}<td>{}<td>\n", html(name), count);
+  for (const Reason& reason : commonest_reasons(standing))
+    rows += fmt::format("<tr><td>{}<td>{}<td>{}\n", html(name_of(reason.end)), reason.count,
+                        html(reason.words));
+  return fmt::format(
+      "<!doctype html>\n<meta charset=\"utf-8\">{}\n<title>{} of {}: {}</title>\n"
+      "<style>body{{font:16px/1.5 sans-serif;max-width:50em;margin:2em auto;padding:0 "
+      "1em}}progress{{width:100%}}td{{padding:0 1em 0 "
+      "0;vertical-align:top}}td:nth-child(2){{text-align:right}}</style>\n"
+      "<h1>{}</h1>\n<progress value=\"{}\" max=\"{}\"></progress>\n<p>{}\n"
+      "<table>\n{}</table>\n",
+      standing.elsewhere > 0 ? "\n<meta http-equiv=\"refresh\" content=\"2\">" : "",
+      standing.done(), of.campaign.root.jobs, title, title, standing.done(), of.campaign.root.jobs,
+      html(watch_line(of, standing, seconds_left)), rows);
 }
 
 }  // namespace foldproof

@@ -220,11 +220,10 @@ class Crew {
   }
 
   void start(size_t slot) {
-    const std::string shard =
-        settings_.shards.empty()
-            ? new_shard_of_slice(batch_, slice_)
-            : settings_.shards + "/" +
-                  std::filesystem::path(new_shard_of_slice(batch_, slice_)).filename().string();
+    const std::string folder =
+        settings_.shards.empty() ? shard_folder(batch_, slice_) : settings_.shards;
+    done_.shards.push_back(folder + "/" + new_shard_of_slice(slice_));
+    const std::string& shard = done_.shards.back();
     std::fflush(nullptr);
     const pid_t parent = getpid(), process = fork();
     if (process < 0) throw std::runtime_error("no process can be made to run jobs");
@@ -295,9 +294,9 @@ WorkDone work_through(const Batch& batch, size_t slice, std::vector<BatchJob> jo
   return Crew(batch, slice, std::move(jobs), settings).work(show);
 }
 
-std::vector<BatchJob> missing_of_slice(const Batch& batch, size_t slice) {
-  std::vector<BatchJob> jobs = read_slice(batch, slice);
-  const ShardState known = read_shard_state(shards_of_slice(batch, slice));
+std::vector<BatchJob> missing_in(const std::vector<std::string>& shards,
+                                 std::vector<BatchJob> jobs) {
+  const ShardState known = read_shard_state(shards);
   std::erase_if(jobs, [&](const BatchJob& job) { return known.results.contains(job.key); });
   for (BatchJob& job : jobs)
     if (const auto starts = known.open_starts.find(job.key); starts != known.open_starts.end())

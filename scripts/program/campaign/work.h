@@ -14,13 +14,14 @@ constexpr int most_starts = 3;  // without an end, after which a job counts as c
 struct WorkSettings {
   int processes = 1;   // jobs at a time
   std::string cache;   // folder of level sets; "": none
-  std::string shards;  // folder for shards; "": the batch's own
+  std::string shards;  // folder for shards; "": the slice's own
 };
 
 /// What came of a slice, by its processes.
 struct WorkDone {
-  size_t ended = 0;    // jobs with a result
-  size_t crashed = 0;  // jobs with most_starts starts and no end
+  size_t ended = 0;                 // jobs with a result
+  size_t crashed = 0;               // jobs with most_starts starts and no end
+  std::vector<std::string> shards;  // that its processes wrote
 };
 
 /// Runs the jobs, those with the fewest starts first. A job whose process dies costs nothing but
@@ -31,7 +32,8 @@ struct WorkDone {
 WorkDone work_through(const Batch& batch, size_t slice, std::vector<BatchJob> jobs,
                       const WorkSettings& settings, const std::function<void(size_t)>& show);
 
-/// Jobs of the slice that its shards have no result of, with the starts that they show.
-std::vector<BatchJob> missing_of_slice(const Batch& batch, size_t slice);
+/// Those of the jobs that the shards have no result of, with the starts that they show.
+std::vector<BatchJob> missing_in(const std::vector<std::string>& shards,
+                                 std::vector<BatchJob> jobs);
 
 }  // namespace foldproof
