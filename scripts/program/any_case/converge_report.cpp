@@ -1,4 +1,4 @@
-#include "scripts/program/converge_report.h"
+#include "scripts/program/any_case/converge_report.h"
 
 #include <fmt/format.h>
 

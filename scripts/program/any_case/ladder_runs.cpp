@@ -1,4 +1,4 @@
-#include "scripts/program/ladder_runs.h"
+#include "scripts/program/any_case/ladder_runs.h"
 
 #include <fmt/format.h>
 

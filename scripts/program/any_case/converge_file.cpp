@@ -1,4 +1,4 @@
-#include "scripts/program/converge_file.h"
+#include "scripts/program/any_case/converge_file.h"
 
 #include "scripts/program/provenance.h"
 #include "verification/files/results_file.h"

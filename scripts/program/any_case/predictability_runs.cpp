@@ -1,4 +1,4 @@
-#include "scripts/program/predictability_runs.h"
+#include "scripts/program/any_case/predictability_runs.h"
 
 #include <fmt/format.h>
 
