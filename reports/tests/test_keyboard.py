@@ -20,7 +20,8 @@ CONTROLS = """(() => {
     .map((one) => [reached(one), one.outerHTML.slice(0, 90)]);
 })()"""
 WHERE = """(() => {
-  const at = document.activeElement, style = getComputedStyle(at), place = at.getBoundingClientRect();
+  const at = document.activeElement, style = getComputedStyle(at);
+  const place = at.getBoundingClientRect();
   return { place: at === document.body ? -1 : reached(at), tag: at.tagName.toLowerCase(),
            text: at.textContent.slice(0, 60),
            marked: style.outlineStyle !== "none" && parseFloat(style.outlineWidth) >= 1,

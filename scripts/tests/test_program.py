@@ -232,7 +232,7 @@ class ProgramTest(ProgramCase):
         commands = [[name] for name in commands_in(run("--help").stdout)]
         commands += [["evaluate", name] for name in commands_in(run("evaluate", "--help").stdout)]
         commands += [["campaign", name] for name in commands_in(run("campaign", "--help").stdout)]
-        self.assertEqual(len(commands), 35)
+        self.assertEqual(len(commands), 36)
         for command in commands:
             text = run(*command, "--help").stdout
             self.assertNotRegex(text, r"\b(TEXT|U?INT|FLOAT|REQUIRED)\b|\(\dx\)", command)

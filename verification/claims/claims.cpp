@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 
 namespace foldproof {
@@ -233,7 +234,24 @@ Quantity quantity_at(const Placeholder& wanted, const Place& place,
   reject(wanted.text, "the finding's evidence has no such column of numbers");
 }
 
+/// The word in a column of texts; none if the place is no such column.
+std::optional<std::string> word_at(const Placeholder& wanted, const Place& place,
+                                   const std::vector<Record>& records) {
+  const Record* record = record_named(place.finding, records);
+  if (!record || place.row.empty()) return {};
+  for (const Column& column : record->finding.evidence.columns()) {
+    const auto* texts = std::get_if<std::vector<std::string>>(&column.values);
+    if (!texts || column.name != place.column) continue;
+    if (texts->empty() || (place.row != "first" && place.row != "last"))
+      reject(wanted.text, "of a column of texts there is the first word and the last");
+    return place.row == "first" ? texts->front() : texts->back();
+  }
+  return {};
+}
+
 std::string value_of(const Placeholder& wanted, const std::vector<Record>& records) {
+  if (wanted.places.size() == 1)
+    if (const auto word = word_at(wanted, wanted.places.front(), records)) return *word;
   Quantity largest = quantity_at(wanted, wanted.places.front(), records);
   for (const Place& place : wanted.places) {
     const Quantity one = quantity_at(wanted, place, records);
