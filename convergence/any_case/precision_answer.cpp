@@ -32,7 +32,7 @@ const LongerRun* asked_run(const PrecisionPlan& plan, const MethodCurve& curve, 
   return longer_run_of(curve.curve.longer, frame_of(plan) / asked_parts(plan, step));
 }
 
-MethodPrice price_of_method(const MethodCurve& curve, const PrecisionPlan& plan, double wanted) {
+MethodPrice price_of_error(const MethodCurve& curve, const PrecisionPlan& plan, double wanted) {
   const Bracket bracket = bracket_of(plan, curve, wanted);
   MethodPrice price{curve.method, price_at(curve.curve, plan.input_case.scene.schedule.end, wanted),
                     bracket.few == 0 ? 1 : double(bracket.many) / bracket.few};
@@ -40,6 +40,20 @@ MethodPrice price_of_method(const MethodCurve& curve, const PrecisionPlan& plan,
     price.energy_gain = energy_gain(*run);
   if (price.price.limit == LimitedBy::not_reached) price.because = why_not_reached(curve, wanted);
   return price;
+}
+
+/// The price of the wanted error, or of a smaller one whose run turned out cheaper: what reaches
+/// that reaches this.
+MethodPrice price_of_method(const MethodCurve& curve, const PrecisionPlan& plan, double wanted,
+                            double least) {
+  MethodPrice best = price_of_error(curve, plan, wanted);
+  for (const double smaller : plan.wanted) {
+    if (!(smaller < wanted) || smaller < least) continue;
+    const MethodPrice other = price_of_error(curve, plan, smaller);
+    const bool is_reached = !std::isnan(other.price.applications);
+    if (is_reached && !(best.price.applications <= other.price.applications)) best = other;
+  }
+  return best;
 }
 
 }  // namespace
@@ -50,7 +64,7 @@ PriceList price_list(const PrecisionPlan& plan, const CaseTruth& truth,
   const bool is_known = wanted >= least_error(truth);
   for (const MethodCurve& curve : curves) {
     if (!std::ranges::count(plan.methods, curve.method)) continue;
-    MethodPrice price = price_of_method(curve, plan, wanted);
+    MethodPrice price = price_of_method(curve, plan, wanted, least_error(truth));
     if (!is_known) {
       price.price = {LimitedBy::not_reached, nan, nan, nan, nan};
       price.because = "the truth is not known to a tenth of this error";

@@ -176,6 +176,18 @@ TEST_CASE("a step that gains energy in a longer run has no price, and the next s
   CHECK(curve_of(answer, "A").stable_step == Approx(frame / 2));
 }
 
+TEST_CASE("a larger error costs at most as much as a smaller one, wherever steps cease to last") {
+  for (int lasting = 2; lasting <= 40; ++lasting) {
+    std::map<std::string, Law> laws = two_good_methods;
+    laws["A"] = {0.02, 2, 1, 3, 0, lasting};
+    const MadeUp made = made_by(laws, {1e-2, 1e-3});
+    const PrecisionAnswer answer = precision_answer(made.plan, made.trials);
+    INFO("lasting with " << lasting << " steps a frame");
+    CHECK(price_of(answer, 0, "A").price.applications <=
+          price_of(answer, 1, "A").price.applications);
+  }
+}
+
 TEST_CASE("only steps that win or tie are asked whether they last") {
   std::map<std::string, Law> laws = two_good_methods;
   laws["C"] = {0.9, 2, 1, 20};

@@ -42,7 +42,7 @@ _PLAIN: list[tuple[re.Pattern[str], str | Callable[[re.Match[str]], str]]] = [
     (re.compile(r"\b([a-z])\^(?![\w({-])"), "\\1\u0302"),  # t^ is the unit vector along t
     (re.compile(r"(?<![\w.=])\.(?=\d)"), "0."),
 ]
-_POWER = re.compile(r"\^(?:\(([^()]*)\)|\{([^{}]*)\}|(-?\w+?)(?=th\b|\b))")
+_POWER = re.compile(r"\^(?:\(([^()]*)\)|\{([^{}]*)\}|(-?\d+\.\d+|-?\w+?)(?=th\b|\b))")
 _INDEX = re.compile(rf"\b(kd|ke|[A-Za-z{_LETTERS}])_([A-Za-z0-9]{{1,5}})\b")
 _TEN = re.compile(r"(?<![\w.=-])(-?\d+(?:\.\d+)?)e(-?\d+)(?![\w.]\w)")
 
@@ -70,7 +70,7 @@ def _written(text: str) -> str:
 
 
 def _power_of_ten(found: re.Match[str], raised: Callable[[str], str]) -> str:
-    power = "10" + raised(found[2]).replace("-", MINUS)
+    power = "10" + raised(str(int(found[2]))).replace("-", MINUS)
     return power if found[1] == "1" else f"{found[1]}\u200a×\u200a{power}"
 
 

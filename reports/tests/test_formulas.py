@@ -32,6 +32,11 @@ class Formulas(unittest.TestCase):
                 "x <= 1e-12, 2.5e-7 +- .1",
                 "x ≤ 10<sup>−12</sup>, 2.5\u200a×\u200a10<sup>−7</sup> ± 0.1",
             ),
+            (
+                "(h / 2 s)^1.99, x^-0.86, x^2. 4e-07",
+                "(h / 2 s)<sup>1.99</sup>, x<sup>−0.86</sup>, x<sup>2</sup>. "
+                "4\u200a×\u200a10<sup>−7</sup>",
+            ),
             ("t^ and d^.", "t\u0302 and d\u0302."),
             ("m E_kin, h/h_limit", "m E<sub>kin</sub>, h/h<sub>limit</sub>"),
         ):

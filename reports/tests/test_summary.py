@@ -160,14 +160,14 @@ class OnePage(unittest.TestCase):
     def test_a_conclusion_falls_with_its_finding(self) -> None:
         put_priced_run(self.root)
         for text in self.made():
-            self.assertIn("Damping does not shorten the step", text)
+            self.assertIn("Damping does not shorten the stable step", text)
         with h5py.File(self.root / "run.h5", "a") as file:
             file[f"findings/{SUPPORTS[0]}"].attrs["outcome"] = "fails"
             del file[f"findings/{SUPPORTS[2]}"]
         for text in self.made():
-            self.assertNotIn("Damping does not shorten the step", text)
+            self.assertNotIn("Damping does not shorten the stable step", text)
             self.assertRegex(text, rf"Not shown by this run: `?{SUPPORTS[0]}`? fails")
-            self.assertNotIn("The mesh, not the step", text)
+            self.assertNotIn("the mesh, not the step", text)
 
     def test_what_does_not_hold_is_named_first(self) -> None:
         put_priced_run(self.root)

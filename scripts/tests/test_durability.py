@@ -277,10 +277,10 @@ class FullDisk(FileTest):
         before = self.files_in(out)
         for most in (0, 500, 4000, len(before["run.h5"]) - 1):
             done = run(
-                "check", "bending.forces-sum-to-zero", "--out", str(out),
+                "check", "bending.forces-sum-to-zero", "--out", str(out), "--restart",
                 limits={resource.RLIMIT_FSIZE: most}
             )
-            self.assert_rejected(done, "run.h5", "cannot be written")
+            self.assert_rejected(done, "cannot be written")
             self.assertEqual(self.files_in(out), before)
             self.assertFalse(list(out.glob("*.partial")))
 

@@ -104,7 +104,6 @@ hangs or answers nonsense, the current law fails and shows its last output; the 
 
 Examples:
   foldproof judge --frames my_frames --case drape_sphere --rate 60 --out mine
-  foldproof judge --solver "python3 verification/subjects/adapters/toy_solver.py"
   foldproof judge --solver ./adapter --name mine --settings iterations=20 --out mine
 
 Exit codes:
