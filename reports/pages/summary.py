@@ -175,8 +175,8 @@ def _scope(judged: Judged) -> list[Piece]:
         return [
             (
                 "Tells whether the program does what the paper describes, and where the method"
-                " errs. Tells neither whether real cloth moves like this nor whether your own solver"
-                " is right: for that, run "
+                " errs. Tells neither whether real cloth moves like this nor whether your own"
+                " solver is right: for that, run "
             ),
             Quoted("foldproof judge", "command", is_name=True),
             ".",
