@@ -201,8 +201,9 @@ StudyResult run_price_by_scene(const Subject&, Tier tier, const Progress& progre
 
 Study price_by_scene_study() {
   return {"price-by-scene",
-          "Scheme C costs at most twice the cheapest method where lightly damped cloth moves "
-          "freely; with heavy damping, contact or strain limits another method is cheaper.",
+          "On a small sheet, lightly damped, that swings from an edge, scheme C costs at most "
+          "twice the cheapest method; with heavy damping, contact or strain limits another method "
+          "is cheaper.",
           "BMF03 section 3",
           "Four small scenes, one a kind, asked as `foldproof precision` asks any case: every "
           "method runs with constant steps, halved until it reaches an error of one percent of the "

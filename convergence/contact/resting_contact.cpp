@@ -73,7 +73,7 @@ NamedFinding quieter(const Rest& forecast, const Rest& push_out) {
       "Cloth at rest shakes less than half as much under forecasting as when points found inside "
       "are pushed out.",
       {{forecast.jitter / push_out.jitter, 0.5, 0, "1",
-        "two responses that are equally good differ by a hundredth here; half is far beyond that"},
+        "two responses that are equally good differ by a twentieth here; half is far beyond that"},
        compare({forecast, push_out}),
        what_is_measured}};
 }

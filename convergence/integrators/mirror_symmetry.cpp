@@ -135,7 +135,8 @@ StudyResult run_mirror_symmetry(const Subject& subject, Tier tier, const Progres
 
 Study mirror_symmetry_study() {
   return {"mirror-symmetry",
-          "Symmetry is kept up to rounding, which grows with the motion's own instability.",
+          "Without strain limits the schemes keep mirror symmetry up to rounding, which grows with "
+          "the motion's own instability.",
           "our test of BMF03 section 3",
           "A sheet with a plane of symmetry, held at two corners, falls from the horizontal, "
           "swings and crumples. The balance of its two halves is unstable, so that rounding grows; "

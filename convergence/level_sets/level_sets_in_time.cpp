@@ -208,8 +208,8 @@ StudyResult run_level_sets_in_time(const Subject&, Tier tier, const Progress& pr
 
 Study level_sets_in_time_study() {
   return {"level-sets-in-time",
-          "Stored level sets of a deforming body, interpolated in time, converge to the body, "
-          "faster than with first order.",
+          "Stored level sets of a deforming body, interpolated in time, converge to the body "
+          "faster than with first order, until the error nears what the octrees themselves miss.",
           "BMF03 section 5.1",
           "How many frames must be stored? A body deforms smoothly; two frames of it lie about one "
           "time, ever closer, and phi between them is compared with the exact distance to the mesh "

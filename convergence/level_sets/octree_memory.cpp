@@ -278,7 +278,8 @@ StudyResult run_octree_memory(const Subject&, Tier tier, const Progress& progres
 Study octree_memory_study() {
   return {"octree-memory",
           "An octree takes less memory than a regular grid of the same error on boxes and bumpy "
-          "bodies; on a sphere only from 128 cells along each axis on, and on a torus not at 64.",
+          "bodies; on a sphere only from 128 cells along each axis on, and on a torus at 32 and "
+          "128, but not at 64.",
           "BMF03 section 5.1",
           "How much does adaptive sampling save? For bodies with even curvature, sharp edges and "
           "bumps, a regular grid and the coarsest octree with no larger error, both in double "
