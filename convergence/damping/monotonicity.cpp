@@ -248,8 +248,8 @@ Study monotonicity_study() {
           "In steps far longer than the damping time, A overshoots a linear motion that damping "
           "alone brings to rest without bound, and B and C by at most the displacement itself, "
           "though they oscillate; backward Euler is monotone. On a folding hinge B and C overshoot "
-          "too; so does fully implicit backward Euler, in steps of one to three damping times, "
-          "and linearised backward Euler does not.",
+          "too; so does fully implicit backward Euler, in steps of one to three damping times, and "
+          "linearised backward Euler does not.",
           "BMF03 section 3",
           "Three motions that damping alone brings to rest: a triangle that expands (linear, known "
           "exactly), a hinge that folds (nonlinear, known by an oracle), a sheet whose modes all "
