@@ -235,6 +235,7 @@ KINDS = {
     "knows_its_units": KnowsItsUnits,
     "knows_left_from_right": KnowsLeftFromRight,
     "rest_lengths_kept": RestLengthsKept,
+    "bends_upright_only": materials.BendsUprightOnly,
     "damped": materials.Damped,
     "damping_halved": materials.DampingHalved,
     "damped_unasked": materials.DampedUnasked,
