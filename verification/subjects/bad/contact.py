@@ -81,3 +81,36 @@ class FrictionBeyondTheCone(OnPlanes):
 class FrictionHalved(OnPlanes):
     def kept(self, most: np.ndarray, speed: np.ndarray) -> np.ndarray:
         return super().kept(most / 2, speed)
+
+
+class OnBoxes(ToySolver):
+    """Particles that end a step in a box leave it by the nearest face, and stop there."""
+
+    capabilities = (*ToySolver.capabilities, "boxes")
+    checked_each = 1  # steps
+
+    def prepare(self, scene: Scene) -> dict[str, str]:
+        self.boxes, self.steps = scene.header["scene"].get("boxes", []), 0
+        return super().prepare(scene)
+
+    def advance(self, dt: float, steps: int) -> None:
+        for _ in range(steps):
+            super().advance(dt, 1)
+            self.steps += 1
+            if self.steps % self.checked_each == 0:
+                for box in self.boxes:
+                    self.leave(box)
+
+    def leave(self, box: dict) -> None:
+        half, out = np.array(box["half_extents"]), self.x - np.array(box["centre"])
+        depth = half - np.abs(out)
+        for i in np.flatnonzero(np.all(depth > 0, axis=1)):
+            c = np.argmin(depth[i])
+            self.x[i, c] = box["centre"][c] + np.copysign(half[c], out[i, c])
+            self.v[i, c] = 0
+
+
+class OnBoxesNowAndThen(OnBoxes):
+    """A search for contacts in every fourth step, to save time."""
+
+    checked_each = 4

@@ -240,6 +240,8 @@ KINDS = {
     "damping_halved": materials.DampingHalved,
     "damped_unasked": materials.DampedUnasked,
     "bends_fourfold": materials.BendsFourfold,
+    "on_boxes": contact.OnBoxes,
+    "on_boxes_now_and_then": contact.OnBoxesNowAndThen,
     "sinks_in": contact.SinksIn,
     "jitters": contact.Jitters,
     "friction_beyond_the_cone": contact.FrictionBeyondTheCone,

@@ -28,6 +28,7 @@ std::vector<Law> calibration_laws();  // effective moduli
 std::vector<Law> vibration_laws();    // period and decay
 std::vector<Law> cantilever_laws();   // a heavy strip at rest
 std::vector<Law> contact_laws();      // capability "planes": resting, friction
+std::vector<Law> tunnelling_laws();   // capability "boxes": a thin one stops what is thrown at it
 
 /// The outcome of a trial.
 struct Judgement {
