@@ -114,3 +114,23 @@ class OnBoxesNowAndThen(OnBoxes):
     """A search for contacts in every fourth step, to save time."""
 
     checked_each = 4
+
+
+class ParticlesRepelAlone(ToySolver):
+    """Against itself: particles nearer than the thickness part, edges and triangles are nothing."""
+
+    capabilities = (*ToySolver.capabilities, "self_collision")
+
+    def prepare(self, scene: Scene) -> dict[str, str]:
+        self.thickness = scene.header["scene"].get("thickness", 0)
+        return super().prepare(scene)
+
+    def advance(self, dt: float, steps: int) -> None:
+        for _ in range(steps):
+            super().advance(dt, 1)
+            apart = self.x[:, None] - self.x
+            near = np.linalg.norm(apart, axis=2) < self.thickness
+            np.fill_diagonal(near, False)
+            for i, j in np.argwhere(near):
+                push = (self.thickness - np.linalg.norm(apart[i, j])) / 2
+                self.x[i] += push * apart[i, j] / np.linalg.norm(apart[i, j])

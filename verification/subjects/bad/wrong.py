@@ -242,6 +242,7 @@ KINDS = {
     "bends_fourfold": materials.BendsFourfold,
     "on_boxes": contact.OnBoxes,
     "on_boxes_now_and_then": contact.OnBoxesNowAndThen,
+    "particles_repel_alone": contact.ParticlesRepelAlone,
     "sinks_in": contact.SinksIn,
     "jitters": contact.Jitters,
     "friction_beyond_the_cone": contact.FrictionBeyondTheCone,

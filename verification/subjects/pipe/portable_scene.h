@@ -43,8 +43,9 @@ struct PortableScene {
   double dt = 0;                           // s
   std::vector<PortablePlane> planes = {};  // for solvers of capability "planes"
   std::vector<PortableBox> boxes = {};     // for solvers of capability "boxes"
-  bool own_masses = false;                 // masses are other than the density's
-  std::string extension = {};              // JSON for solvers that know it; "" for none
+  double thickness = 0;        // of the cloth against itself [m]; for capability "self_collision"
+  bool own_masses = false;     // masses are other than the density's
+  std::string extension = {};  // JSON for solvers that know it; "" for none
 };
 
 /// Stiffness of the spring along each edge, Y A_e/L0^2 of the rest shape [N/m]; E values.

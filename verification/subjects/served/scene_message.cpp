@@ -136,6 +136,8 @@ void read_material(const Message& message, Scene& scene) {
     scene.objects.push_back(plane_of(plane));
   for (const Json& box : constants.value("boxes", Json::array()))
     scene.objects.push_back(box_of(box));
+  if (const double thickness = constants.value("thickness", 0.0); thickness > 0)
+    scene.self_collision = SelfCollisionSettings{.thickness = thickness};
   for (const int i : message.integers.at("held"))
     scene.prescribed.push_back({i, Vector3(scene.x.col(i)), Motion{}});
 }
