@@ -11,8 +11,8 @@ namespace {
 
 using namespace suite;
 
-//     \      /       Both halves turn towards each other about the fold. They would meet after 0.17 s,
-//   -> \    / <-      87 steps, and cross from then on.
+//     \      /       Both halves turn towards each other about the fold. They would meet after
+//   -> \    / <-      0.17 s, 87 steps, and cross from then on.
 //       \  /
 //        \/
 constexpr double half_opening = 10 * pi / 180;  // rad
