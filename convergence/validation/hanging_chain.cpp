@@ -258,8 +258,8 @@ StudyResult run_hanging_chain(const Subject& subject, Tier tier, const Progress&
 Study hanging_chain_study() {
   return {
       "hanging-chain",
-      "A strip without bending hangs between two points as a catenary, and swings from one point "
-      "as a chain.",
+      "A strip without bending sags and pulls between two points as a catenary does, and swings "
+      "from one point as often as a chain.",
       "our test of springs and gravity: catenary, and Bernoulli's hanging chain",
       "A strip two cells wide is held by its end rows and brought to rest by backward Euler. Its "
       "springs give by a ten-thousandth of its length per weight. S is the sag, the pull on a held "
