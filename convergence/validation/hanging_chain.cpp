@@ -148,7 +148,7 @@ NamedFinding shape_agrees(const Subject& subject, const HungTest& test, Tier tie
     simulated.point(strip.rows(0, i), strip.rows(2, i));
   shapes.curves.push_back(exact);
   shapes.curves.push_back(simulated);
-  return {fmt::format("hanging-chain.shape-agrees.{}", test.name),
+  return {fmt::format("hanging-chain.sag-and-pull-agree.{}", test.name),
           fmt::format("A limp strip between {} sags and pulls as a catenary does, within one "
                       "percent of its length and weight.",
                       test.words),
