@@ -95,7 +95,7 @@ class Npm(unittest.TestCase):
     """Engines that npm has, in the version that scripts/engines pins."""
 
     name, version = "jolt", "1.1.0"
-    applicable = 26  # laws
+    applicable = 27  # laws
     failing = {"": set()}  # what fails, by setting
 
     @classmethod
@@ -126,7 +126,7 @@ class Jolt(Npm):
 
 
 class MuJoCo(Npm):
-    name, version, applicable = "mujoco", "3.14.0", 29
+    name, version, applicable = "mujoco", "3.14.0", 30
     failing = {
         "": {MODULUS},
         "integrator=RK4": {MODULUS},
