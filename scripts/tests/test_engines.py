@@ -64,15 +64,16 @@ class Bullet(unittest.TestCase):
             self.assertEqual(done.returncode, 0, done.stdout)
 
     def test_deformable_bodies_meet_every_law_but_those_of_one_stiffness_an_edge(self) -> None:
-        for settings in ((), ("--settings", "implicit=0")):
-            self.require(self.judged("bullet_deformable", *settings), MODULI)
+        self.require(self.judged("bullet_deformable"), MODULI)
+        self.require(self.judged("bullet_deformable", "--settings", "implicit=0"),
+                     MODULI | {"tunnelling.thin-box-stops-a-slow-sheet"})
 
     def test_position_based_bodies_depend_on_the_numbering(self) -> None:
         self.require(self.judged("bullet_position_based"),
                      {"inertia.free-sheet-keeps-its-velocity", "gravity.speed-grows-by-g-t",
                       "gravity.fall-is-as-exact-as-the-order-claims", "symmetry.renumbering",
                       "momentum.angular-drift-falls-with-the-step",
-                      "vibration.undamped-goes-on"} | MODULI)
+                      "vibration.undamped-goes-on", "contact.slides-as-coulomb-says"} | MODULI)
 
     def test_what_its_page_records_is_seen_without_the_adapter(self) -> None:
         program = ROOT / "build" / "engines" / "bullet_laws"
