@@ -86,7 +86,7 @@ const std::vector<Headline> headlines = {
     {"folding-inside-objects", {"more-folds-when-allowed-inside", "same-folds-over-a-ball"}},
     {"forecast-time",
      {"exact-on-a-plane", "second-order-on-a-resting-ball", "second-order-on-a-moving-ball",
-      "second-order-on-a-turning-ball"}},
+      "second-order-on-a-turning-ball", "second-order-on-a-turning-plane"}},
     {"resting-contact", {"quieter-than-push-out", "projection-is-as-quiet"}},
     {"pointwise-contact",
      {"edge-penetration-is-second-order", "edge-penetration-is-within-the-chord",
