@@ -103,7 +103,10 @@ const std::vector<Headline> headlines = {
     {"free-fold", {"height-agrees", "is-second-order", "floor-only-pushes"}},
     {"lateral-buckling", {"load-agrees", "isotropic-sheet-differs"}},
     {"hanging-chain", {"shape-agrees", "frequency-agrees"}},
-    {"friction-tests", {"threshold-agrees", "slide-agrees", "belt-agrees"}}};
+    {"friction-tests", {"threshold-agrees", "slide-agrees", "belt-agrees"}},
+    {"cusick-drape",
+     {"coefficient-grows-with-bending-length", "fold-number-follows-the-start",
+      "folds-change-the-coefficient"}}};
 
 }  // namespace
 

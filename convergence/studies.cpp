@@ -68,6 +68,7 @@ std::vector<Study> all_studies() {
           lateral_buckling_study(),
           hanging_chain_study(),
           friction_tests_study(),
+          cusick_drape_study(),
           fabric_strip_study()};
 }
 
