@@ -42,9 +42,9 @@ double read_cell(const KeyTable& keys, const PerParticle3& x) {
 /// By default the octree may miss a tenth of a cell: what a finest cell misses of a surface of 2.5
 /// cells' radius r, cell^2/(4 r).
 OctreeSettings read_octree(const KeyTable& keys, const Bounds& bounds, double cell) {
-  return with_error_location(keys.where("cells"), [&] {
-    return octree_about(bounds, cell, positive_or(keys, "tolerance", cell / 10));
-  });
+  const double tolerance = positive_or(keys, "tolerance", cell / 10);
+  return with_error_location(keys.where("cells"),
+                             [&] { return octree_about(bounds, cell, tolerance); });
 }
 
 /// The largest error that is allowed, whatever `cells` says [m]; 0: none is given.
@@ -52,7 +52,7 @@ double read_accuracy(const KeyTable& keys, bool is_stored, Repair repair) {
   if (!keys.has("accuracy")) return 0;
   if (!is_stored)
     throw InputError(keys.where("accuracy") + ": field = \"exact\" has no error to choose");
-  if (repair != Repair::refuse)
+  if (repair == Repair::winding)
     throw InputError(keys.where("accuracy") +
                      ": a mesh that is repaired has no exact distance to compare with");
   return positive(keys, "accuracy");
