@@ -154,10 +154,17 @@ class Judge(unittest.TestCase):
             ],
         )
 
-    def test_a_solver_that_never_starts_is_a_failure_and_no_crash(self) -> None:
-        done = run("judge", "--solver", "/nowhere/solver")
+    def test_a_command_without_a_program_is_refused(self) -> None:
+        for words in (("judge",), ("subject", "--check")):
+            done = run(*words, "--solver", "/nowhere/solver")
+            self.assertEqual((done.returncode, done.stdout), (2, ""), done)
+            self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+            self.assertIn("cannot start /nowhere/solver: ", done.stderr)
+
+    def test_a_solver_that_ends_at_its_start_is_a_failure_and_no_crash(self) -> None:
+        done = run("judge", "--solver", "exit 3")
         self.assertEqual(done.returncode, 1, done.stderr)
-        self.assertIn("/nowhere/solver: did not start", done.stdout)
+        self.assertIn("exit 3: did not start", done.stdout)
         self.assertIn("suspect the adapter before the engine", done.stdout)
 
     def test_a_crash_is_told_with_signal_and_last_words(self) -> None:

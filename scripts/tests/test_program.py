@@ -159,6 +159,11 @@ class ProgramTest(ProgramCase):
             "converge hnige": "did you mean hinge?",
             "simulate twist": "did you mean hard/twist?",
             "simulate nowhere/at_all_like.toml": "list` shows the shipped ones",
+            "simulate nofile.toml": "no shipped case of that name; `",
+            "campaign run first_gird": "no shipped campaign of that name; did you mean first_grid?",
+            "campaign run nothing_like_it": "; shipped: bending_atlas, faults, first_grid,",
+            "history none": "none: there is no such folder or file",
+            "report none": "none: there is no such folder",
             "inspect nowhere/at_all_like.obj": "there is no such file; check the path",
         }.items():
             self.assertIn(said, self.assert_rejected(*typed.split()), typed)

@@ -17,8 +17,10 @@
 #include "reference/bodies/level_set_provider.h"
 #include "scripts/program/commands.h"
 #include "scripts/program/command_line/input_files.h"
+#include "scripts/program/interruption.h"
 #include "scripts/program/json_text.h"
 #include "scripts/program/command_line/out_folder.h"
+#include "scripts/program/command_line/typed_command.h"
 #include "scripts/program/program_json.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
@@ -288,6 +290,11 @@ int ablate(const Options& options) {
   const OutFolder folder(options.out);
   require_replaceable(options.out + "/ablation.json");
   ResultStore store(options.out + "/store");
+  const InterruptionNotice notice(
+      fmt::format(
+          "finished cases are kept in {0}/ablation.json, and runs of their errors in {0}/store",
+          options.out),
+      typed_again(options.words));
   const KeptRuns by{all.empty() ? computing_provider() : all.front().level_sets, store,
                     program_identity()};
   std::mutex one_at_a_time;

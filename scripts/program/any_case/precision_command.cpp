@@ -8,7 +8,9 @@
 #include "convergence/any_case/precision_report.h"
 #include "scripts/program/command_line/input_files.h"
 #include "scripts/program/command_line/out_folder.h"
+#include "scripts/program/command_line/typed_command.h"
 #include "scripts/program/commands.h"
+#include "scripts/program/interruption.h"
 #include "scripts/program/json_text.h"
 #include "scripts/program/program_json.h"
 #include "scripts/program/progress.h"
@@ -201,6 +203,8 @@ int precision(const Options& options) {
   const PrecisionPlan plan = plan_of(options, level_sets);
   const OutFolder folder(options.out);
   ResultStore store(options.out + "/store");
+  const InterruptionNotice notice("finished runs are kept in " + options.out + "/store",
+                                  typed_again(options.words));
   const PrecisionAnswer answer =
       precision_answer(plan, all_trials(plan, level_sets, store, options.running));
   const double seconds =
