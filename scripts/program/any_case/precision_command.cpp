@@ -72,8 +72,9 @@ void print_methods(const PrecisionAnswer& answer) {
     return std::isnan(value) ? std::string("-") : fmt::format(fmt::runtime(form), value);
   };
   for (const MethodCurve& curve : answer.curves) {
-    fmt::print("{:<22} {:>6} {:>12} {:>12}", curve.method, number(curve.bar.order, "{:.2f}"),
-               number(curve.stable_step, "{:.3g}"), number(curve.unstable_step, "{:.3g}"));
+    fmt::print("{:<22} {:>6} {:>12} {:>12}", curve.method,
+               number(asymptotic_order(curve.bar), "{:.2f}"), number(curve.stable_step, "{:.3g}"),
+               number(curve.unstable_step, "{:.3g}"));
     for (const PriceList& list : answer.lists) {
       const auto price = std::ranges::find(list.prices, curve.method, &MethodPrice::method);
       if (price == list.prices.end())
@@ -106,8 +107,9 @@ void print(const PrecisionAnswer& answer) {
       if (!price.because.empty() && list.wanted >= least_error(answer.truth))
         fmt::print("{} at {:.3g} %: {}\n", price.method, 100 * list.wanted, price.because);
   fmt::print(
-      "\nprice: applications of force operators, and seconds of the processor; stable, not: the "
-      "longest step that\nis stable in this run, and the next longer one, which is not.\n");
+      "\norder: observed, where the range is asymptotic; price: applications of force operators, "
+      "and seconds of the\nprocessor; stable, not: the longest step that is stable in this run, "
+      "and the next longer one, which is not.\n");
 }
 
 json to_json(const Opinion& opinion) {
@@ -149,7 +151,7 @@ json to_json(const MethodCurve& curve) {
                            {"energy_gain", energy_gain(run)},
                            {"lasts", lasts(run)}});
   return {{"method", curve.method},
-          {"order", curve.bar.order},
+          {"order", asymptotic_order(curve.bar)},
           {"orders", curve.bar.orders},
           {"reading", name_of(curve.bar.reading)},
           {"because", curve.bar.reason},
