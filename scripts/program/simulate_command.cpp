@@ -117,6 +117,7 @@ int simulate_case(const Options& options) {
   const OutFolder folder(options.out);
   const BuiltCase of = built_case(std::move(input_case), provider_for(options.cache));
   const Scene& scene = of.input_case.scene;
+  log_warnings(scene);
   log_line(
       fmt::format("{}: {}", scene.name, fmt::join(describe_parts(scene, of.built.system), "; ")));
   try {

@@ -141,9 +141,11 @@ int converge(const Options& options) {
   const LevelSetProvider level_sets = memoizing_provider(provider_for(options.cache));
   CaseSource source{case_file(options.file), options.overrides, "", options.until};
   const std::vector<std::string> methods = methods_of(options);
-  build(case_of(source).scene, level_sets);  // refuses now what cannot be built
+  const Scene scene = case_of(source).scene;
+  build(scene, level_sets);  // refuses now what cannot be built
   const OutFolder folder(options.out);
   require_replaceable(options.out + "/converge.h5");
+  log_warnings(scene);
   ResultStore store(options.out + "/store");
   const InterruptionNotice notice("finished runs are kept in " + options.out + "/store",
                                   typed_again(options.words));

@@ -204,6 +204,7 @@ int precision(const Options& options) {
   const LevelSetProvider level_sets = memoizing_provider(provider_for(options.cache));
   const PrecisionPlan plan = plan_of(options, level_sets);
   const OutFolder folder(options.out);
+  log_warnings(plan.input_case.scene);
   ResultStore store(options.out + "/store");
   const InterruptionNotice notice("finished runs are kept in " + options.out + "/store",
                                   typed_again(options.words));
