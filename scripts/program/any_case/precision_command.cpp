@@ -3,7 +3,9 @@
 
 #include <chrono>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "convergence/any_case/precision_report.h"
 #include "scripts/program/command_line/input_files.h"
@@ -97,15 +99,25 @@ void print_unstable(const PrecisionAnswer& answer) {
                  curve.method, step);
 }
 
+/// A reason that holds for several errors is printed once.
+void print_missing_prices(const PrecisionAnswer& answer) {
+  std::map<std::pair<std::string, std::string>, std::string> errors;  // of method and reason
+  for (const PriceList& list : answer.lists)
+    for (const MethodPrice& price : list.prices)
+      if (!price.because.empty() && list.wanted >= least_error(answer.truth)) {
+        std::string& all = errors[{price.method, price.because}];
+        all += fmt::format("{}{:.3g} %", all.empty() ? "" : " and ", 100 * list.wanted);
+      }
+  for (const auto& [key, wanted] : errors)
+    fmt::print("{} at {}: {}\n", key.first, wanted, key.second);
+}
+
 void print(const PrecisionAnswer& answer) {
   for (const std::string& sentence : precision_sentences(answer)) fmt::print("{}\n", sentence);
   fmt::print("{}\n", truth_in_words(answer));
   print_methods(answer);
   print_unstable(answer);
-  for (const PriceList& list : answer.lists)
-    for (const MethodPrice& price : list.prices)
-      if (!price.because.empty() && list.wanted >= least_error(answer.truth))
-        fmt::print("{} at {:.3g} %: {}\n", price.method, 100 * list.wanted, price.because);
+  print_missing_prices(answer);
   fmt::print(
       "\norder: observed, where the range is asymptotic; price: applications of force operators, "
       "and seconds of the\nprocessor; stable, not: the longest step that is stable in this run, "
