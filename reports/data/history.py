@@ -95,8 +95,10 @@ def row_of(path: Path) -> RunRow:
     Throws Unreadable naming the file if it holds no finished run."""
     file = path / "verdicts.json" if path.is_dir() else path
     if not file.exists():
-        raise Unreadable(f"{file}: there is no such {'file' if path.is_dir() else 'folder or file'};"
-                         " run `foldproof verify --out DIR` first, and give DIR")
+        missing = "file" if path.is_dir() else "folder or file"
+        raise Unreadable(
+            f"{file}: there is no such {missing}; run `foldproof verify --out DIR` first, and give DIR"
+        )
     try:
         written = json.loads(file.read_text(encoding="utf-8"))
         about = {name: str(written["program"].get(name, "")) for name in ABOUT}

@@ -182,7 +182,7 @@ class Judge(unittest.TestCase):
         """The toys, a wrong one and the reference, as `foldproof report` shows them."""
         solvers = {
             "python": (TOY, "iterations=20"), "cpp": (f"exec '{ROOT}/build/toy_solver'", "n=1"),
-            "wrong": (bad("wrong", "gravity_scaled"), "n=2"), "none": ("/nowhere/solver", "n=3"),
+            "wrong": (bad("wrong", "gravity_scaled"), "n=2"), "none": ("exit 3", "n=3"),
             "reference": (f"exec '{PROGRAM}' serve --integrator A --precision f4", "n=4"),
         }
         for name, (command, setting) in solvers.items():
@@ -252,7 +252,7 @@ class Judge(unittest.TestCase):
         self.assertEqual(len(json.loads(done.stdout)["findings"]), 32)
         self.assertRegex(done.stderr, r"worse: gravity.speed-grows-by-g-t: fails, measured/bound")
         self.assertTrue(done.stderr.endswith("against the baseline: 3 worse, 0 better\n"))
-        done = run("judge", "--solver", "/nowhere/solver", "--baseline", kept)
+        done = run("judge", "--solver", "exit 3", "--baseline", kept)
         self.assertEqual(done.returncode, 1)
         self.assertTrue(done.stdout.endswith("against the baseline: 32 worse, 0 better\n"))
 
