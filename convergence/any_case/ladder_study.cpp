@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "reference/dynamics/integrator.h"
@@ -106,7 +107,51 @@ Table levels_table(const LadderAnswer& answer) {
   return {"levels", "Levels, and their cost", table};
 }
 
+/// With a capital and a full stop. words: not empty.
+std::string as_sentence(std::string words) {
+  words[0] = char(std::toupper(words[0]));
+  return words + ".";
+}
+
+/// What shrinks from level to level: of a mesh, its edges.
+std::string shortened(const LadderAnswer& answer) {
+  return answer.in == "time" ? "steps" : "edges";
+}
+
+/// From Richardson's law, error ~ size^order, and a cost that grows as between the finest levels.
+std::string halved_by_order(const LadderAnswer& answer, double order) {
+  const size_t last = answer.sizes.size() - 1;
+  const double parts = std::pow(2, 1 / order);
+  const double growth = std::log(answer.cost(last) / answer.cost(last - 1)) /
+                        std::log(answer.sizes[last - 1] / answer.sizes[last]);
+  return fmt::format(
+      "{} {:.2f} times shorter ({:.2g} {}) halve that error, at {:.1f} times the work",
+      shortened(answer), parts, answer.sizes[0] / parts, answer.in == "time" ? "s" : "m",
+      std::pow(parts, growth));
+}
+
+/// From the measured errors of the levels: each one's distance to the finest, and its bar.
+std::string halved_by_level(const LadderAnswer& answer) {
+  const QuantityOverLevels& positions = answer.quantities.front();
+  double error = positions.bar.half_width;
+  size_t coarsest = answer.sizes.size();  // of the levels that have halved it
+  for (size_t k = answer.sizes.size(); k-- > 0;) {
+    if (k < positions.differences.size()) error += positions.differences[k];
+    if (error <= positions.first_error / 2) coarsest = k;
+  }
+  if (coarsest == answer.sizes.size()) return "no level of this ladder halves that error";
+  return fmt::format("{} {} times shorter at least halve that error, at {:.1f} times the work",
+                     shortened(answer), 1 << coarsest, answer.cost(coarsest) / answer.cost(0));
+}
+
 }  // namespace
+
+std::string how_to_halve(const LadderAnswer& answer) {
+  const ErrorBar& bar = answer.quantities.front().bar;
+  if (bar.reading == Reading::inconclusive) return "What halves that error is not known.";
+  return as_sentence(bar.reading == Reading::asymptotic ? halved_by_order(answer, bar.order)
+                                                        : halved_by_level(answer));
+}
 
 std::string in_words(const LadderAnswer& answer) {
   const QuantityOverLevels& positions = answer.quantities.front();
@@ -137,16 +182,18 @@ std::vector<Mark> range_marks(const QuantityOverLevels& quantity) {
   return marks;
 }
 
-StudyRecord study_of(const LadderAnswer& answer) {
+StudyRecord study_of(const LadderAnswer& answer, const std::string& predictable) {
   StudyRecord study;
   study.name = fmt::format("converge.{}.{}.in-{}", answer.scene, answer.method, answer.in);
-  study.claim = in_words(answer);
+  study.claim = in_words(answer) + " " + how_to_halve(answer);
   study.source = "Roache 1994; Celik et al. 2008";
   study.about = fmt::format(
       "The same case with its {} refined from level to level. The limit is Richardson's; the error "
       "bar belongs to the finest level and is the grid convergence index. The error as it is "
       "belongs to the first level, bar included.",
       refined(answer));
+  if (!predictable.empty()) study.about += " " + as_sentence(predictable);
+  for (const std::string& warning : answer.warnings) study.about += " " + as_sentence(warning);
   for (const double seconds : answer.seconds) study.seconds += seconds;
   study.figures = {positions_figure(answer)};
   if (Figure others = values_figure(answer); !others.curves.empty())

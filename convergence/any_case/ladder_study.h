@@ -9,6 +9,11 @@ namespace foldproof {
 /// How large the error of the case as it stands is, in one or two sentences.
 std::string in_words(const LadderAnswer& answer);
 
+/// What halves the error of the positions, and its price: in the asymptotic range, steps (edges)
+/// divided by 2^(1/order) and the growth of cost between the two finest levels; outside it, the
+/// first level whose measured error is at most half of the first's; else why neither is known.
+std::string how_to_halve(const LadderAnswer& answer);
+
 /// One mark a difference of the quantity: measured in the asymptotic range, which ends at the
 /// finest pair and reaches back as long as neighbouring orders agree within same_order; unfinished
 /// (drawn hollow) outside it.
@@ -16,7 +21,8 @@ std::vector<Mark> range_marks(const QuantityOverLevels& quantity);
 
 /// The study "converge.CASE.METHOD.in-time" (or in-space): positions and all other quantities over
 /// the levels, in figures with the method's order as their slope; quantities with order, limit, bar
-/// and reading, and levels with their cost, in tables.
-StudyRecord study_of(const LadderAnswer& answer);
+/// and reading, and levels with their cost, in tables. predictable: how long the positions are, in
+/// words; "" if nobody asked.
+StudyRecord study_of(const LadderAnswer& answer, const std::string& predictable = {});
 
 }  // namespace foldproof

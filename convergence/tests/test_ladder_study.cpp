@@ -49,14 +49,39 @@ TEST_CASE("an answer in words says what the reading is worth") {
              Contains("No error can be stated for strip with method C"));
 }
 
+TEST_CASE("what halves an error is told by the order, by a level, or not at all") {
+  LadderAnswer settled = answer_of({quantity_of("positions", {16, 4, 1})});  // work doubles a level
+  CHECK(how_to_halve(settled) ==
+        "Steps 1.41 times shorter (0.057 s) halve that error, at 1.4 times the work.");
+  settled.in = "space";
+  settled.particles = {4, 8, 16, 32};
+  CHECK(how_to_halve(settled) ==
+        "Edges 1.41 times shorter (0.057 m) halve that error, at 2.0 times the work.");
+  // the levels' errors, each its distance to the finest and that one's bar of 6: 28, 12, 8, 6
+  LadderAnswer unsettled = answer_of({quantity_of("positions", {16, 4, 2})});
+  unsettled.quantities[0].bar.half_width = 6;
+  unsettled.quantities[0].first_error = 28;
+  CHECK(how_to_halve(unsettled) ==
+        "Steps 2 times shorter at least halve that error, at 2.0 times the work.");
+  unsettled.quantities[0].first_error = 23;
+  CHECK(how_to_halve(unsettled) ==
+        "Steps 4 times shorter at least halve that error, at 4.0 times the work.");
+  unsettled.quantities[0].first_error = 11;
+  CHECK(how_to_halve(unsettled) == "No level of this ladder halves that error.");
+  CHECK(how_to_halve(answer_of({quantity_of("positions", {1, 2, 4})})) ==
+        "What halves that error is not known.");
+}
+
 TEST_CASE("a study of a ladder has its differences, its bars and its costs") {
   QuantityOverLevels height = quantity_of("height", {-16, 4, 1});
   height.values = {30, 14, 18, 19};
   QuantityOverLevels constant = quantity_of("constant", {0, 0, 0});
   constant.values = {5, 5, 5, 5};
   const StudyRecord study =
-      study_of(answer_of({quantity_of("positions", {16, 4, 1}), height, constant}));
+      study_of(answer_of({quantity_of("positions", {16, 4, 1}), height, constant}), "beyond 2 s");
   CHECK(study.name == "converge.strip.C.in-time");
+  CHECK_THAT(study.claim, Contains("halve that error"));
+  CHECK_THAT(study.about, Contains(" Beyond 2 s."));
   CHECK(study.seconds == 45);
   REQUIRE(study.figures.size() == 2);
   const Curve& positions = study.figures[0].curves.at(0);

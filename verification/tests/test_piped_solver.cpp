@@ -177,7 +177,7 @@ TEST_CASE("subject: after a failure the next law goes on") {
 }
 
 TEST_CASE("subject: correct solvers raise no alarm, in single and double precision") {
-  for (const char* kind : {"none", "single", "backward_euler", "backward_euler_single"}) {
+  for (const char* kind : {"none", "single", "damped", "backward_euler", "backward_euler_single"}) {
     INFO(kind);
     CHECK(failing_laws(kind) == std::set<std::string>{});
   }
@@ -187,8 +187,8 @@ TEST_CASE("subject: correct solvers raise no alarm, in single and double precisi
     CHECK(failing_laws(kind, laws_of({"smoke", "calibration", "contact"})) ==
           std::set<std::string>{});
   }
-  const std::vector<Law> laws =
-      laws_of({"smoke", "rest", "inertia", "gravity", "momentum", "held", "symmetry.r", "order"});
+  const std::vector<Law> laws = laws_of({"smoke", "rest", "inertia", "gravity", "momentum", "held",
+                                         "symmetry.r", "order", "vibration"});
   CHECK(failing_laws("trapezoidal", laws) == std::set<std::string>{});
 }
 
@@ -236,11 +236,17 @@ TEST_CASE("subject: lost momentum and hidden damping are found") {
         std::set<std::string>{"momentum.angular-drift-falls-with-the-step", "symmetry.units"});
 }
 
+TEST_CASE("subject: damping that nobody asked for, and half of what was asked, are found") {
+  CHECK(failing_laws("damped_unasked") == std::set<std::string>{"vibration.undamped-goes-on"});
+  CHECK(failing_laws("damping_halved") ==
+        std::set<std::string>{"vibration.damped-decays-as-its-damping-says"});
+}
+
 TEST_CASE("subject: false claims of precision and order are found") {
   require_law_fails("single_for_double", "precision.results-need-the-declared-digits");
   CHECK(failing_laws("first_order_as_second") ==
         std::set<std::string>{"gravity.fall-is-as-exact-as-the-order-claims",
-                              "order.observed-is-as-claimed"});
+                              "order.observed-is-as-claimed", "vibration.undamped-goes-on"});
 }
 
 TEST_CASE("subject: states that are not restored are found") {
@@ -288,6 +294,7 @@ TEST_CASE("subject: the toy in C++ meets every law that it does not decline") {
   for (const Record& record : judge_solver({TOY_SOLVER, {}, {}}, portable_laws(), ignore).records) {
     INFO(record.name << " " << record.finding.note);
     const bool is_offered = !record.name.starts_with("contact.") &&
+                            record.name != "vibration.damped-decays-as-its-damping-says" &&
                             record.name != "calibration.bending-rigidity-is-the-scene-s";
     CHECK(record.outcome == (is_offered ? Outcome::holds : Outcome::not_applicable));
   }

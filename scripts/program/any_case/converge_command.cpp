@@ -154,7 +154,7 @@ int converge(const Options& options) {
   for (const std::string& method : methods) {
     source.method = method;
     for (Told& told : told_for(source, {options, level_sets, store})) {
-      studies.push_back(study_of(told.ladder));
+      studies.push_back(study_of(told.ladder, told.twins ? in_words(told.twins->of) : ""));
       if (told.map) studies.push_back(map_study(told.map->map, told.map->pairs));
       all.push_back(std::move(told));
     }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "convergence/any_case/ladder_study.h"
+
 namespace foldproof {
 
 namespace {
@@ -49,6 +51,7 @@ void print_notes(const LadderAnswer& answer) {
       "convergence index);\n"
       "as it is: error of the case with its own {}, bar included.\n",
       in_space ? "edges" : "steps", in_space ? "mesh" : "step");
+  fmt::print("{}\n", how_to_halve(answer));
   for (const std::string& warning : answer.warnings) fmt::print("warning: {}\n", warning);
   for (size_t k = 0; k < answer.stopped.size(); ++k)
     if (!answer.stopped[k].empty()) fmt::print("level {} stopped: {}\n", k, answer.stopped[k]);
@@ -139,6 +142,7 @@ json to_json(const LadderAnswer& answer) {
                       {"seconds", answer.seconds},
                       {"stopped", answer.stopped},
                       {"warnings", answer.warnings},
+                      {"halving", how_to_halve(answer)},
                       {"quantities", json::array()}};
   if (is_in_space(answer)) {
     answer_json["refined_by"] = answer.refined_by;

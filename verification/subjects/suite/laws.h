@@ -25,6 +25,7 @@ std::vector<Law> symmetry_laws();     // translation, rotation, mirror, numberin
 std::vector<Law> repeat_laws();       // determinism, state, order, precision
 std::vector<Law> force_laws();        // level 2: sums, weight, energy
 std::vector<Law> calibration_laws();  // effective moduli
+std::vector<Law> vibration_laws();    // period and decay
 std::vector<Law> contact_laws();      // capability "planes": resting, friction
 
 /// The outcome of a trial.
