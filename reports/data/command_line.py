@@ -1,5 +1,5 @@
-"""Command line of the scripts in this folder: required packages, errors in one line with exit code 2,
-and an end without a traceback when interrupted."""
+"""Command line of the scripts in this folder: required packages, errors in one line with exit code
+2, and an end without a traceback when interrupted."""
 from __future__ import annotations
 
 import argparse

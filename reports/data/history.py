@@ -97,7 +97,7 @@ def row_of(path: Path) -> RunRow:
     if not file.exists():
         missing = "file" if path.is_dir() else "folder or file"
         raise Unreadable(
-            f"{file}: there is no such {missing}; run `foldproof verify --out DIR` first, and give DIR"
+            f"{file}: there is no such {missing}; give the folder of `foldproof verify --out`"
         )
     try:
         written = json.loads(file.read_text(encoding="utf-8"))
