@@ -157,8 +157,8 @@ class Judge(unittest.TestCase):
         )
 
     def test_a_command_without_a_program_is_refused(self) -> None:
-        for words in (("judge",), ("subject", "--check")):
-            done = run(*words, "--solver", "/nowhere/solver")
+        for words in (("judge", "--solver"), ("subject", "--check")):
+            done = run(*words, "/nowhere/solver")
             self.assertEqual((done.returncode, done.stdout), (2, ""), done)
             self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
             self.assertIn("cannot start /nowhere/solver: ", done.stderr)
