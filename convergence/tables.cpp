@@ -80,4 +80,11 @@ double largest_deviation(const Table& table, std::string_view a, std::string_vie
   return deviation.value();
 }
 
+double last_exponent(const Table& table, std::string_view a, std::string_view b) {
+  const size_t n = table.rows();
+  if (n < 2) throw std::logic_error("an exponent needs two rows");
+  const std::vector<double>&x = table.numbers(a), &y = table.numbers(b);
+  return std::log(y[n - 1] / y[n - 2]) / std::log(x[n - 1] / x[n - 2]);
+}
+
 }  // namespace foldproof

@@ -27,4 +27,7 @@ double largest_ratio(const Table& table, std::string_view a, std::string_view b)
 /// The largest |a/b - 1| over the rows; NaN if any is. 0 without rows.
 double largest_deviation(const Table& table, std::string_view a, std::string_view b);
 
+/// d log b / d log a between the table's last two rows; std::logic_error with fewer.
+double last_exponent(const Table& table, std::string_view a, std::string_view b);
+
 }  // namespace foldproof

@@ -33,8 +33,8 @@ NamedFinding damping_exponent(const Damping& damping, Table limits, double expon
   limits.add({"exponent", "1", row_orders(rates)});
   return {"stability-sheet.damping-limit-exponent." + damping.name,
           "With " + damping.words +
-              " the largest stable step of a fully explicit method is proportional to the cells' "
-              "width to the power " +
+              ", where damping decides, the largest stable step of a fully explicit method is "
+              "proportional to the cells' width to the power " +
               (exponent == 2 ? "two." : "three."),
           {{deviation.value, 0.1, 0, "1",
             "another whole exponent is off by 1; the border's effect on the fastest mode vanishes "

@@ -61,10 +61,10 @@ Table limit_row(const Subject& subject, const Integrator& integrator,
 NamedFinding limit_finding(const Integrator& integrator, const Table& row) {
   const std::string name(integrator.name), title(integrator.title);
   const bool mixed = integrator.family == Family::mixed;
-  const std::string what =
-      !mixed        ? "where its stability polynomial exceeds 1, so that damping narrows it"
-      : name == "C" ? "2 (zeta + sqrt(1 + zeta^2)) over omega, so that damping widens it"
-                    : "2/omega for any damping";
+  const std::string what = !mixed ? "where its stability polynomial exceeds 1"
+                           : name == "C"
+                               ? "2 (zeta + sqrt(1 + zeta^2)) over omega, so that damping widens it"
+                               : "2/omega for any damping";
   return {"stability-oscillator.limit-is-as-derived." + name,
           "The largest stable step of " + title + " on the damped oscillator is " + what + ".",
           {{largest_deviation(row, "largest stable omega h", "as known"), 1e-3, 0, "1",
@@ -73,6 +73,24 @@ NamedFinding limit_finding(const Integrator& integrator, const Table& row) {
             "radius grows most slowly"},
            row,
            "measured is the largest relative deviation"}};
+}
+
+/// What a row says of heavy damping: between its two largest ratios.
+void add_heavy(const Integrator& integrator, const Table& row, Table& heavy) {
+  const double exponent = last_exponent(row, "damping ratio", "largest stable omega h");
+  heavy.row(std::string(integrator.name), row.numbers("largest stable omega h").back(), exponent,
+            std::abs(exponent + 1));
+}
+
+NamedFinding heavy_finding(Table heavy) {
+  return {"stability-oscillator.heavy-damping-shortens-explicit-steps",
+          "Under heavy damping the largest stable step of every fully explicit method is inversely "
+          "proportional to the damping ratio.",
+          judge_worst(std::move(heavy), 0.1,
+                      "a limit that did not fall has exponent 0, one that fell with the square -2; "
+                      "at a ratio zeta the fast rate is 2 zeta omega less a share of 1/(4 zeta^2)",
+                      "measured is the largest |exponent + 1| between the two largest ratios; for "
+                      "light damping see limit-is-as-derived")};
 }
 
 /// Methods that leave the imaginary axis at once: first and second order.
@@ -163,6 +181,10 @@ StudyResult run_stability_oscillator(const Subject& subject, Tier tier, const Pr
                 "Measured from step matrices. Methods that are implicit in the elastic forces have "
                 "no limit and no curve; A and B share one.",
                 {}};
+  Table heavy{{"method", "1"},
+              {"largest stable omega h", "1"},
+              {"exponent in the damping ratio", "1"},
+              {"|exponent + 1|", "1"}};
   double done = 0;
   for (const Integrator& integrator : integrators()) {
     progress(done++ / double(integrators().size()));
@@ -171,6 +193,7 @@ StudyResult run_stability_oscillator(const Subject& subject, Tier tier, const Pr
     } else {
       const Table row = limit_row(subject, integrator, ratios);
       result.findings.push_back(limit_finding(integrator, row));
+      if (integrator.family == Family::fully_explicit) add_heavy(integrator, row, heavy);
       Curve curve{std::string(integrator.name), {}, {}, nan, {}};
       for (size_t i = 0; i < row.rows(); ++i)
         if (row.numbers("damping ratio")[i] > 0)
@@ -183,6 +206,7 @@ StudyResult run_stability_oscillator(const Subject& subject, Tier tier, const Pr
       if (integrator.name == mapped)
         result.maps.push_back(radius_map(subject, integrator, tier == Tier::quick ? 3 : 10));
   }
+  result.findings.push_back(heavy_finding(std::move(heavy)));
   result.figures.push_back(std::move(figure));
   return result;
 }
@@ -192,8 +216,8 @@ StudyResult run_stability_oscillator(const Subject& subject, Tier tier, const Pr
 Study stability_oscillator_study() {
   return {"stability-oscillator",
           "On the damped oscillator schemes A and B are stable up to 2/omega whatever the damping, "
-          "and C up to longer steps the stronger the damping; damping shortens the stable step of "
-          "explicit methods, and implicit ones have no limit.",
+          "and C up to longer steps the stronger the damping; heavy damping shortens the stable "
+          "step of explicit methods in proportion, and fully implicit ones have no limit.",
           "BMF03 section 3",
           "One corner of a hinge moves across its plane, three are held: an oscillator whose "
           "frequency and damping can be worked out by hand. Two unit disturbances, stepped once, "

@@ -94,11 +94,27 @@ NamedFinding as_known(const Integrator& integrator, const Damping& damping, cons
       "On a sheet with " + damping.words + ", the largest stable step of " +
           std::string(integrator.title) +
           (mixed ? " is where 4 + 2 h C - h^2 K becomes singular."
-                 : " is where its stability polynomial exceeds 1 at one of the sheet's rates: "
-                   "damping narrows it."),
+                 : " is where its stability polynomial exceeds 1 at one of the sheet's rates."),
       {{largest_deviation(limits, "largest stable step", "as known"), 0.01, 0, "1", why_percent},
        limits,
        "measured is the largest relative deviation while the damping rises by a factor of 1e4"}};
+}
+
+/// What limits say of heavy damping: between their two largest dampings.
+void add_heavy(const Integrator& integrator, const Table& limits, Table& heavy) {
+  const double exponent = last_exponent(limits, "multiple of the damping", "largest stable step");
+  heavy.row(std::string(integrator.name), limits.numbers("largest stable step").back(), exponent,
+            std::abs(exponent + 1));
+}
+
+NamedFinding heavy_damping(const Damping& damping, Table heavy) {
+  return {"stability-sheet.heavy-damping-shortens-explicit-steps." + damping.name,
+          "On a sheet with " + damping.words +
+              ", where damping decides, the largest stable step of explicit methods is inversely "
+              "proportional to it.",
+          judge_worst(std::move(heavy), 0.1,
+                      "a limit that did not fall has exponent 0, one that fell with the square -2",
+                      "measured is the largest |exponent + 1| between the two largest dampings")};
 }
 
 void add_clamped_sheet(const Subject& subject, Tier tier, const Progress& progress,
@@ -113,10 +129,14 @@ void add_clamped_sheet(const Subject& subject, Tier tier, const Progress& progre
         {"largest stable step", "s", Scale::log},
         nan,
         "The constants are 0.3 N s/m of springs, 0.01 N s of bending. From the spectral radius of "
-        "the whole sheet's step. A and B keep the undamped limit, that of C grows, and that of "
-        "explicit methods falls in proportion to the damping. Forward Euler and explicit midpoint "
-        "have no stable step at all where some modes are undamped.",
+        "the whole sheet's step. A and B keep the undamped limit, that of C is never shorter, and "
+        "heavy damping shortens that of explicit methods in proportion. Forward Euler and explicit "
+        "midpoint have no stable step at all where some modes are undamped.",
         {}};
+    Table heavy{{"method", "1"},
+                {"largest stable step", "s"},
+                {"exponent in the damping", "1"},
+                {"|exponent + 1|", "1"}};
     for (const Integrator& integrator : integrators()) {
       if (integrator.family == Family::fully_implicit) continue;
       if (!damps_all(damping) && grows_undamped(integrator)) continue;
@@ -126,10 +146,12 @@ void add_clamped_sheet(const Subject& subject, Tier tier, const Progress& progre
       else
         result.findings.push_back(as_known(integrator, damping, limits));
       if (integrator.name == "C") result.findings.push_back(never_narrower(damping, limits));
+      if (integrator.family == Family::fully_explicit) add_heavy(integrator, limits, heavy);
       figure.curves.push_back(curve_of(std::string(integrator.name), limits,
                                        "multiple of the damping", "largest stable step"));
       progress(0.7 * ++done / 21);
     }
+    result.findings.push_back(heavy_damping(damping, std::move(heavy)));
     result.figures.push_back(std::move(figure));
   }
 }
@@ -151,8 +173,9 @@ StudyResult run_stability_sheet(const Subject& subject, Tier tier, const Progres
 Study stability_sheet_study() {
   return {"stability-sheet",
           "On a sheet the largest stable step of A and B does not depend on the damping, and "
-          "damping only lengthens that of C; explicit methods need h of order dx^2 rho/kd with "
-          "damped springs and dx^3 rho/kd with damped bending.",
+          "damping never shortens that of C; where damping decides, that of explicit methods is "
+          "inversely proportional to it, and proportional to dx^2 with damped springs, to dx^3 "
+          "with damped bending.",
           "BMF03 section 3",
           "A small clamped sheet of springs and hinges is stepped from each unit disturbance, "
           "which gives the matrix of the whole step. The step at which its spectral radius exceeds "

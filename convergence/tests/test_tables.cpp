@@ -82,4 +82,13 @@ TEST_CASE("largest_ratio divides row by row and keeps NaN") {
   CHECK(std::isnan(largest_ratio(table, "a", "b")));
 }
 
+TEST_CASE("last_exponent is the slope between the last two rows") {
+  Table table{{"a", "m"}, {"b", "m"}};
+  table.row(1.0, 5.0);
+  CHECK_THROWS_AS(last_exponent(table, "a", "b"), std::logic_error);
+  table.row(2.0, 12.0);
+  table.row(6.0, 4.0);
+  CHECK(std::abs(last_exponent(table, "a", "b") + 1) < 1e-15);
+}
+
 }  // namespace foldproof

@@ -26,6 +26,7 @@ SUBJECTS = ROOT / "verification" / "subjects"
 PYTHON = "exec /usr/bin/python3"
 TOY = f"{PYTHON} '{SUBJECTS}/adapters/toy_solver.py'"
 SCHEMA = json.loads((SUBJECTS / "protocol.schema.json").read_text(encoding="utf-8"))
+LAWS = 37  # of the portable suite
 BYTES = {"f8": 8, "f4": 4, "i4": 4}
 
 # An adapter that writes down every header that comes or goes, and states its settings as its
@@ -103,7 +104,7 @@ class Judge(unittest.TestCase):
         out = self.path / "toy"
         done = run("judge", "--solver", TOY, "--name", "my toy", "--out", str(out))
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-        self.assertRegex(done.stdout, r"\d\d hold, 0 fail, 0 inconclusive, 4 not applicable")
+        self.assertRegex(done.stdout, r"\d\d hold, 0 fail, 0 inconclusive, 8 not applicable")
         self.assertIn("mapping of stretch: a spring per edge", done.stdout)
         self.assertEqual(
             {path.name for path in out.iterdir()},
@@ -121,7 +122,11 @@ class Judge(unittest.TestCase):
             declined,
             {
                 "calibration.bending-rigidity-is-the-scene-s", "contact.sheet-rests-on-a-plane",
-                "contact.resting-sheet-is-still", "contact.slides-as-coulomb-says"
+                "contact.resting-sheet-is-still", "contact.slides-as-coulomb-says",
+                "vibration.damped-decays-as-its-damping-says",
+                "cantilever.heavy-strip-hangs-as-the-elastica",
+                "tunnelling.thin-box-stops-a-slow-sheet",
+                "self-collision.folded-sheet-never-passes-through-itself"
             },
         )
         facts = json.loads((out / "solver.json").read_text(encoding="utf-8"))
@@ -154,10 +159,17 @@ class Judge(unittest.TestCase):
             ],
         )
 
-    def test_a_solver_that_never_starts_is_a_failure_and_no_crash(self) -> None:
-        done = run("judge", "--solver", "/nowhere/solver")
+    def test_a_command_without_a_program_is_refused(self) -> None:
+        for words in (("judge", "--solver"), ("subject", "--check")):
+            done = run(*words, "/nowhere/solver")
+            self.assertEqual((done.returncode, done.stdout), (2, ""), done)
+            self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+            self.assertIn("cannot start /nowhere/solver: ", done.stderr)
+
+    def test_a_solver_that_ends_at_its_start_is_a_failure_and_no_crash(self) -> None:
+        done = run("judge", "--solver", "exit 3")
         self.assertEqual(done.returncode, 1, done.stderr)
-        self.assertIn("/nowhere/solver: did not start", done.stdout)
+        self.assertIn("exit 3: did not start", done.stdout)
         self.assertIn("suspect the adapter before the engine", done.stdout)
 
     def test_a_crash_is_told_with_signal_and_last_words(self) -> None:
@@ -175,7 +187,7 @@ class Judge(unittest.TestCase):
         """The toys, a wrong one and the reference, as `foldproof report` shows them."""
         solvers = {
             "python": (TOY, "iterations=20"), "cpp": (f"exec '{ROOT}/build/toy_solver'", "n=1"),
-            "wrong": (bad("wrong", "gravity_scaled"), "n=2"), "none": ("/nowhere/solver", "n=3"),
+            "wrong": (bad("wrong", "gravity_scaled"), "n=2"), "none": ("exit 3", "n=3"),
             "reference": (f"exec '{PROGRAM}' serve --integrator A --precision f4", "n=4"),
         }
         for name, (command, setting) in solvers.items():
@@ -185,11 +197,11 @@ class Judge(unittest.TestCase):
         page = self.path / "reference" / "compare.html"
         self.assertEqual(done.stdout.strip(), str(page))
         said = json.loads(page.with_suffix(".json").read_text(encoding="utf-8"))
-        self.assertEqual(len(said["laws"]), 32)
+        self.assertEqual(len(said["laws"]), LAWS)
         for solver, (command, setting) in zip(said["solvers"], solvers.values()):
             self.assertEqual(solver["command"], command)
             self.assertEqual(solver["settings"], dict([setting.split("=")]))
-        self.assertEqual([one["counts"]["fails"] for one in said["solvers"]], [0, 0, 3, 32, 0])
+        self.assertEqual([one["counts"]["fails"] for one in said["solvers"]], [0, 0, 3, LAWS, 0])
         self.assertEqual(said["solvers"][0]["version"], "1.0")
         for number, name in enumerate(solvers):
             verdicts = json.loads((self.path / name / "verdicts.json").read_text(encoding="utf-8"))
@@ -199,7 +211,8 @@ class Judge(unittest.TestCase):
                 for key in ("outcome", "measured", "bound", "unit", "note"):
                     self.assertEqual(answer[key], row[key])
         text = page.read_text(encoding="utf-8")
-        self.assertIn('Differences from a law <span class="quiet">35</span>', text)
+        self.assertIn('Differences from a law <span class="quiet">'
+                      f"{LAWS + 3}</span>", text)
         for words in (
             "5 solvers on trial", "f4", "a spring per edge", "iterations</b> 20",
             "calibration.modulus-survives-refinement"
@@ -242,12 +255,12 @@ class Judge(unittest.TestCase):
         wrong = bad("wrong", "gravity_scaled")
         done = run("judge", "--solver", wrong, "--baseline", kept, "--json")
         self.assertEqual(done.returncode, 1)
-        self.assertEqual(len(json.loads(done.stdout)["findings"]), 32)
+        self.assertEqual(len(json.loads(done.stdout)["findings"]), LAWS)
         self.assertRegex(done.stderr, r"worse: gravity.speed-grows-by-g-t: fails, measured/bound")
         self.assertTrue(done.stderr.endswith("against the baseline: 3 worse, 0 better\n"))
-        done = run("judge", "--solver", "/nowhere/solver", "--baseline", kept)
+        done = run("judge", "--solver", "exit 3", "--baseline", kept)
         self.assertEqual(done.returncode, 1)
-        self.assertTrue(done.stdout.endswith("against the baseline: 32 worse, 0 better\n"))
+        self.assertTrue(done.stdout.endswith(f"against the baseline: {LAWS} worse, 0 better\n"))
 
     def test_the_job_of_the_page_judges_against_its_baseline(self) -> None:
         """The commands of CI.md, in a repository as it describes."""

@@ -20,6 +20,7 @@ struct Deformable : BulletBody {
   std::unique_ptr<btDeformableGravityForce> weight;
 
   Deformable() : BulletBody("Bullet deformable") {
+    declared.capabilities.push_back("damping");
     declared.level = "L2", declared.scheme = "Euler, backward or symplectic", declared.order = 1;
     // its conjugate gradients end at a squared residual of one rounding
     declared.solve_tolerance = std::sqrt(SIMD_EPSILON);
@@ -36,7 +37,10 @@ struct Deformable : BulletBody {
     solver->setDeformableSolver(deformable.get());
     auto made = std::make_unique<btDeformableMultiBodyDynamicsWorld>(
         &dispatcher, broadphase.get(), solver.get(), &configuration, deformable.get());
-    springs = std::make_unique<btDeformableMassSpringForce>(sum / double(stiffness.size()), 0);
+    const Json& material = scene.header["scene"]["material"];
+    const double mean = sum / double(stiffness.size()), young = material["young"];
+    const double damper = young > 0 ? mean * double(material["stretch_damping"]) / young : 0;
+    springs = std::make_unique<btDeformableMassSpringForce>(mean, damper);
     weight = std::make_unique<btDeformableGravityForce>(gravity);
     made->setGravity(gravity);
     made->setImplicit(implicit);
@@ -47,7 +51,7 @@ struct Deformable : BulletBody {
     made->addForce(body, weight.get());
     constraints = std::move(solver), world = std::move(made);
     return {{"stretch", "one stiffness [N/m] for all edges, the mean of the scene's"},
-            {"damping", "none"},
+            {"damping", "one damper [N s/m] for all edges, along them"},
             {"step", implicit ? "backward Euler, one Newton iteration" : "symplectic Euler"}};
   }
 

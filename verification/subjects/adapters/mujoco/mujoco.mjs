@@ -10,6 +10,7 @@ const vector = (x, i) => Array.from(x.slice(3 * i, 3 * i + 3)).join(' ');
 class Flex extends Solver {
   name = 'MuJoCo flex'; version = mujoco.mj_versionString(); level = 'L2';
   scheme = 'Euler, Runge-Kutta or discrete'; order = 1;
+  capabilities = ['set_state', 'held', 'masses', 'damping'];
 
   prepare(scene) {
     const { material, gravity, settings } = scene.header;
@@ -36,7 +37,7 @@ class Flex extends Solver {
         body="${this.moves.map((_, i) => `b${i}`).join(' ')}"
         element="${scene.triangles.join(' ')}">
         <elasticity young="${young}" poisson="${poisson}" thickness="${thickness}"
-          elastic2d="stretch"/>
+          damping="${material.stretch_damping / material.young}" elastic2d="stretch"/>
         <contact internal="false" selfcollide="none" contype="0" conaffinity="0"/>
       </flex></deformable></mujoco>`);
     this.data = new mujoco.MjData(this.model);
@@ -44,7 +45,7 @@ class Flex extends Solver {
     return {
       stretch: `elastic triangles, not springs: ${thickness} m thick, Young's modulus ` +
         `${young} Pa, Poisson's ratio ${poisson.toFixed(3)}; springs of edges are ignored`,
-      damping: 'none', step: integrator,
+      damping: 'of the stiffness matrix [s]', step: integrator,
     };
   }
 
