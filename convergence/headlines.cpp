@@ -16,6 +16,7 @@ const std::vector<Headline> headlines = {
     {"time-order.hinge", {"A", "B", "C", "B-is-second-order-with-variable-steps"}},
     {"time-order.sheet", {"A", "B", "C", "B-is-second-order-with-variable-steps"}},
     {"work-precision", {"mixed-steps-are-larger", "C-needs-shorter-steps", "cheapest-steps-last"}},
+    {"long-contact", {"limit-lasts", "twice-the-limit-does-not-last", "longer-steps-cost-more"}},
     {"solve-tolerance", {"default-tolerance-preserves-the-order"}},
     {"mesh-error", {"usual-step-error-is-below-a-tenth-of-it"}},
     {"momentum-drift",

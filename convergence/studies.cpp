@@ -22,6 +22,7 @@ std::vector<Study> all_studies() {
           work_precision_study(),
           price_by_scene_study(),
           solve_tolerance_study(),
+          long_contact_study(),
           mesh_error_study(),
           momentum_drift_study(),
           cg_iterations_study(),
