@@ -55,6 +55,11 @@ void add_scene(const PortableScene& scene, const SolverCommand& command, Request
     request.header["scene"]["planes"].push_back({{"point", list_of(plane.point)},
                                                  {"normal", list_of(plane.normal)},
                                                  {"friction", plane.friction}});
+  for (const PortableBox& box : scene.boxes)
+    request.header["scene"]["boxes"].push_back({{"centre", list_of(box.centre)},
+                                                {"half_extents", list_of(box.half_extents)},
+                                                {"friction", box.friction}});
+  if (scene.thickness > 0) request.header["scene"]["thickness"] = scene.thickness;
   if (!scene.extension.empty()) request.header["scene"]["extension"] = json::parse(scene.extension);
   std::vector<std::array<int, 2>> edges;
   for (const Edge& edge : scene.mesh.edges) edges.push_back({edge.a, edge.b});
@@ -81,8 +86,8 @@ void add_scene(const PortableScene& scene, const SolverCommand& command, Request
 }  // namespace
 
 const std::vector<std::string>& failure_causes() {
-  static const std::vector<std::string> causes{"crash",  "exit",  "hang", "truncated", "oversized",
-                                               "header", "shape", "nan",  "error"};
+  static const std::vector<std::string> causes{"start",     "crash",  "exit",  "hang", "truncated",
+                                               "oversized", "header", "shape", "nan",  "error"};
   return causes;
 }
 
@@ -138,9 +143,13 @@ struct PipedSolver::Impl {
       return exchange(request, wanted);
     } catch (const SolverFailure& failure) {
       const std::string words = child.last_words();
-      failed.emplace(failure.cause,
-                     fmt::format("the solver {} (during '{}'); its last words: {}", failure.what(),
-                                 operation, words.empty() ? "none" : words));
+      if (failure.cause == "start" && operation == "start")
+        failed.emplace("start", fmt::format("cannot start {}: {}", command.command,
+                                            words.empty() ? failure.what() : words));
+      else
+        failed.emplace(failure.cause == "start" ? "exit" : failure.cause,
+                       fmt::format("the solver {} (during '{}'); its last words: {}",
+                                   failure.what(), operation, words.empty() ? "none" : words));
       throw *failed;
     }
   }
