@@ -86,13 +86,14 @@ def bodies_of(case: Case) -> list[Body]:
     ]
 
 
-def write_obj(_: Case, bodies: list[Body], folder: Path) -> list[Path]:
-    """Wavefront OBJ: positions with all their digits, triangles."""
+def write_obj(case: Case, bodies: list[Body], folder: Path) -> list[Path]:
+    """Wavefront OBJ: positions with all their digits, triangles; times.txt for what OBJ lacks."""
     def lines(body: Body, frame: int) -> Iterator[str]:
         yield f"o {body.name}"
         yield from (f"v {x:.17g} {y:.17g} {z:.17g}" for x, y, z in body.x[frame].tolist())
         yield from (f"f {a} {b} {c}" for a, b, c in (body.triangles + 1).tolist())
-    return [
+    times = "".join(f"{time:.17g}\n" for time in case.frame_times)
+    return [_write(folder / "times.txt", f"# s, one a frame\n{times}".encode("ascii"))] + [
         _write(
             folder / f"{body.name}.{frame:04d}.obj",
             ("\n".join(lines(body, frame)) + "\n").encode("utf-8"),

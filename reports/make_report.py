@@ -306,6 +306,8 @@ def read_folder(folder: Path) -> tuple[Run, Run | None]:
     ]
     cases = [entry for entry in entries if entry is not None]
     if not cases and bench is None and not others:
+        if not folder.exists():
+            raise FileNotFoundError(f"{folder}: there is no such folder")
         raise FileNotFoundError(
             f"{folder}: no run.h5, no bench.h5 and no case file; run `foldproof verify` "
             "or `foldproof simulate` with --out first"

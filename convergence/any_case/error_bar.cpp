@@ -105,6 +105,10 @@ std::string_view name_of(Reading reading) {
   return "inconclusive";
 }
 
+double asymptotic_order(const ErrorBar& bar) {
+  return bar.reading == Reading::asymptotic ? bar.order : nan;
+}
+
 ErrorBar error_bar(const Ladder& ladder) {
   const std::vector<double> d =
       ladder.differences.empty() ? neighbouring_differences(ladder.values) : ladder.differences;

@@ -37,6 +37,10 @@ struct ErrorBar {
   double half_width = std::numeric_limits<double>::quiet_NaN();
 };
 
+/// The observed order where the range is asymptotic. NaN elsewhere: two differences that are not
+/// yet (or no longer) of one power of the step have a ratio, but no order.
+double asymptotic_order(const ErrorBar& bar);
+
 /// Two observed orders closer than this are taken for the same [1].
 constexpr double same_order = 0.2;
 

@@ -116,13 +116,13 @@ Table price_table(const PrecisionAnswer& answer) {
 Table method_table(const PrecisionAnswer& answer) {
   Table table{{"method", "1"},
               {"order of the table", "1"},
-              {"observed order", "1"},
+              {"order observed in the asymptotic range", "1"},
               {"reading", "1"},
               {"because", "1"},
               {"largest stable step found", "s"},
               {"next longer step, unstable", "s"}};
   for (const MethodCurve& curve : answer.curves)
-    table.row(curve.method, curve.curve.integrator.order, curve.bar.order,
+    table.row(curve.method, curve.curve.integrator.order, asymptotic_order(curve.bar),
               name_of(curve.bar.reading), curve.bar.reason, curve.stable_step, curve.unstable_step);
   return {"methods", "Order and largest stable step of each method on this case", table};
 }

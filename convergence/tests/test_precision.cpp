@@ -146,6 +146,27 @@ TEST_CASE("each method's observed order is that of its own halved steps") {
   CHECK(curve_of(answer, "B").bar.reading == Reading::asymptotic);
 }
 
+TEST_CASE("a method outside its asymptotic range has no order") {
+  MadeUp made = made_by(two_good_methods, {1e-3});
+  // the last difference but one, tenfold: the last order is log2(10) above the one before
+  auto& runs = made.trials.runs.at("RK4");
+  const int finest = runs.rbegin()->first;
+  REQUIRE(runs.contains(finest / 8));
+  for (size_t k = 0; k < runs.at(finest).x.size(); ++k) {
+    const PerParticle3 shift = 9 * (runs.at(finest / 2).x[k] - runs.at(finest / 4).x[k]);
+    for (const int parts : {finest / 2, finest}) runs.at(parts).x[k] += shift;
+  }
+  const PrecisionAnswer answer = precision_answer(made.plan, made.trials);
+  const MethodCurve& curve = curve_of(answer, "RK4");
+  CHECK(curve.bar.reading == Reading::not_asymptotic);
+  CHECK(curve.bar.order > 5);
+  CHECK(std::isnan(asymptotic_order(curve.bar)));
+  const Table methods = precision_record(answer, 1).tables.at(1);
+  const std::vector<double>& orders = methods.numbers("order observed in the asymptotic range");
+  for (size_t k = 0; k < answer.curves.size(); ++k)
+    CHECK(std::isnan(orders[k]) == (answer.curves[k].method == "RK4"));
+}
+
 TEST_CASE("the largest stable step of an unstable method is bracketed") {
   std::map<std::string, Law> laws = two_good_methods;
   laws["A"] = {1e-5, 2, 11, 3};

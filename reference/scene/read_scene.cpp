@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <limits>
 #include <optional>
+#include <sstream>
 
 #include "reference/scene/key_values.h"
 #include "reference/scene/fabrics.h"
@@ -70,6 +71,17 @@ std::vector<int> particles_at_top(const KeyTable& keys, const PerParticle3& x) {
   return chosen;
 }
 
+/// "lies from (0, 0, 0) to (1, 0, 2) m".
+std::string extent_in_words(const PerParticle3& x) {
+  const auto point = [](const Vector3& p) {
+    std::ostringstream text;
+    text << "(" << p.x() << ", " << p.y() << ", " << p.z() << ")";
+    return text.str();
+  };
+  return "lies from " + point(x.rowwise().minCoeff()) + " to " + point(x.rowwise().maxCoeff()) +
+         " m";
+}
+
 void read_hold(const KeyTable& keys, Scene& scene) {
   if (int(keys.has("particles")) + int(keys.has("box")) + int(keys.has("top")) != 1)
     throw InputError(keys.where() + ": [[hold]] needs one of 'particles', 'box', 'top'");
@@ -78,7 +90,14 @@ void read_hold(const KeyTable& keys, Scene& scene) {
           ? with_copies(numbered(keys, "particles", scene.x.cols()), scene.copy_of)
       : keys.has("box") ? select_in_box(keys, scene.x)
                         : particles_at_top(keys, scene.x);
-  if (chosen.empty()) throw InputError(keys.where() + ": [[hold]] names no particle");
+  const std::string by = keys.has("particles") ? "particles" : keys.has("box") ? "box" : "top";
+  if (chosen.empty())
+    throw InputError(keys.where(by) + ": [[hold]] holds no particle; the cloth " +
+                     extent_in_words(scene.x));
+  if (chosen.size() == 1 && by != "particles")
+    scene.warnings.push_back(keys.where(by) + ": [[hold]] holds one particle only, number " +
+                             std::to_string(chosen.front()) + "; the cloth " +
+                             extent_in_words(scene.x));
   const Motion motion = read_motion(keys);
   std::vector<char> is_held(size_t(scene.x.cols()), 0);
   for (const PrescribedParticle& other : scene.prescribed) is_held[size_t(other.particle)] = 1;

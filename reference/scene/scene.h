@@ -65,6 +65,7 @@ struct Scene {
   std::optional<BendingMaterial> bending;
   std::vector<double> rest_angles;  // one a hinge [rad], when there is bending
   std::vector<PrescribedParticle> prescribed;
+  std::vector<std::string> warnings;  // of what is allowed, but seldom meant; a sentence each
   std::vector<SceneObject> objects;
   CollisionSettings collision;
   std::optional<StrainLimits> strain_limits;  // needs stretch

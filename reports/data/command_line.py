@@ -1,12 +1,17 @@
-"""Command line of the scripts in this folder: required packages, and
-errors in one line with exit code 2."""
+"""Command line of the scripts in this folder: required packages, errors in one line with exit code
+2, and an end without a traceback when interrupted."""
 from __future__ import annotations
 
 import argparse
 import importlib.util
 import shutil
+import signal
 import sys
 from typing import NoReturn
+
+# Ctrl-C ends a script, and the processes that it starts, as it ends other programs. What they write
+# appears whole or not at all (whole_file.py).
+signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 # Debian's package of each module that is imported, and of each program that is started.
 MODULES = {

@@ -94,6 +94,11 @@ def row_of(path: Path) -> RunRow:
     """The row of a folder's verdicts.json, or of the file itself; findings under today's names.
     Throws Unreadable naming the file if it holds no finished run."""
     file = path / "verdicts.json" if path.is_dir() else path
+    if not file.exists():
+        missing = "file" if path.is_dir() else "folder or file"
+        raise Unreadable(
+            f"{file}: there is no such {missing}; give the folder of `foldproof verify --out`"
+        )
     try:
         written = json.loads(file.read_text(encoding="utf-8"))
         about = {name: str(written["program"].get(name, "")) for name in ABOUT}

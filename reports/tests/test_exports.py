@@ -126,7 +126,11 @@ class ExportedFiles(WithCase):
         values = all_values(case)
         for kind in ("obj", "ply"):
             folder = self.exported(kind)
-            self.assertEqual(len(list(folder.iterdir())), 4 * (1 + len(case.objects)))
+            times = [folder / "times.txt"] if kind == "obj" else []
+            files = 4 * (1 + len(case.objects)) + len(times)
+            self.assertEqual(len(list(folder.iterdir())), files)
+            for path in times:
+                np.testing.assert_array_equal(np.loadtxt(path), case.frame_times)
             for frame in range(4):
                 mesh = meshio.read(folder / f"fold.{frame:04d}.{kind}")
                 np.testing.assert_array_equal(mesh.points, case.positions(frame))

@@ -156,7 +156,7 @@ class HistoryTest(unittest.TestCase):
         (self.path / "2").write_text("{")
         for words, why in (
             ([], "give folders of runs"), ([self.path / "1"], "no findings in it"),
-            ([self.path / "2"], "no verdicts of foldproof"), ([self.path / "3"], "no verdicts"),
+            ([self.path / "2"], "no verdicts of foldproof"), ([self.path / "3"], "no such"),
             (["--log", self.path / "none"], "there is no run in it yet")
         ):
             said = io.StringIO()

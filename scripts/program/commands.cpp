@@ -15,10 +15,12 @@
 #include "scripts/program/command_line/input_files.h"
 #include "verification/subjects/bending_rows.h"
 #include "verification/subjects/crossing_queries.h"
+#include "scripts/program/interruption.h"
 #include "scripts/program/json_text.h"
 #include "scripts/program/kept_results.h"
 #include "scripts/program/ledger.h"
 #include "scripts/program/command_line/out_folder.h"
+#include "scripts/program/command_line/typed_command.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
 #include "scripts/program/report_commands.h"
@@ -65,6 +67,13 @@ JobSettings running_of(const Options& options) {
 void require_folder_to_resume(const Options& options) {
   if (options.out.empty() && (options.resumes || options.restarts))
     throw InputError("--resume and --restart need --out, the folder of the interrupted run");
+}
+
+/// For a run of checks, studies and cases.
+InterruptionNotice kept_results_notice(const Options& options) {
+  if (options.out.empty()) return {"nothing is kept without --out DIR", ""};
+  return {"finished results are kept in " + options.out + "/unfinished",
+          with_option(options.words, "--resume")};
 }
 
 /// Names the faults, writes the files that were asked for, prints, and gives the exit code.
@@ -127,6 +136,29 @@ void announce(const std::vector<Job>& jobs, RunRecord begun, const std::string& 
   write_verdicts(folder, begun);
 }
 
+/// Runs all checks, studies and cases of the tier, rules the claims, and writes what came of it.
+RunRecord run_whole_suite(const Options& options) {
+  const std::vector<Claim> claims = written_claims();
+  RunRecord run = new_run(options);
+  const InterruptionNotice notice = kept_results_notice(options);
+  const auto start = std::chrono::steady_clock::now();
+  const Subject subject = reference_subject();
+  std::vector<Job> jobs =
+      jobs_of(select({{}, {"check", "study"}}, tier_of(options)), subject, tier_of(options));
+  for (Job& job : jobs_of_built_in_cases(options, run.provenance)) jobs.push_back(std::move(job));
+  announce(jobs, run, options.out);
+  run_jobs(jobs, "checks, studies and cases", running_of(options), run);
+  run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  rule_all_claims(claims, run);
+  run.faults = read_faults(faults_folder());
+  reject_faults_of_lost_findings(run.faults, run);
+  name_faults(run.faults, run.records);
+  write_run(options.out + "/run.h5", run);
+  write_verdicts(options.out, run);
+  drop_kept_results(options.out);
+  return run;
+}
+
 }  // namespace
 
 int list(const Options& options) {
@@ -170,6 +202,7 @@ int run_checks(const Options& options) {
   const OutFolder folder(options.out);
   const std::vector<Claim> claims = written_claims();
   RunRecord run = new_run(options);
+  const InterruptionNotice notice = kept_results_notice(options);
   const Tier tier = tier_of(options);
   run_selection(select({options.names, {"check"}}, tier), reference_subject(), tier,
                 running_of(options), run);
@@ -182,6 +215,7 @@ int run_studies(const Options& options) {
   const OutFolder folder(options.out);
   const std::vector<Claim> claims = written_claims();
   RunRecord run = new_run(options);
+  const InterruptionNotice notice = kept_results_notice(options);
   const Tier tier = tier_of(options);
   run_selection(select({options.names, {"study"}}, tier), reference_subject(), tier,
                 running_of(options), run);
@@ -218,25 +252,11 @@ int run_bench(const Options& options) {
 }
 
 int verify(const Options& options) {
-  const std::vector<Claim> claims = written_claims();
   const OutFolder folder(options.out);
-  RunRecord run = new_run(options);
-  const auto start = std::chrono::steady_clock::now();
-  const Subject subject = reference_subject();
-  std::vector<Job> jobs =
-      jobs_of(select({{}, {"check", "study"}}, tier_of(options)), subject, tier_of(options));
-  for (Job& job : jobs_of_built_in_cases(options, run.provenance)) jobs.push_back(std::move(job));
-  announce(jobs, run, options.out);
-  run_jobs(jobs, "checks, studies and cases", running_of(options), run);
-  run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  rule_all_claims(claims, run);
-  run.faults = read_faults(faults_folder());
-  reject_faults_of_lost_findings(run.faults, run);
-  name_faults(run.faults, run.records);
-  write_run(options.out + "/run.h5", run);
-  write_verdicts(options.out, run);
-  drop_kept_results(options.out);
-
+  const RunRecord run = run_whole_suite(options);
+  const InterruptionNotice notice(
+      "the findings are kept in " + options.out,
+      options.no_report ? "" : program_command() + " report " + shell_word(options.out));
   if (!options.no_bench) {
     RunRecord speeds = bench(tier_of(options) == Tier::full ? 1'100'000 : 110'000);
     speeds.provenance = run.provenance;

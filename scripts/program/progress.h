@@ -15,6 +15,10 @@ class ProgressLine {
   /// fraction done, from 0 to 1.
   void show(double fraction);
 
+  /// From here on, at this fraction, another forecast holds: the time left follows from
+  /// the pace since.
+  void start_stretch(double fraction);
+
   /// Since it was made [s].
   double seconds() const;
 
@@ -22,7 +26,8 @@ class ProgressLine {
   std::string label_;
   bool on_terminal_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  double last_shown_ = 0;  // s
+  double last_shown_ = 0;                        // s
+  double stretch_start_ = 0, stretch_part_ = 0;  // s, 1
 };
 
 /// A line on standard error that takes the place of the one before it; elsewhere than on a terminal

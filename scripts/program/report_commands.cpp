@@ -7,6 +7,8 @@
 #include "scripts/program/data_folder.h"
 #include "scripts/program/command_line/input_files.h"
 #include "scripts/program/command_line/out_folder.h"
+#include "scripts/program/command_line/typed_command.h"
+#include "scripts/program/interruption.h"
 #include "scripts/program/progress.h"
 
 namespace foldproof {
@@ -52,6 +54,7 @@ int run_report_script(const std::string& makes, const std::string& script,
 }
 
 int make_report(const Options& options) {
+  const InterruptionNotice notice("the report is not written", typed_again(options.words));
   std::vector<std::string> arguments = options.names;
   if (options.pdf) arguments.push_back("--pdf");
   if (options.papers) arguments.push_back("--papers");
@@ -70,6 +73,7 @@ int show_history(const Options& options) {
 
 int make_film(const Options& options) {
   require_input(options.file, run_kind);
+  const InterruptionNotice notice("the film is not written", typed_again(options.words));
   std::vector<std::string> arguments = {options.file};
   add(arguments, "--out", options.out);
   add(arguments, "--field", options.field);

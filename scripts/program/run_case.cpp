@@ -149,6 +149,10 @@ BuiltCase built_case(Case input_case, const LevelSetProvider& level_sets) {
   return {std::move(input_case), kept, std::move(built)};
 }
 
+void log_warnings(const Scene& scene) {
+  for (const std::string& warning : scene.warnings) log_line("warning: " + warning);
+}
+
 CaseRun run_case(const BuiltCase& of, const std::string& folder, const Provenance& provenance,
                  const Progress& progress) {
   TrajectoryFile trajectory = trajectory_file(of, folder, provenance);

@@ -36,6 +36,9 @@ struct BuiltCase {
 /// level_sets: who makes those of its bodies.
 BuiltCase built_case(Case input_case, const LevelSetProvider& level_sets);
 
+/// A line on standard error for each warning of the scene.
+void log_warnings(const Scene& scene);
+
 /// Simulates the case and writes <folder>/<name>.h5 and .xdmf.
 CaseRun run_case(const BuiltCase& of, const std::string& folder, const Provenance& provenance,
                  const Progress& progress);

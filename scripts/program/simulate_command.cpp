@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "reference/scene/field_recipe.h"
 #include "scripts/program/commands.h"
 #include "scripts/program/command_line/input_files.h"
 #include "scripts/program/interruption.h"
@@ -96,6 +97,12 @@ int report(const CaseRun& run, const Options& options) {
   return run.record.stopped.empty() ? exit_code(expected) : some_fail;
 }
 
+/// Level sets may take a minute.
+BuiltCase built_with_notice(Case input_case, const Options& options) {
+  const InterruptionNotice notice("no step is made yet", typed_again(options.words));
+  return built_case(std::move(input_case), provider_for(options.cache));
+}
+
 CaseRun run_of(const BuiltCase& of, const Options& options) {
   const InterruptionWatch watch;
   ProgressLine line("simulate " + of.input_case.scene.name);
@@ -115,10 +122,15 @@ int simulate_case(const Options& options) {
   const std::optional<KeptRun> kept = checkpoint_folder(input_case.scene, options.out).kept_run();
   if (kept && !may_delete) refuse_to_lose(*kept, input_case.scene, options);
   const OutFolder folder(options.out);
-  const BuiltCase of = built_case(std::move(input_case), provider_for(options.cache));
+  const BuiltCase of = built_with_notice(std::move(input_case), options);
   const Scene& scene = of.input_case.scene;
+  log_warnings(scene);
   log_line(
       fmt::format("{}: {}", scene.name, fmt::join(describe_parts(scene, of.built.system), "; ")));
+  for (std::size_t k = 0; k < scene.objects.size(); ++k)
+    if (const auto& field = scene.objects[k].field)
+      if (const std::string text = accuracy_report(*field, of.built.objects[k].body); !text.empty())
+        log_line(fmt::format("object '{}': {}", scene.objects[k].object.name, text));
   try {
     return report(run_of(of, options), options);
   } catch (const Interrupted& interrupted) {

@@ -45,6 +45,9 @@ class Compare(FileTest):
 
     def test_times_come_from_a_file_a_rate_or_the_folder(self) -> None:
         obj, times = str(self.path / "obj"), "".join(f"{time}\n" for time in self.times)
+        told = self.compare(obj)  # by the times.txt that export wrote
+        self.assertEqual([frame["time"] for frame in told["frames"]], list(self.times))
+        (self.path / "obj/times.txt").unlink()
         self.assert_rejected(run("compare", self.run_file, obj), "--times FILE or --rate FPS")
         rate = str(1 / (self.times[1] - self.times[0]))
         by_file = self.compare(obj, "--times", self.write("when.txt", "# seconds\n" + times))

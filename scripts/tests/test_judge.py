@@ -159,10 +159,17 @@ class Judge(unittest.TestCase):
             ],
         )
 
-    def test_a_solver_that_never_starts_is_a_failure_and_no_crash(self) -> None:
-        done = run("judge", "--solver", "/nowhere/solver")
+    def test_a_command_without_a_program_is_refused(self) -> None:
+        for words in (("judge", "--solver"), ("subject", "--check")):
+            done = run(*words, "/nowhere/solver")
+            self.assertEqual((done.returncode, done.stdout), (2, ""), done)
+            self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+            self.assertIn("cannot start /nowhere/solver: ", done.stderr)
+
+    def test_a_solver_that_ends_at_its_start_is_a_failure_and_no_crash(self) -> None:
+        done = run("judge", "--solver", "exit 3")
         self.assertEqual(done.returncode, 1, done.stderr)
-        self.assertIn("/nowhere/solver: did not start", done.stdout)
+        self.assertIn("exit 3: did not start", done.stdout)
         self.assertIn("suspect the adapter before the engine", done.stdout)
 
     def test_a_crash_is_told_with_signal_and_last_words(self) -> None:
@@ -180,7 +187,7 @@ class Judge(unittest.TestCase):
         """The toys, a wrong one and the reference, as `foldproof report` shows them."""
         solvers = {
             "python": (TOY, "iterations=20"), "cpp": (f"exec '{ROOT}/build/toy_solver'", "n=1"),
-            "wrong": (bad("wrong", "gravity_scaled"), "n=2"), "none": ("/nowhere/solver", "n=3"),
+            "wrong": (bad("wrong", "gravity_scaled"), "n=2"), "none": ("exit 3", "n=3"),
             "reference": (f"exec '{PROGRAM}' serve --integrator A --precision f4", "n=4"),
         }
         for name, (command, setting) in solvers.items():
@@ -251,7 +258,7 @@ class Judge(unittest.TestCase):
         self.assertEqual(len(json.loads(done.stdout)["findings"]), LAWS)
         self.assertRegex(done.stderr, r"worse: gravity.speed-grows-by-g-t: fails, measured/bound")
         self.assertTrue(done.stderr.endswith("against the baseline: 3 worse, 0 better\n"))
-        done = run("judge", "--solver", "/nowhere/solver", "--baseline", kept)
+        done = run("judge", "--solver", "exit 3", "--baseline", kept)
         self.assertEqual(done.returncode, 1)
         self.assertTrue(done.stdout.endswith(f"against the baseline: {LAWS} worse, 0 better\n"))
 

@@ -159,6 +159,11 @@ class ProgramTest(ProgramCase):
             "converge hnige": "did you mean hinge?",
             "simulate twist": "did you mean hard/twist?",
             "simulate nowhere/at_all_like.toml": "list` shows the shipped ones",
+            "simulate nofile.toml": "no shipped case of that name; `",
+            "campaign run first_gird": "no shipped campaign of that name; did you mean first_grid?",
+            "campaign run nothing_like_it": "; shipped: bending_atlas, faults, first_grid,",
+            "history none": "none: there is no such folder or file",
+            "report none": "none: there is no such folder",
             "inspect nowhere/at_all_like.obj": "there is no such file; check the path",
         }.items():
             self.assertIn(said, self.assert_rejected(*typed.split()), typed)
@@ -166,6 +171,16 @@ class ProgramTest(ProgramCase):
         self.assertIn(
             "did you mean flag.csv?", self.assert_rejected("evaluate", "bending", "flg.csv")
         )
+
+    def test_a_box_that_holds_one_particle_is_warned_of(self) -> None:
+        case = (ROOT / "cases/hanging_sheet.toml").read_text(encoding="utf-8")
+        for far, said in ((0.01, "box.toml:25: [[hold]] holds one particle only"), (0.5, "")):
+            box = f"[[-9, -9, -{far}], [{far}, 9, 9]]"
+            file = self.write("box.toml", case.replace("particles = [0, 24]", f"box = {box}"))
+            done = self.simulate(file, "--set", "time.end=1e-4")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual("warning: " in done.stderr, bool(said))
+            self.assertIn(said, done.stderr)
 
     def test_wrong_input_is_refused_in_a_line_and_leaves_nothing(self) -> None:
         for name in ("empty.toml", "empty.obj", "empty.h5", "empty.csv"):

@@ -1,8 +1,11 @@
 #!/usr/bin/python3
-"""Tests of a run of checks and studies that is interrupted and goes on."""
+"""Tests of commands that are interrupted and go on: checks, studies, questions about a case."""
 from __future__ import annotations
 
 import json
+import shlex
+import shutil
+import signal
 import subprocess
 import sys
 import time
@@ -22,6 +25,13 @@ def judged(folder: Path) -> list[dict]:
     """The findings of a run without the seconds that they took."""
     told = json.loads((folder / "verdicts.json").read_text(encoding="utf-8"))
     return [{k: v for k, v in row.items() if k != "seconds"} for row in told["findings"]]
+
+
+def catches_signals(process: int) -> bool:
+    """Whether the process has a handler for SIGTERM."""
+    status = Path(f"/proc/{process}/status").read_text(encoding="utf-8")
+    caught = next(row for row in status.splitlines() if row.startswith("SigCgt:"))
+    return bool(int(caught.split()[1], 16) >> (signal.SIGTERM - 1) & 1)
 
 
 class ResumeTest(ProgramCase):
@@ -76,6 +86,40 @@ class ResumeTest(ProgramCase):
         done = run("study", STUDIES[0], "--out", str(out), "--resume")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertNotIn("went on", done.stderr)
+
+    def stopped(self, how: int, ready: str, *command: str) -> str:
+        """The last line on standard error of a command that the signal reaches when it catches
+        signals, and has made a file that fits the pattern."""
+        with subprocess.Popen(
+            [str(PROGRAM), *command, "--threads", "1"], stdout=subprocess.DEVNULL,
+            stderr=subprocess.PIPE, text=True
+        ) as process:
+            while process.poll() is None and not (
+                catches_signals(process.pid) and list(self.path.glob(ready))
+            ):
+                time.sleep(0.01)
+            process.send_signal(how)
+            said = process.communicate()[1]
+        self.assertEqual(process.returncode, -how, said)
+        return said.splitlines()[-1]
+
+    def test_an_interrupted_command_says_what_is_kept_and_how_to_go_on(self) -> None:
+        out = str(self.path / "out")
+        for how, ready, kept, command in (
+            (signal.SIGINT, "out/store/shards/*", "store", ("precision", "hinge")),
+            (signal.SIGTERM, "out/store/shards/*", "store", ("converge", "hanging_sheet")),
+            (signal.SIGINT, "out/store/shards/*", "store", ("ablate", "hanging_sheet")),
+            (signal.SIGTERM, "out/verdicts.json", "unfinished", ("verify", "--no-bench")),
+            (signal.SIGINT, "out/unfinished/*.cbor", "unfinished", ("study", *STUDIES)),
+        ):
+            said = self.stopped(how, ready, *command, "--out", out)
+            self.assertRegex(said, rf"^interrupted; .* in .*/{kept}; go on with: .*{command[0]} ")
+            again = shlex.split(said.split("go on with: ")[1])
+            self.assertEqual("--resume" in again, kept == "unfinished")
+            self.assertIn(out, again)
+            shutil.rmtree(out)
+        said = self.stopped(signal.SIGINT, "**", "check")
+        self.assertEqual(said, "interrupted; nothing is kept without --out DIR")
 
     def test_without_a_folder_there_is_nothing_to_resume(self) -> None:
         done = run("check", "bending", "--resume")

@@ -87,8 +87,17 @@ TEST_CASE("subject: a solver that ends is told by signal or exit code, with its 
   require_failure("exit_3", "exit", "code 3");
   require_failure("exit_3", "exit", "giving up");
   require_failure("exception", "error", "ValueError: a matrix is singular");
-  const SolverCommand missing{"/nowhere/solver", {}, {}};
-  CHECK(std::string(failure_of(missing).what()).find("not found") != std::string::npos);
+}
+
+TEST_CASE("subject: a command without a program is refused, one that starts and ends is judged") {
+  for (const char* command : {"/nowhere/solver", "/etc/passwd"}) {
+    const SolverFailure failure = failure_of({command, {}, {}});
+    CHECK(failure.cause == "start");
+    CHECK(std::string(failure.what()).find(std::string("cannot start ") + command) == 0);
+    CHECK_THROWS_AS(judge_solver({command, {}, {}}, portable_laws(), ignore), InputError);
+  }
+  const Judgement judgement = judge_solver({"exit 2", {}, {}}, portable_laws(), ignore);
+  CHECK(judgement.records.back().outcome == Outcome::fails);
 }
 
 TEST_CASE("subject: a solver that ends while its child lives is told by its exit code") {

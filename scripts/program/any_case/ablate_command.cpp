@@ -17,8 +17,10 @@
 #include "reference/bodies/level_set_provider.h"
 #include "scripts/program/commands.h"
 #include "scripts/program/command_line/input_files.h"
+#include "scripts/program/interruption.h"
 #include "scripts/program/json_text.h"
 #include "scripts/program/command_line/out_folder.h"
+#include "scripts/program/command_line/typed_command.h"
 #include "scripts/program/program_json.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
@@ -237,8 +239,17 @@ nlohmann::json with_others_of(const std::string& path, nlohmann::json found) {
   return found;
 }
 
-std::string error_text(double error, const std::string& why_unknown) {
-  return std::isnan(error) ? "not known: " + why_unknown : fmt::format("{:.2g}", error);
+/// what: that it is, unlike other errors of the same cause.
+std::string error_text(double error, const std::string& what, const std::string& why_unknown) {
+  return std::isnan(error) ? "not known: " + why_unknown : fmt::format("{:.2g}, {}", error, what);
+}
+
+std::string mesh_error_text(const Ablation& one) {
+  const std::vector<std::string>& coarser = one.input_case.coarser_mesh;
+  const std::string what = coarser.empty()
+                               ? "the difference to one finer mesh"
+                               : fmt::format("from a coarser mesh, {}", fmt::join(coarser, ", "));
+  return error_text(one.error.mesh, what + ", without an error bar", one.of_mesh.unknown);
 }
 
 void print(const Ablation& one) {
@@ -246,13 +257,10 @@ void print(const Ablation& one) {
                expected_keys = ablation_end(one.input_case);
   const std::string first =
       expected_keys < whole ? fmt::format(" (its first {:g} s of {:g})", expected_keys, whole) : "";
-  const std::vector<std::string>& coarser = one.input_case.coarser_mesh;
-  fmt::print("{}{}: {:.2f} s; own error {:.2g} m (its steps {}; {} {})\n",
+  fmt::print("{}{}: {:.2f} s; own error {:.2g} m (its steps {}; its mesh {})\n",
              one.input_case.scene.name, first, one.scene.seconds, one.error.value(),
-             error_text(one.error.time, one.of_steps.unknown),
-             coarser.empty() ? "finer mesh"
-                             : fmt::format("from a coarser mesh, {},", fmt::join(coarser, ", ")),
-             error_text(one.error.mesh, one.of_mesh.unknown));
+             error_text(one.error.time, "error bar included", one.of_steps.unknown),
+             mesh_error_text(one));
   if (const std::string wrong = wrong_by_itself(one); !wrong.empty()) fmt::print("! {}\n", wrong);
   for (const JudgedPart& part : one.judged_parts) {
     fmt::print("{} {:<18} {:<30} {:5.0f} % of the time; {}\n", part.is_justified() ? ' ' : '!',
@@ -287,7 +295,13 @@ int ablate(const Options& options) {
   std::vector<Ablation> all = ablations_of(options);
   const OutFolder folder(options.out);
   require_replaceable(options.out + "/ablation.json");
+  for (const Ablation& one : all) log_warnings(one.input_case.scene);
   ResultStore store(options.out + "/store");
+  const InterruptionNotice notice(
+      fmt::format(
+          "finished cases are kept in {0}/ablation.json, and runs of their errors in {0}/store",
+          options.out),
+      typed_again(options.words));
   const KeptRuns by{all.empty() ? computing_provider() : all.front().level_sets, store,
                     program_identity()};
   std::mutex one_at_a_time;

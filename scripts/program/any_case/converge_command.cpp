@@ -12,9 +12,11 @@
 #include "convergence/any_case/space_ladder.h"
 #include "scripts/program/command_line/input_files.h"
 #include "scripts/program/command_line/out_folder.h"
+#include "scripts/program/command_line/typed_command.h"
 #include "scripts/program/commands.h"
 #include "scripts/program/any_case/converge_file.h"
 #include "scripts/program/any_case/converge_report.h"
+#include "scripts/program/interruption.h"
 #include "scripts/program/json_text.h"
 #include "scripts/program/any_case/ladder_runs.h"
 #include "scripts/program/any_case/predictability_runs.h"
@@ -139,10 +141,14 @@ int converge(const Options& options) {
   const LevelSetProvider level_sets = memoizing_provider(provider_for(options.cache));
   CaseSource source{case_file(options.file), options.overrides, "", options.until};
   const std::vector<std::string> methods = methods_of(options);
-  build(case_of(source).scene, level_sets);  // refuses now what cannot be built
+  const Scene scene = case_of(source).scene;
+  build(scene, level_sets);  // refuses now what cannot be built
   const OutFolder folder(options.out);
   require_replaceable(options.out + "/converge.h5");
+  log_warnings(scene);
   ResultStore store(options.out + "/store");
+  const InterruptionNotice notice("finished runs are kept in " + options.out + "/store",
+                                  typed_again(options.words));
   std::vector<Told> all;
   std::vector<StudyRecord> studies;
   for (const std::string& method : methods) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <numeric>
 #include <stdexcept>
 #include <thread>
 #include <utility>
@@ -17,6 +18,7 @@ namespace foldproof {
 namespace {
 
 constexpr double seconds_worth_a_line = 20;
+constexpr double seconds_of_stored_run = 1e-6;  // of a run that the store has
 
 /// Memory available without swapping [bytes]; no limit if the system does not tell.
 double available_memory() {
@@ -30,6 +32,12 @@ double available_memory() {
 int threads_of(const JobSettings& running) {
   return int(running.threads > 0 ? running.threads
                                  : std::max(1u, std::thread::hardware_concurrency()));
+}
+
+/// Of the clock, for jobs side by side that each take so many seconds.
+double side_by_side(const std::vector<double>& seconds, int threads) {
+  return std::max(std::ranges::max(seconds),
+                  std::accumulate(seconds.begin(), seconds.end(), 0.0) / threads);
 }
 
 /// Runs levels as jobs and keeps what they left.
@@ -60,14 +68,23 @@ class LadderRunner {
   /// The last levels, at a time; costs: of all levels.
   void run_later(const std::vector<Level>& levels, const std::vector<LevelCost>& all_costs,
                  ProgressLine& line) {
-    double done = 0, to_come = 0;
-    for (const LevelCost& cost : costs) done += cost.seconds;
-    std::vector<double> lengths;
-    for (size_t k = 0; k < levels.size(); ++k) {
-      lengths.push_back(std::max(all_costs[costs.size() + k].seconds, 1e-6));
-      to_come += lengths.back();
-    }
-    run(levels, lengths, {line, done, done + to_come});
+    std::vector<double> seconds;
+    for (size_t k = 0; k < levels.size(); ++k)
+      seconds.push_back(all_costs[costs.size() + k].seconds);
+    run_for(levels, seconds, 0, line);
+  }
+
+  /// The next levels, at a time, of which each takes so many seconds of the processor. The line
+  /// shows the part of the clock from its beginning to their end, and `later` seconds on.
+  void run_for(const std::vector<Level>& levels, std::vector<double> seconds, double later,
+               ProgressLine& line) {
+    for (double& one : seconds) one = std::max(one, seconds_of_stored_run);
+    const double clock = side_by_side(seconds, threads_of(running_)), before = line.seconds(),
+                 work = std::accumulate(seconds.begin(), seconds.end(), 0.0),
+                 whole = before + clock + later;
+    for (double& one : seconds) one *= clock / work;
+    line.start_stretch(before / whole);
+    run(levels, seconds, {line, before, whole});
   }
 
   bool is_stored(const Level& level) const { return store_.contains(key_of(level, program_)); }
@@ -83,8 +100,7 @@ class LadderRunner {
 };
 
 /// Says what levels 3 .. levels will take, where that is long enough to be asked for.
-void announce(const std::vector<LevelCost>& costs, size_t levels, int threads) {
-  const double seconds = clock_seconds(costs, 2, levels - 1, threads);
+void announce(const std::vector<LevelCost>& costs, size_t levels, double seconds) {
   double bytes = 0;
   for (size_t k = 0; k < levels; ++k) bytes += costs[k].bytes;
   if (seconds > seconds_worth_a_line)
@@ -103,22 +119,31 @@ std::vector<LevelCost> probed_costs(const SpaceLadder& ladder, LadderRunner& run
   return foreseen_costs(runner.costs, int(ladder.levels.size()));
 }
 
-/// Leaves the runs of the finest mesh, of the check of its steps, and of the other meshes,
-/// coarse to fine.
+/// What the runs after that of the finest mesh take, over its seconds: the check of the steps, with
+/// twice as many and a quarter of the particles, and all coarser meshes, coarse to fine.
+std::vector<double> parts_of_finest(int finest) {
+  std::vector<double> parts = {0.5};
+  for (int k = 0; k < finest; ++k) parts.push_back(std::pow(4, k - finest));
+  return parts;
+}
+
+/// Leaves the runs of the finest mesh, of the check of its steps, and of the other meshes, coarse
+/// to fine. forecast: seconds of the processor for the finest mesh; later: of the clock for the
+/// others, over it.
 void run_with_finest_steps(const SpaceLadder& ladder, LadderRunner& runner, ProgressLine& line,
-                           double whole) {
+                           double forecast, double later) {
   const int finest = int(ladder.levels.size()) - 1;
-  runner.run({space_level(ladder, finest, {})}, {1}, {line, 0.02 * whole, whole});
+  const Level first = space_level(ladder, finest, {});
+  runner.run_for({first}, {runner.is_stored(first) ? 0 : forecast}, later * forecast, line);
   if (!runner.runs[0].stopped.empty())
     throw InputError("the finest mesh comes to no end: " + runner.runs[0].stopped);
   const std::vector<double>& ends = runner.runs[0].step_ends;
   std::vector<Level> others = {step_check_level(ladder, ends)};
-  std::vector<double> lengths = {2};  // twice the steps of the second-finest
-  for (int k = 0; k < finest; ++k) {
-    others.push_back(space_level(ladder, k, ends));
-    lengths.push_back(std::pow(4, k - finest + 1));
-  }
-  runner.run(others, lengths, {line, 0.55 * whole, whole});
+  for (int k = 0; k < finest; ++k) others.push_back(space_level(ladder, k, ends));
+  std::vector<double> seconds = parts_of_finest(finest);
+  for (size_t k = 0; k < others.size(); ++k)
+    seconds[k] *= runner.is_stored(others[k]) ? 0 : runner.costs[0].seconds;
+  runner.run_for(others, seconds, 0, line);
 }
 
 }  // namespace
@@ -148,7 +173,8 @@ LadderRuns run_ladder(const LadderOfLevels& ladder, const LevelSetProvider& leve
   if (affordable.levels < 3)
     throw InputError("an error bar needs three levels, and " + affordable.refusal);
   later.resize(size_t(affordable.levels) - 2, later.front());
-  announce(costs, size_t(affordable.levels), threads_of(running));
+  const size_t levels = size_t(affordable.levels);
+  announce(costs, levels, clock_seconds(costs, 2, levels - 1, threads_of(running)));
   runner.run_later(later, costs, line);
   return {std::move(runner.runs), std::move(costs), affordable.refusal};
 }
@@ -164,10 +190,13 @@ SpaceRuns run_meshes(SpaceLadder ladder, const LevelSetProvider& level_sets, Res
   if (affordable.levels < 3)
     throw InputError("an error bar needs three levels, and " + affordable.refusal);
   ladder.levels.resize(size_t(affordable.levels));
-  announce(costs, ladder.levels.size(), threads_of(running));
+  const size_t finest = ladder.levels.size() - 1;
+  const double forecast = costs[finest].seconds,
+               later = side_by_side(parts_of_finest(int(finest)), threads_of(running));
+  announce(costs, ladder.levels.size(), (1 + later) * forecast);
 
   LadderRunner runner(level_sets, store, running);
-  run_with_finest_steps(ladder, runner, line, whole);
+  run_with_finest_steps(ladder, runner, line, forecast, later);
   std::vector<LevelRun> runs(runner.runs.begin() + 2, runner.runs.end());
   runs.push_back(std::move(runner.runs[0]));
   return {

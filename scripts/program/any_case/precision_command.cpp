@@ -3,12 +3,16 @@
 
 #include <chrono>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "convergence/any_case/precision_report.h"
 #include "scripts/program/command_line/input_files.h"
 #include "scripts/program/command_line/out_folder.h"
+#include "scripts/program/command_line/typed_command.h"
 #include "scripts/program/commands.h"
+#include "scripts/program/interruption.h"
 #include "scripts/program/json_text.h"
 #include "scripts/program/program_json.h"
 #include "scripts/program/progress.h"
@@ -70,8 +74,9 @@ void print_methods(const PrecisionAnswer& answer) {
     return std::isnan(value) ? std::string("-") : fmt::format(fmt::runtime(form), value);
   };
   for (const MethodCurve& curve : answer.curves) {
-    fmt::print("{:<22} {:>6} {:>12} {:>12}", curve.method, number(curve.bar.order, "{:.2f}"),
-               number(curve.stable_step, "{:.3g}"), number(curve.unstable_step, "{:.3g}"));
+    fmt::print("{:<22} {:>6} {:>12} {:>12}", curve.method,
+               number(asymptotic_order(curve.bar), "{:.2f}"), number(curve.stable_step, "{:.3g}"),
+               number(curve.unstable_step, "{:.3g}"));
     for (const PriceList& list : answer.lists) {
       const auto price = std::ranges::find(list.prices, curve.method, &MethodPrice::method);
       if (price == list.prices.end())
@@ -94,18 +99,29 @@ void print_unstable(const PrecisionAnswer& answer) {
                  curve.method, step);
 }
 
+/// A reason that holds for several errors is printed once.
+void print_missing_prices(const PrecisionAnswer& answer) {
+  std::map<std::pair<std::string, std::string>, std::string> errors;  // of method and reason
+  for (const PriceList& list : answer.lists)
+    for (const MethodPrice& price : list.prices)
+      if (!price.because.empty() && list.wanted >= least_error(answer.truth)) {
+        std::string& all = errors[{price.method, price.because}];
+        all += fmt::format("{}{:.3g} %", all.empty() ? "" : " and ", 100 * list.wanted);
+      }
+  for (const auto& [key, wanted] : errors)
+    fmt::print("{} at {}: {}\n", key.first, wanted, key.second);
+}
+
 void print(const PrecisionAnswer& answer) {
   for (const std::string& sentence : precision_sentences(answer)) fmt::print("{}\n", sentence);
   fmt::print("{}\n", truth_in_words(answer));
   print_methods(answer);
   print_unstable(answer);
-  for (const PriceList& list : answer.lists)
-    for (const MethodPrice& price : list.prices)
-      if (!price.because.empty() && list.wanted >= least_error(answer.truth))
-        fmt::print("{} at {:.3g} %: {}\n", price.method, 100 * list.wanted, price.because);
+  print_missing_prices(answer);
   fmt::print(
-      "\nprice: applications of force operators, and seconds of the processor; stable, not: the "
-      "longest step that\nis stable in this run, and the next longer one, which is not.\n");
+      "\norder: observed, where the range is asymptotic; price: applications of force operators, "
+      "and seconds of the\nprocessor; stable, not: the longest step that is stable in this run, "
+      "and the next longer one, which is not.\n");
 }
 
 json to_json(const Opinion& opinion) {
@@ -147,7 +163,7 @@ json to_json(const MethodCurve& curve) {
                            {"energy_gain", energy_gain(run)},
                            {"lasts", lasts(run)}});
   return {{"method", curve.method},
-          {"order", curve.bar.order},
+          {"order", asymptotic_order(curve.bar)},
           {"orders", curve.bar.orders},
           {"reading", name_of(curve.bar.reading)},
           {"because", curve.bar.reason},
@@ -200,7 +216,10 @@ int precision(const Options& options) {
   const LevelSetProvider level_sets = memoizing_provider(provider_for(options.cache));
   const PrecisionPlan plan = plan_of(options, level_sets);
   const OutFolder folder(options.out);
+  log_warnings(plan.input_case.scene);
   ResultStore store(options.out + "/store");
+  const InterruptionNotice notice("finished runs are kept in " + options.out + "/store",
+                                  typed_again(options.words));
   const PrecisionAnswer answer =
       precision_answer(plan, all_trials(plan, level_sets, store, options.running));
   const double seconds =

@@ -18,12 +18,13 @@ std::vector<LevelRun> disturbed_runs(const Level& first, const std::vector<doubl
   std::vector<LevelRun> runs(disturbances.size());
   std::vector<Job> jobs;
   for (size_t k = 0; k < disturbances.size(); ++k)
-    jobs.push_back({first.input_case.scene.name, 1,
-                    [level = disturbed_level(first, step_ends, disturbances[k]), &level_sets,
-                     &store, &into = runs[k], program = program_identity()](const Progress&) {
-                      into = stored_level(level, level_sets, store, program);
-                      return RunRecord{};
-                    }});
+    jobs.push_back(
+        {first.input_case.scene.name, 1,
+         [level = disturbed_level(first, step_ends, disturbances[k]), &level_sets, &store,
+          &into = runs[k], program = program_identity()](const Progress& progress) {
+           into = stored_level(level, level_sets, store, program, progress);
+           return RunRecord{};
+         }});
   RunRecord unused;
   if (!jobs.empty()) run_jobs(jobs, label, running, unused);
   return runs;

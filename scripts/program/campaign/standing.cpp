@@ -8,6 +8,7 @@
 #include "scripts/program/campaign/engine.h"
 #include "scripts/program/campaign/scripted.h"
 #include "scripts/program/command_line/input_files.h"
+#include "scripts/program/command_line/suggestions.h"
 #include "scripts/program/data_folder.h"
 #include "scripts/program/provenance.h"
 
@@ -17,13 +18,29 @@ namespace {
 
 namespace fs = std::filesystem;
 
+const std::string campaign_ending = ".campaign.toml";
+
+/// Names of the campaigns in a folder.
+std::vector<std::string> campaigns_in(const std::string& folder) {
+  std::vector<std::string> names;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored))
+    if (const std::string name = entry.path().filename().string(); name.ends_with(campaign_ending))
+      names.push_back(name.substr(0, name.size() - campaign_ending.size()));
+  std::ranges::sort(names);
+  return names;
+}
+
 std::string campaign_file(const std::string& typed) {
   if (fs::is_regular_file(typed)) return typed;
-  const std::string shipped = data_folder() + "/cases/campaigns/" + typed + ".campaign.toml";
+  const std::string folder = data_folder() + "/cases/campaigns",
+                    shipped = folder + "/" + typed + campaign_ending;
   if (fs::is_regular_file(shipped)) return shipped;
-  throw InputError(typed +
-                   ": there is no such campaign file; name a FILE.campaign.toml, or one of " +
-                   data_folder() + "/cases/campaigns");
+  const std::vector<std::string> known = campaigns_in(folder), near = nearest_names(typed, known);
+  throw InputError(fmt::format(
+      "{}: there is no such campaign file, and no shipped campaign of that name; {}", typed,
+      near.empty() ? fmt::format("shipped: {}", fmt::join(known, ", "))
+                   : did_you_mean(near).substr(2)));
 }
 
 /// A case beside the campaign file, else one in the working folder, else a shipped one.

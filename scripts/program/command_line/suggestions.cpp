@@ -36,7 +36,7 @@ std::vector<std::string> nearest_names(const std::string& typed,
                                        const std::vector<std::string>& known) {
   std::vector<std::pair<size_t, std::string>> near;
   for (const std::string& name : known)
-    if (const size_t edits = distance(typed, name); edits <= typed.size() / 2)
+    if (const size_t edits = distance(typed, name); edits <= (typed.size() + 2) / 3)
       near.emplace_back(edits, name);
   std::ranges::sort(near);
   const auto [first, last] = std::ranges::unique(near);

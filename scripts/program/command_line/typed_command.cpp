@@ -20,6 +20,12 @@ std::string shell_word(const std::string& word) {
   return text + "'";
 }
 
+std::string typed_again(const std::vector<std::string>& words) {
+  std::string line;
+  for (const std::string& word : words) line += (line.empty() ? "" : " ") + shell_word(word);
+  return line;
+}
+
 std::string with_option(const std::vector<std::string>& words, const std::string& option) {
   std::string line;
   for (const std::string& word : words)

@@ -154,6 +154,7 @@ Finding values_finding(const Subject&) {
        "4\njitter = 0.2",
        "mesh = \"nowhere.obj\"",
        {"nowhere.obj", "no mesh file"}},
+      {"particles = [0, 4]", "box = [[9, 9, 9], [10, 10, 10]]", {"no particle", "lies from ("}},
       {"axis = [1, 2, 3]", "axis = [0, 0, 0]", {"'axis'", "zero"}},
       {"particles = [0, 4]", "particles = [0, 4]\nfrom = -0.1", {"'from'", ">= 0"}},
       {"particles = [0, 4]",

@@ -111,7 +111,8 @@ std::pair<std::string, std::string> cause_of(int status) {
                                                 : 0;
   if (signal != 0)
     return {"crash", fmt::format("crashed with signal {} ({})", signal, strsignal(signal))};
-  if (code == 127) return {"exit", "exited with code 127: its command was not found"};
+  if (code == 127) return {"start", "exited with code 127: its command was not found"};
+  if (code == 126) return {"start", "exited with code 126: its command cannot be run"};
   return {"exit", fmt::format("exited with code {}", code)};
 }
 

@@ -38,7 +38,8 @@ class ChildProcess {
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
-  // These throw SolverFailure: "crash" and "exit" if the child ends, "hang" past the deadline.
+  // These throw SolverFailure: "crash", "exit", "start" if the child ends, "hang"
+  // past the deadline.
   void write(std::string_view bytes, Deadline deadline);
   void read(char* to, size_t bytes, Deadline deadline);
 

@@ -86,8 +86,8 @@ void add_scene(const PortableScene& scene, const SolverCommand& command, Request
 }  // namespace
 
 const std::vector<std::string>& failure_causes() {
-  static const std::vector<std::string> causes{"crash",  "exit",  "hang", "truncated", "oversized",
-                                               "header", "shape", "nan",  "error"};
+  static const std::vector<std::string> causes{"start",     "crash",  "exit",  "hang", "truncated",
+                                               "oversized", "header", "shape", "nan",  "error"};
   return causes;
 }
 
@@ -143,9 +143,13 @@ struct PipedSolver::Impl {
       return exchange(request, wanted);
     } catch (const SolverFailure& failure) {
       const std::string words = child.last_words();
-      failed.emplace(failure.cause,
-                     fmt::format("the solver {} (during '{}'); its last words: {}", failure.what(),
-                                 operation, words.empty() ? "none" : words));
+      if (failure.cause == "start" && operation == "start")
+        failed.emplace("start", fmt::format("cannot start {}: {}", command.command,
+                                            words.empty() ? failure.what() : words));
+      else
+        failed.emplace(failure.cause == "start" ? "exit" : failure.cause,
+                       fmt::format("the solver {} (during '{}'); its last words: {}",
+                                   failure.what(), operation, words.empty() ? "none" : words));
       throw *failed;
     }
   }

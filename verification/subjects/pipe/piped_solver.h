@@ -15,6 +15,7 @@
 namespace foldproof {
 
 /// The causes of a SolverFailure:
+///   start                the shell found no such program, or cannot run it
 ///   crash, exit, hang    the process ended by a signal, ended by itself, or did not answer in time
 ///   truncated, oversized an answer that is shorter or longer than it says
 ///   header               no JSON object, a wrong id, a wrong type or version

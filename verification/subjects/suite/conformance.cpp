@@ -102,6 +102,7 @@ std::vector<ConformanceRow> check_conformance(const SolverCommand& command) {
   try {
     solver.emplace(command);
   } catch (const SolverFailure& failure) {
+    if (failure.cause == "start") throw InputError(failure.what());
     return {{"start is answered by a declaration", Conformity::broken, failure.what()}};
   }
   const Declaration& declared = solver->declaration();

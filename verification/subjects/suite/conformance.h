@@ -18,6 +18,7 @@ struct ConformanceRow {
 };
 
 /// Tries each operation of the declared level on a small sheet. Stops at the first broken one.
+/// Throws InputError if there is no such program.
 std::vector<ConformanceRow> check_conformance(const SolverCommand& command);
 
 }  // namespace foldproof

@@ -22,6 +22,15 @@ Record judge_law(const Law& law, Trial& trial) {
   });
 }
 
+/// A command without a program is a typing error of the user. Any other failure is judged.
+void require_program(Trial& trial) {
+  try {
+    trial.solver();
+  } catch (const SolverFailure& failure) {
+    if (failure.cause == "start") throw InputError(failure.what());
+  }
+}
+
 bool is_smoke(const Record& record) { return record.name.starts_with("smoke."); }
 
 }  // namespace
@@ -39,6 +48,7 @@ std::vector<Law> portable_laws() {
 Judgement judge_solver(const SolverCommand& command, const std::vector<Law>& laws,
                        const std::function<void(const Record&)>& done) {
   Trial trial(command);
+  require_program(trial);
   Judgement judgement;
   for (const Law& law : laws) {
     judgement.records.push_back(judge_law(law, trial));

@@ -41,6 +41,7 @@ struct Judgement {
 };
 
 /// Asks the laws; a failure of the solver is the finding of its law, and the next one goes on.
+/// Throws InputError if there is no such program.
 ///   done   is called after each law
 Judgement judge_solver(const SolverCommand& command, const std::vector<Law>& laws,
                        const std::function<void(const Record&)>& done);
