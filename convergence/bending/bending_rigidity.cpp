@@ -261,7 +261,7 @@ Study bending_rigidity_study() {
           "Flat sheets of many meshes are laid on cylinders, and the bending energy per area gives "
           "the flexural rigidity D. The oracle knows only how a hinge is defined: it adds up the "
           "hinges of one cell. A regular pattern keeps its rigidity at every size; which rigidity "
-          "depends on the pattern and the direction, from 0.13 to 2.8 ke.",
+          "depends on the pattern and the direction, as the table shows.",
           run_bending_rigidity};
 }
 

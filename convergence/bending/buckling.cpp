@@ -233,8 +233,9 @@ StudyResult run_buckling(const Subject& subject, Tier tier, const Progress& prog
 
 Study buckling_study() {
   return {"buckling",
-          "A compressed strip buckles out of its plane at Euler's load with the mesh's own "
-          "rigidity; beyond that load the buckle grows at the rate of the linearised forces.",
+          "A compressed strip buckles out of its plane at Euler's load, with a rigidity between "
+          "those of its mesh with free edges and bent to a cylinder; beyond that load the buckle "
+          "grows at the rate of the linearised forces.",
           "our test of BMF03 section 4",
           "A strip of equilateral triangles is shortened between two clamps; motion in its plane "
           "dies out, and none leaves it. Central differences of the forces normal to the plane "

@@ -227,8 +227,8 @@ StudyResult run_cantilever(const Subject& subject, Tier tier, const Progress& pr
 Study cantilever_study() {
   return {
       "cantilever",
-      "A clamped strip under its own weight or a load on its tip takes the shape of the elastica "
-      "with the mesh's own rigidity, to second order.",
+      "The tip of a clamped strip, under its own weight or a load, comes to where that of the "
+      "elastica with the mesh's own rigidity is, to second order.",
       "BMF03 section 4; Bisshopp and Drucker 1945 for the tip load",
       "The first two rows of vertices of a strip are held level. The strip is held cylindrical: "
       "each row moves as one, driven by the sum of the solver's forces on it, so that the rigidity "

@@ -239,8 +239,8 @@ StudyResult run_strip_vibration(const Subject& subject, Tier tier, const Progres
 
 Study strip_vibration_study() {
   return {"strip-vibration",
-          "A clamped strip vibrates as the clamped-free beam with the mesh's own rigidity, to "
-          "second order.",
+          "The two lowest frequencies of a clamped strip are those of the clamped-free beam with "
+          "the mesh's own rigidity, to second order.",
           "BMF03 section 4",
           "The stiffness across a strip held cylindrical is taken from differences of the solver's "
           "forces, its masses from the area; the two lowest frequencies are compared with beta^2 "

@@ -141,13 +141,16 @@ NamedFinding cubic_misses_some(const std::vector<Tally>& all) {
               {"missed by the cubic", "1"},
               {"false alarms of the cubic", "1"},
               {"a query of the cubic", "ns"}};
-  for (const Tally& tally : all)
+  double missed = 0;
+  for (const Tally& tally : all) {
     table.row(tally.name, tally.meetings, tally.cubic_misses, tally.cubic_alarms,
               1e9 * tally.cubic_seconds / tally.queries);
+    if (tally.name.starts_with("coplanar throughout")) missed += tally.cubic_misses;
+  }
   return {"crossing-queries.plain-cubic-misses-meetings",
           "Roots of a cubic with a tolerance for rounding miss meetings of features that move in "
           "one plane throughout.",
-          {{1 - total(all, &Tally::cubic_misses), 0, 0, "missed meetings short of one",
+          {{1 - missed, 0, 0, "missed meetings short of one",
             "one meeting that is missed is enough: cloth that has crossed itself stays crossed"},
            std::move(table),
            "tolerance 1e-6 m on coordinates of 10 m; the reference misses none of the same"}};

@@ -174,8 +174,8 @@ StudyResult run_folds_inside(const Subject& subject, Tier tier, const Progress& 
 
 Study folds_inside_study() {
   return {"folding-inside-objects",
-          "Cloth that starts partly inside an object folds more if it may stay there; cloth that "
-          "comes from outside folds as much either way.",
+          "A tube that starts partly inside a drum folds more if it may stay there; a sheet that "
+          "falls on a ball from outside folds as much either way.",
           "BMF03 section 5.3",
           "A tube that starts inside a drum is pushed together, and a sheet falls on a ball: how "
           "many folds do they form with forecast times from one step to far longer than the run?",

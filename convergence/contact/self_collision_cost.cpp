@@ -77,15 +77,15 @@ NamedFinding search_work(const Table& by_size) {
   evidence.add({"pairs", "1", by_size.numbers("close pairs")});
   evidence.add(by_size.column("box tests"));
   evidence.add(by_size.column("processor time"));
-  return {
-      "self-collision-cost.search-work-is-nearly-linear",
-      "The search for close pairs compares boxes nearly in proportion to the number of particles.",
-      {{growth(by_size, "box tests"), growth_with_depth(by_size), 0, "1",
-        "the exponent of n log n over these particles: each has the same number of neighbours, and "
-        "the tree is as deep as the logarithm of n"},
-       std::move(evidence),
-       "box tests repeat to the last one; the processor times, the least of five searches, stand "
-       "beside them and are not judged"}};
+  return {"self-collision-cost.search-work-is-nearly-linear",
+          "In two layers the search for close pairs compares boxes nearly in proportion to the "
+          "number of particles.",
+          {{growth(by_size, "box tests"), growth_with_depth(by_size), 0, "1",
+            "the exponent of n log n over these particles: each has the same number of neighbours, "
+            "and the tree is as deep as the logarithm of n"},
+           std::move(evidence),
+           "box tests repeat to the last one; the processor times, the least of five searches, "
+           "stand beside them and are not judged"}};
 }
 
 void add_searches(Tier tier, StudyResult& result) {

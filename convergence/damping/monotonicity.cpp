@@ -209,8 +209,7 @@ std::vector<NamedFinding> bdf2_findings(const Subject& subject, const DampedMoti
            "hundredth of the displacement.",
            {{least.value(), 1, 0, "1", "measured is a hundredth over the overshoot"}, rows, ""}},
           {"monotonicity.distance-is-as-derived.BDF2",
-           "BDF2, started exactly, overshoots as its recurrence says, by at most a tenth of the "
-           "displacement.",
+           "BDF2, started exactly, overshoots as its recurrence says.",
            {{error.value(), rounding, 0, "of the displacement", why_rounding}, rows, ""}}};
 }
 

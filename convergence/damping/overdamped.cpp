@@ -85,8 +85,8 @@ NamedFinding sheet_is_bounded(const Subject& subject, const DampedMotion& sheet,
   const Table rows = sheet_at_steps(subject, sheet, scheme, {0.7, 2.2, 4.3, 7.0, 12.0}, 30);
   return {"monotonicity.overdamped-sheet.overshoot-is-bounded." + scheme,
           "On an overdamped sheet with stiffness scheme " + scheme +
-              " overshoots or turns back by less than the displacement in positions, and by less "
-              "than twice the starting speed in velocities.",
+              ", in steps up to h c/2 = 12, overshoots or turns back by less than the displacement "
+              "in positions, and by less than twice the starting speed in velocities.",
           {{worst_of_both(rows), 2, 0, "displacements or speeds",
             "derived without stiffness: a velocity is multiplied by (1 - a)/(1 + a) > -1, so it "
             "changes by less than twice its size; the part of a position that decays fast "
@@ -132,15 +132,16 @@ NamedFinding hinge_closes_monotonically(const Subject& subject, const DampedMoti
 // ---- what is shown
 
 Figure sheet_figure(const std::string& name, const std::string& of) {
-  return {name,
-          "Overshoot on an overdamped sheet with stiffness: " + of,
-          {"h c/2 of the fastest mode", "1", Scale::log},
-          {"largest overshoot or way back of a mode, over its start", "1", Scale::log},
-          nan,
-          "Every mode starts displaced and moving towards rest. All modes have at least four times "
-          "the critical damping. Curves of methods that are monotone everywhere are empty and left "
-          "out; where one ends to the right, the method is unstable. BDF2 is started exactly.",
-          {}};
+  return {
+      name,
+      "Overshoot on an overdamped sheet with stiffness: " + of,
+      {"h c/2 of the fastest mode", "1", Scale::log},
+      {"largest overshoot or way back of a mode, over its start", "1", Scale::log},
+      nan,
+      "Every mode starts displaced and moving towards rest. All modes have at least four times the "
+      "critical damping. Curves of methods that are monotone everywhere are empty and left out. A "
+      "step beyond a method's limit ends its curve, or sends it up. BDF2 is started exactly.",
+      {}};
 }
 
 /// The values worth a marker, if there is any.

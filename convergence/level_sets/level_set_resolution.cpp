@@ -253,17 +253,17 @@ StudyResult run_level_set_resolution(const Subject&, Tier tier, const Progress& 
 }  // namespace
 
 Study level_set_resolution_study() {
-  return {
-      "level-set-resolution",
-      "From exact values next to the surface second-order marching errs by O(h^2) in the mean; "
-      "from the paper's crude start it errs by O(h), and the normals at the surface stay wrong.",
-      "BMF03 section 5.1",
-      "How fine must a grid be, and how much accuracy does a crude start lose? Bodies with a "
-      "closed-form distance are sampled on grids whose spacing is halved. Measured are the "
-      "distance at the nodes after fast marching of both orders; the errors that trilinear "
-      "interpolation and two kinds of gradients add between exact nodes; and the surface and "
-      "normals after a start from inside/outside alone.",
-      run_level_set_resolution};
+  return {"level-set-resolution",
+          "From exact values next to the surface of a ball or torus second-order marching errs by "
+          "O(h^2) in the mean, away from kinks; from the paper's crude start about a ball it errs "
+          "by O(h), and the normals at the surface stay wrong.",
+          "BMF03 section 5.1",
+          "How fine must a grid be, and how much accuracy does a crude start lose? Bodies with a "
+          "closed-form distance are sampled on grids whose spacing is halved. Measured are the "
+          "distance at the nodes after fast marching of both orders; the errors that trilinear "
+          "interpolation and two kinds of gradients add between exact nodes; and the surface and "
+          "normals after a start from inside/outside alone.",
+          run_level_set_resolution};
 }
 
 }  // namespace foldproof

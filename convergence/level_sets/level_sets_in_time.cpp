@@ -119,8 +119,8 @@ NamedFinding carried_errs_less(const std::vector<Pair>& pairs) {
   Worst worst;
   for (std::size_t i = 0; i < 2; ++i) worst.observe(pairs[i].carried / pairs[i].blended);
   return {"level-sets-in-time.carried-error-is-smaller",
-          "Carried along with the body, phi has less than half the error of phi blended at a fixed "
-          "point.",
+          "At the two longest intervals, phi carried along with the body has less than half the "
+          "error of phi blended at a fixed point.",
           {{worst.value(), 0.5, 0, "1",
             "a half: it then saves more than a quarter of the frames, 1 - 1/sqrt(2), since both "
             "errors fall with the square of the interval"},

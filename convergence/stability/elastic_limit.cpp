@@ -158,8 +158,8 @@ StudyResult run_elastic_limit(const Subject& subject, Tier tier, const Progress&
 
 Study elastic_limit_study() {
   return {"elastic-limit",
-          "The largest stable step of undamped motion is 2/omega for schemes A, B and C; it is "
-          "proportional to the cells' width where springs dominate, and to its square where "
+          "On an undamped flat sheet the largest stable step is 2/omega for schemes A, B and C; it "
+          "is proportional to the cells' width where springs dominate, and to its square where "
           "bending does.",
           "BMF03 section 3",
           "A flat, free, undamped sheet is disturbed a little. Its fastest mode is found by power "

@@ -77,7 +77,7 @@ NamedFinding grows_with_damping(Table table) {
   const double worst = largest_ratio(table, "omega h |h c/2 - 1|", "growth");
   return {"transient-growth.A.grows-with-damping",
           "Though stable, scheme A amplifies a damped disturbance by at least omega h |h c/2 - 1| "
-          "in the energy norm: in proportion to the damping and without bound.",
+          "in the energy norm: in proportion to the damping.",
           {{worst, 1, 1e-9, "1",
             "its explicit half step moves a particle by h (1 - h c/2) times its velocity: that is "
             "one entry of the step matrix, and no norm of the matrix can be below it"},
@@ -176,7 +176,7 @@ NamedFinding sheet_excess(const Table& found) {
   const double first = found.numbers("A").front(), last = found.numbers("A").back();
   return {"transient-growth.A.sheet-growth-exceeds-tenfold",
           "On the sheet scheme A amplifies heavily damped disturbances more than ten times as much "
-          "as lightly damped ones, and without bound.",
+          "as lightly damped ones.",
           {{10 * first / last, 1, 0, "1", "an order of magnitude; the damping rises by four"},
            growth_of(found, "A"),
            "measured is ten times the first growth over the last"}};
@@ -237,8 +237,9 @@ StudyResult run_transient_growth(const Subject& subject, Tier tier, const Progre
 
 Study transient_growth_study() {
   return {"transient-growth",
-          "For highly damped material scheme A, though stable, amplifies disturbances in "
-          "proportion to the damping; B and C never amplify them more than undamped motion does.",
+          "Under high damping scheme A, though stable, amplifies disturbances of an oscillator in "
+          "proportion to the damping; on it and on a sheet B and C never amplify them more than "
+          "undamped motion does.",
           "BMF03 section 3",
           "A step whose spectral radius is at most 1 may still amplify a disturbance on the way, "
           "if its eigenvectors are not orthogonal. Measured is the largest norm of the first "

@@ -35,8 +35,9 @@ NamedFinding resonance_finding(const Subject& subject, const std::string& scheme
   const double pair = stepped_radius(of, short_step, long_step);
   const std::vector<double> alone = {stepped_radius(of, short_step, short_step),
                                      stepped_radius(of, long_step, long_step)};
+  constexpr double rounding = 1e-6;  // of a radius that is 1
   Worst either;
-  for (const double radius : alone) either.observe(radius);
+  for (const double radius : alone) either.observe(radius <= 1 + rounding ? radius : nan);
   const Verdict verdict{either.value() / pair, 0.5, 0, "1",
                         "growth by more than a factor of two in each pair of steps is neither "
                         "rounding nor slow drift"};
@@ -49,7 +50,8 @@ NamedFinding resonance_finding(const Subject& subject, const std::string& scheme
                  {"of two short steps", "1"},
                  {"of two long steps", "1"}}
                .with_row(pair, alone[0], alone[1]),
-           "measured is the larger spectral radius of two equal steps over that of the pair"}};
+           "measured is the larger spectral radius of two equal steps over that of the pair; NaN "
+           "if equal steps grow"}};
 }
 
 NamedFinding damped_finding(const Subject& subject, const std::string& scheme) {

@@ -153,6 +153,12 @@ NamedFinding bias_finding(const std::vector<Row>& rows) {
            "Many velocities satisfy the limits; the order of the springs decides which is found."}};
 }
 
+Table of_all_orders(const std::vector<Row>& rows) {
+  std::vector<std::pair<std::string, Table>> groups;
+  for (const Row& row : rows) groups.emplace_back(row.order, row.sweeps);
+  return stacked({"order", ""}, groups);
+}
+
 NamedFinding energy(const std::vector<Row>& rows) {
   Worst worst;
   for (const Row& row : rows) worst.observe(row.sweeps.worst("kinetic energy left"));
@@ -162,7 +168,7 @@ NamedFinding energy(const std::vector<Row>& rows) {
           {{worst.value(), 1, 0, "of what there was",
             "springs start within their limits, and each impulse only removes relative motion "
             "beyond them"},
-           rows.front().sweeps,
+           of_all_orders(rows),
            ""}};
 }
 
@@ -202,10 +208,7 @@ Curve residuals(const NamedOrder& order, int cells) {
 }
 
 Table table_of(const std::vector<Row>& rows) {
-  std::vector<std::pair<std::string, Table>> groups;
-  for (const Row& row : rows) groups.emplace_back(row.order, row.sweeps);
-  return {"orders", "Sweeps until no violation exceeds a thousandth",
-          stacked({"order", ""}, groups)};
+  return {"orders", "Sweeps until no violation exceeds a thousandth", of_all_orders(rows)};
 }
 
 /// Springs that are beyond their limits at the start are brought back in one step, however many

@@ -148,7 +148,7 @@ NamedFinding shape_agrees(const Subject& subject, const HungTest& test, Tier tie
     simulated.point(strip.rows(0, i), strip.rows(2, i));
   shapes.curves.push_back(exact);
   shapes.curves.push_back(simulated);
-  return {fmt::format("hanging-chain.shape-agrees.{}", test.name),
+  return {fmt::format("hanging-chain.sag-and-pull-agree.{}", test.name),
           fmt::format("A limp strip between {} sags and pulls as a catenary does, within one "
                       "percent of its length and weight.",
                       test.words),
@@ -258,8 +258,8 @@ StudyResult run_hanging_chain(const Subject& subject, Tier tier, const Progress&
 Study hanging_chain_study() {
   return {
       "hanging-chain",
-      "A strip without bending hangs between two points as a catenary, and swings from one point "
-      "as a chain.",
+      "A strip without bending sags and pulls between two points as a catenary does, and swings "
+      "from one point as often as a chain.",
       "our test of springs and gravity: catenary, and Bernoulli's hanging chain",
       "A strip two cells wide is held by its end rows and brought to rest by backward Euler. Its "
       "springs give by a ten-thousandth of its length per weight. S is the sag, the pull on a held "

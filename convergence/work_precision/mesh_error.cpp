@@ -194,8 +194,8 @@ StudyResult run_mesh_error(const Subject& subject, Tier tier, const Progress& pr
 
 Study mesh_error_study() {
   return {"mesh-error",
-          "On a smooth motion a step of half the elastic limit errs less than a tenth as much as "
-          "the mesh does.",
+          "On a smoothly swinging sheet a step of C of half the elastic limit errs less than a "
+          "tenth as much as the mesh does.",
           "ours",
           "How fine should the step be for my mesh? A sheet held along its upper edge swings by a "
           "smooth velocity, on meshes that each halve the cells of the one before. Errors of the "

@@ -65,8 +65,8 @@ NamedFinding as_derived(const Table& rates, const Creeping& motion) {
   evidence.add({"derived", "1", derived});
   evidence.add({"order of the pair", "1", row_orders(errors_of(rates))});
   return {"work-precision.slow-motion-is-first-order.C",
-          "Under heavy damping C's error on the slow motion is that of a method of first order, "
-          "unless the step resolves the damping.",
+          "At a damping ratio of 20, C's error on the slow motion is that of a method of first "
+          "order, unless the step resolves the damping.",
           {{largest_deviation(evidence, "relative error of the rate", "derived"), 0.05, 0, "1",
             "the derivation leaves out the square of the rate times the step, a twenty-fifth at "
             "the longest step"},
@@ -81,7 +81,8 @@ NamedFinding keeps_its_order(const Table& rates) {
   Table evidence = with_columns(rates, {"h c/2", "relative error of the rate"});
   evidence.add({"order of the pair", "1", row_orders(errors_of(rates))});
   return {"work-precision.slow-motion-is-second-order.A",
-          "However large the damping, A's error on the slow motion is of second order in the step.",
+          "At a damping ratio of 20, A's error on the slow motion is of second order in the step, "
+          "whether or not the step resolves the damping.",
           {{worst.value(), 0.1, 0, "1", "a method of first order is off by 1"},
            evidence,
            "measured is the largest |order - 2| of all pairs, from h c/2 = 32 down"}};

@@ -81,3 +81,56 @@ class FrictionBeyondTheCone(OnPlanes):
 class FrictionHalved(OnPlanes):
     def kept(self, most: np.ndarray, speed: np.ndarray) -> np.ndarray:
         return super().kept(most / 2, speed)
+
+
+class OnBoxes(ToySolver):
+    """Particles that end a step in a box leave it by the nearest face, and stop there."""
+
+    capabilities = (*ToySolver.capabilities, "boxes")
+    checked_each = 1  # steps
+
+    def prepare(self, scene: Scene) -> dict[str, str]:
+        self.boxes, self.steps = scene.header["scene"].get("boxes", []), 0
+        return super().prepare(scene)
+
+    def advance(self, dt: float, steps: int) -> None:
+        for _ in range(steps):
+            super().advance(dt, 1)
+            self.steps += 1
+            if self.steps % self.checked_each == 0:
+                for box in self.boxes:
+                    self.leave(box)
+
+    def leave(self, box: dict) -> None:
+        half, out = np.array(box["half_extents"]), self.x - np.array(box["centre"])
+        depth = half - np.abs(out)
+        for i in np.flatnonzero(np.all(depth > 0, axis=1)):
+            c = np.argmin(depth[i])
+            self.x[i, c] = box["centre"][c] + np.copysign(half[c], out[i, c])
+            self.v[i, c] = 0
+
+
+class OnBoxesNowAndThen(OnBoxes):
+    """A search for contacts in every fourth step, to save time."""
+
+    checked_each = 4
+
+
+class ParticlesRepelAlone(ToySolver):
+    """Against itself: particles nearer than the thickness part, edges and triangles are nothing."""
+
+    capabilities = (*ToySolver.capabilities, "self_collision")
+
+    def prepare(self, scene: Scene) -> dict[str, str]:
+        self.thickness = scene.header["scene"].get("thickness", 0)
+        return super().prepare(scene)
+
+    def advance(self, dt: float, steps: int) -> None:
+        for _ in range(steps):
+            super().advance(dt, 1)
+            apart = self.x[:, None] - self.x
+            near = np.linalg.norm(apart, axis=2) < self.thickness
+            np.fill_diagonal(near, False)
+            for i, j in np.argwhere(near):
+                push = (self.thickness - np.linalg.norm(apart[i, j])) / 2
+                self.x[i] += push * apart[i, j] / np.linalg.norm(apart[i, j])

@@ -80,6 +80,16 @@ class BendsFourfold(Bends):
     rigidity = 4.0
 
 
+class BendsUprightOnly(Bends):
+    """The theory of small deflections: bending resists height alone, whatever the slope. Turned
+    sheets are bent the wrong way, and steep ones too little."""
+
+    def forces(self) -> np.ndarray:
+        bending = self.bending @ self.x
+        bending[:, :2] = 0
+        return super(Bends, self).forces() - bending
+
+
 class Damped(ToySolver):
     """Dampers along the edges, explicit: as the scene says."""
 

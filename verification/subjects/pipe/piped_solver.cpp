@@ -55,6 +55,11 @@ void add_scene(const PortableScene& scene, const SolverCommand& command, Request
     request.header["scene"]["planes"].push_back({{"point", list_of(plane.point)},
                                                  {"normal", list_of(plane.normal)},
                                                  {"friction", plane.friction}});
+  for (const PortableBox& box : scene.boxes)
+    request.header["scene"]["boxes"].push_back({{"centre", list_of(box.centre)},
+                                                {"half_extents", list_of(box.half_extents)},
+                                                {"friction", box.friction}});
+  if (scene.thickness > 0) request.header["scene"]["thickness"] = scene.thickness;
   if (!scene.extension.empty()) request.header["scene"]["extension"] = json::parse(scene.extension);
   std::vector<std::array<int, 2>> edges;
   for (const Edge& edge : scene.mesh.edges) edges.push_back({edge.a, edge.b});

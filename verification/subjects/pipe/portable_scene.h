@@ -25,6 +25,12 @@ struct PortablePlane {
   double friction = 0;    // mu, Coulomb's [1]
 };
 
+/// A fixed box, its edges along the axes.
+struct PortableBox {
+  Vector3 centre, half_extents;  // m
+  double friction = 0;           // mu, Coulomb's [1]
+};
+
 struct PortableScene {
   std::string name;
   TriangleMesh mesh;                  // with the rest shape
@@ -36,8 +42,10 @@ struct PortableScene {
   std::vector<double> rest_angles = {};    // one a hinge [rad]; empty: all flat
   double dt = 0;                           // s
   std::vector<PortablePlane> planes = {};  // for solvers of capability "planes"
-  bool own_masses = false;                 // masses are other than the density's
-  std::string extension = {};              // JSON for solvers that know it; "" for none
+  std::vector<PortableBox> boxes = {};     // for solvers of capability "boxes"
+  double thickness = 0;        // of the cloth against itself [m]; for capability "self_collision"
+  bool own_masses = false;     // masses are other than the density's
+  std::string extension = {};  // JSON for solvers that know it; "" for none
 };
 
 /// Stiffness of the spring along each edge, Y A_e/L0^2 of the rest shape [N/m]; E values.

@@ -102,13 +102,23 @@ void read_extension(const Json& extension, Scene& scene) {
 }
 
 /// A half space whose solid is below the plane.
-SceneObject object_of(const Json& plane) {
+SceneObject plane_of(const Json& plane) {
   const Eigen::Quaterniond turn =
       Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), vector_of(plane.at("normal")));
   SceneObject part;
   part.object =
       Object{"plane", RigidObject{HalfSpace{}, Pose{turn, vector_of(plane.at("point"))}, Motion{}},
              plane.at("friction")};
+  return part;
+}
+
+SceneObject box_of(const Json& box) {
+  SceneObject part;
+  part.object = Object{
+      "box",
+      RigidObject{Box{vector_of(box.at("half_extents"))},
+                  Pose{Eigen::Quaterniond::Identity(), vector_of(box.at("centre"))}, Motion{}},
+      box.at("friction")};
   return part;
 }
 
@@ -123,7 +133,11 @@ void read_material(const Message& message, Scene& scene) {
     scene.bending =
         BendingMaterial{4 * m.at("bending_rigidity").get<double>(), m.at("bending_damping")};
   for (const Json& plane : constants.value("planes", Json::array()))
-    scene.objects.push_back(object_of(plane));
+    scene.objects.push_back(plane_of(plane));
+  for (const Json& box : constants.value("boxes", Json::array()))
+    scene.objects.push_back(box_of(box));
+  if (const double thickness = constants.value("thickness", 0.0); thickness > 0)
+    scene.self_collision = SelfCollisionSettings{.thickness = thickness};
   for (const int i : message.integers.at("held"))
     scene.prescribed.push_back({i, Vector3(scene.x.col(i)), Motion{}});
 }

@@ -20,13 +20,16 @@ struct Law {
 /// Smoke laws first.
 std::vector<Law> portable_laws();
 
-std::vector<Law> motion_laws();       // smoke, rest, inertia, gravity, momentum, held particles
-std::vector<Law> symmetry_laws();     // translation, rotation, mirror, numbering
-std::vector<Law> repeat_laws();       // determinism, state, order, precision
-std::vector<Law> force_laws();        // level 2: sums, weight, energy
-std::vector<Law> calibration_laws();  // effective moduli
-std::vector<Law> vibration_laws();    // period and decay
-std::vector<Law> contact_laws();      // capability "planes": resting, friction
+std::vector<Law> motion_laws();          // smoke, rest, inertia, gravity, momentum, held particles
+std::vector<Law> symmetry_laws();        // translation, rotation, mirror, numbering
+std::vector<Law> repeat_laws();          // determinism, state, order, precision
+std::vector<Law> force_laws();           // level 2: sums, weight, energy
+std::vector<Law> calibration_laws();     // effective moduli
+std::vector<Law> vibration_laws();       // period and decay
+std::vector<Law> cantilever_laws();      // a heavy strip at rest
+std::vector<Law> contact_laws();         // capability "planes": resting, friction
+std::vector<Law> self_collision_laws();  // capability "self_collision"
+std::vector<Law> tunnelling_laws();  // capability "boxes": a thin one stops what is thrown at it
 
 /// The outcome of a trial.
 struct Judgement {

@@ -12,12 +12,15 @@ const version =
 class SoftBody extends Solver {
   name = 'Jolt soft body'; version = version; precision = 'f4';
   scheme = 'position based, with compliance'; order = 0;
+  capabilities = ['set_state', 'held', 'masses', 'planes', 'boxes'];
+  obstacles = [];
 
   constructor() {
     super();
     const settings = new Jolt.JoltSettings();
     settings.mMaxWorkerThreads = 1;
     const pairs = new Jolt.ObjectLayerPairFilterTable(1);
+    pairs.EnableCollision(0, 0);
     const layers = new Jolt.BroadPhaseLayerInterfaceTable(1, 1);
     layers.MapObjectToBroadPhaseLayer(0, new Jolt.BroadPhaseLayer(0));
     settings.mObjectLayerPairFilter = pairs;
@@ -42,16 +45,36 @@ class SoftBody extends Solver {
     const creation = new Jolt.SoftBodyCreationSettings(sheet, origin, unturned, 0);
     Object.assign(creation, {
       mNumIterations: iterations, mLinearDamping: 0, mMaxLinearVelocity: 1e6, mPressure: 0,
-      mUpdatePosition: false, mMakeRotationIdentity: false, mAllowSleeping: false,
+      mFriction: 1, mUpdatePosition: false, mMakeRotationIdentity: false, mAllowSleeping: false,
     });
+    this.place_obstacles(scene.header);
     this.body = this.bodies.CreateSoftBody(creation);
     this.bodies.AddBody(this.body.GetID(), Jolt.EActivation_Activate);
     this.motion = Jolt.castObject(this.body.GetMotionProperties(), Jolt.SoftBodyMotionProperties);
     this.set_state(scene.x, scene.v);
     return {
       stretch: `each edge's compliance is ${scale} over its stiffness [m/N]`,
-      damping: 'none but that of the method', step: `${iterations} substeps`,
+      damping: 'none but that of the method', contact: 'friction mu^2, mean of it and 1: mu',
+      step: `${iterations} substeps`,
     };
+  }
+
+  place_obstacles({ planes = [], boxes = [] }) {
+    const unturned = Jolt.Quat.prototype.sIdentity();
+    const add = (shape, place, friction) => {
+      const creation = new Jolt.BodyCreationSettings(
+        shape, new Jolt.RVec3(...place), unturned, Jolt.EMotionType_Static, 0);
+      creation.mFriction = friction ** 2;  // Jolt takes the geometric mean of two bodies
+      const obstacle = this.bodies.CreateBody(creation);
+      this.bodies.AddBody(obstacle.GetID(), Jolt.EActivation_DontActivate);
+      this.obstacles.push(obstacle);
+    };
+    for (const { point, normal, friction } of planes) {
+      const plane = new Jolt.Plane(new Jolt.Vec3(...normal), 0);
+      add(new Jolt.PlaneShapeSettings(plane).Create().Get(), point, friction);
+    }
+    for (const { centre, half_extents, friction } of boxes)
+      add(new Jolt.BoxShape(new Jolt.Vec3(...half_extents), 0), centre, friction);
   }
 
   /// Particles, faces and edges of the scene.
@@ -78,11 +101,12 @@ class SoftBody extends Solver {
   }
 
   remove() {
-    if (!this.body) return;
-    const id = this.body.GetID();
-    this.bodies.RemoveBody(id);
-    this.bodies.DestroyBody(id);
-    this.body = null;
+    for (const body of this.body ? [this.body, ...this.obstacles] : []) {
+      const id = body.GetID();
+      this.bodies.RemoveBody(id);
+      this.bodies.DestroyBody(id);
+    }
+    this.body = null, this.obstacles = [];
   }
 
   set_state(x, v) {
