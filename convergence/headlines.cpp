@@ -16,6 +16,7 @@ const std::vector<Headline> headlines = {
     {"time-order.hinge", {"A", "B", "C", "B-is-second-order-with-variable-steps"}},
     {"time-order.sheet", {"A", "B", "C", "B-is-second-order-with-variable-steps"}},
     {"work-precision", {"mixed-steps-are-larger", "C-needs-shorter-steps", "cheapest-steps-last"}},
+    {"long-contact", {"limit-lasts", "twice-the-limit-does-not-last", "longer-steps-cost-more"}},
     {"solve-tolerance", {"default-tolerance-preserves-the-order"}},
     {"mesh-error", {"usual-step-error-is-below-a-tenth-of-it"}},
     {"momentum-drift",
@@ -86,7 +87,7 @@ const std::vector<Headline> headlines = {
     {"folding-inside-objects", {"more-folds-when-allowed-inside", "same-folds-over-a-ball"}},
     {"forecast-time",
      {"exact-on-a-plane", "second-order-on-a-resting-ball", "second-order-on-a-moving-ball",
-      "second-order-on-a-turning-ball"}},
+      "second-order-on-a-turning-ball", "second-order-on-a-turning-plane"}},
     {"resting-contact", {"quieter-than-push-out", "projection-is-as-quiet"}},
     {"pointwise-contact",
      {"edge-penetration-is-second-order", "edge-penetration-is-within-the-chord",
@@ -108,7 +109,10 @@ const std::vector<Headline> headlines = {
     {"free-fold", {"height-agrees", "is-second-order", "floor-only-pushes"}},
     {"lateral-buckling", {"load-agrees", "isotropic-sheet-differs"}},
     {"hanging-chain", {"sag-and-pull-agree", "frequency-agrees"}},
-    {"friction-tests", {"threshold-agrees", "slide-agrees", "belt-agrees"}}};
+    {"friction-tests", {"threshold-agrees", "slide-agrees", "belt-agrees"}},
+    {"cusick-drape",
+     {"coefficient-grows-with-bending-length", "fold-number-follows-the-start",
+      "folds-change-the-coefficient"}}};
 
 }  // namespace
 

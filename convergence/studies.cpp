@@ -22,6 +22,7 @@ std::vector<Study> all_studies() {
           work_precision_study(),
           price_by_scene_study(),
           solve_tolerance_study(),
+          long_contact_study(),
           mesh_error_study(),
           momentum_drift_study(),
           cg_iterations_study(),
@@ -68,6 +69,7 @@ std::vector<Study> all_studies() {
           lateral_buckling_study(),
           hanging_chain_study(),
           friction_tests_study(),
+          cusick_drape_study(),
           fabric_strip_study()};
 }
 

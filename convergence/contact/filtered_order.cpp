@@ -167,8 +167,9 @@ Study filtered_order_study() {
           "A sheet falls on a ball and slides on it; another hangs on springs that reach their "
           "limits. A contact begins somewhere within a step, but acts from the step's start or "
           "end: that shifts the motion by part of a step, and all that follows errs by first "
-          "order. Strain limits, too, stop springs at one end of the step. By how much is chance, "
-          "so the differences are averaged over starts that differ a little.",
+          "order. Strain limits, too, stop springs at one end of the step; in the shortest steps "
+          "of the full tier their differences no longer fall. By how much is chance, so the "
+          "differences are averaged over starts that differ a little.",
           run_filtered_order};
 }
 

@@ -280,14 +280,15 @@ StudyResult run_octree_memory(const Subject&, Tier tier, const Progress& progres
 }  // namespace
 
 Study octree_memory_study() {
-  return {"octree-memory",
-          "An octree takes less memory than a regular grid of the same error on boxes and bumpy "
-          "bodies; on a sphere and a torus more at 64 cells along each axis, and less from 128 on.",
-          "BMF03 section 5.1",
-          "How much does adaptive sampling save? For bodies with even curvature, sharp edges and "
-          "bumps, a regular grid and the coarsest octree with no larger error, both in double "
-          "precision. The octree may use cells of half the grid's width where it needs them.",
-          run_octree_memory};
+  return {
+      "octree-memory",
+      "An octree takes less memory than a regular grid of the same error on a box and on a bumpy "
+      "body; on a sphere and on a torus more at 64 cells along each axis, and less from 128 on.",
+      "BMF03 section 5.1",
+      "How much does adaptive sampling save? For bodies with even curvature, sharp edges and "
+      "bumps, a regular grid and the coarsest octree with no larger error, both in double "
+      "precision. The octree may use cells of half the grid's width where it needs them.",
+      run_octree_memory};
 }
 
 }  // namespace foldproof

@@ -240,7 +240,7 @@ Study frame_long_steps_study() {
           "the number of particles.",
           "Baraff and Witkin (1998); Choi and Ko (2002)",
           "A sheet held at two corners falls and swings. Steps are a thirtieth of a second, up to "
-          "hundreds of times the elastic limit.",
+          "more than a thousand times the elastic limit.",
           run_frame_long_steps};
 }
 

@@ -96,25 +96,29 @@ void add_lags_of_long_steps(const Subject& subject, StudyResult& result) {
 }
 
 Table lags_over_stiffness(const Subject& subject, Tier tier) {
-  Table lags{{"stiffness", "N/m"},
+  Table lags{{"scheme", "1"},
+             {"stiffness", "N/m"},
              {"plain spring, mean lag", "m"},
              {"plain spring, swing over m a/k", "1"},
              {"with forecasts, lag", "m"},
              {"derived", "m"},
              {"with forecasts, swing over m a/k", "1"}};
-  for (const double k : geometric_range(10, 1e4, tier == Tier::quick ? 4 : 10)) {
-    // critical damping
-    const double omega = std::sqrt(k / particle_mass), tau = 2 / omega, h = 0.02 / omega;
-    const Lag without = measured_lag(subject, "C", k, 0, h),
-              with = measured_lag(subject, "C", k, tau, h);
-    lags.row(k, without.mean, without.swing, with.mean, derived_lag("C", k, tau, h), with.swing);
-  }
+  for (const std::string scheme : {"A", "B", "C"})
+    for (const double k : geometric_range(10, 1e4, tier == Tier::quick ? 4 : 10)) {
+      // critical damping
+      const double omega = std::sqrt(k / particle_mass), tau = 2 / omega, h = 0.02 / omega;
+      const Lag without = measured_lag(subject, scheme, k, 0, h),
+                with = measured_lag(subject, scheme, k, tau, h);
+      lags.row(scheme, k, without.mean, without.swing, with.mean, derived_lag(scheme, k, tau, h),
+               with.swing);
+    }
   return lags;
 }
 
-Figure lag_figure(const Table& lags) {
+Figure lag_figure(const Table& by_scheme) {
+  const Table lags = group_of(by_scheme, "scheme", "C");
   return {"lag",
-          "How far what sticks to a turntable lags behind",
+          "How far what sticks to a turntable lags behind, scheme C",
           {"stiffness", "N/m", Scale::log},
           {"lag", "m", Scale::log},
           -1,
@@ -127,8 +131,8 @@ Figure lag_figure(const Table& lags) {
 
 NamedFinding lag_finding(const Table& lags) {
   return {"sticking-lag.lag-is-m-a-over-k",
-          "With forecasts a particle on a turntable lags by m a/|k (1 + i omega tau_s) - m "
-          "omega^2|: m a/k where it is stiff.",
+          "With forecasts a particle on a turntable lags under A, B and C by m a/|k (1 + i omega "
+          "tau_s) - m omega^2|, in short steps: m a/k where it is stiff.",
           {{largest_deviation(lags, "with forecasts, lag", "derived"), 2e-3, 0, "1",
             "k falls by 2 (lag/far)^2, at most 6e-4 here, and steps of 0.02/omega err by their "
             "square; another law of k or of a is off by a factor"},
@@ -139,7 +143,7 @@ NamedFinding lag_finding(const Table& lags) {
 NamedFinding swing_finding(const Table& lags) {
   return {"sticking-lag.forecasts-damp-the-swing",
           "With critical forecasts, tau_s = 2/omega, a stuck particle comes to rest relative to "
-          "its bond.",
+          "its bond under A, B and C.",
           judge_worst(lags, 1e-3, "twelve times 2/omega leave (1 + 12) e^-12 = 8e-5 of m a/k")};
 }
 

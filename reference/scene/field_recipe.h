@@ -8,6 +8,7 @@
 
 #include "reference/bodies/level_set_provider.h"
 #include "reference/level_set/object.h"
+#include "reference/mesh/box_tree.h"
 
 namespace foldproof {
 
@@ -38,10 +39,22 @@ struct AnimationRecipe {
 struct FieldRecipe {
   std::variant<GridRecipe, OctreeRecipe, ExactRecipe, AnimationRecipe> of;
   std::string where;  // "file:line" of the key that sets its resolution; for error messages
+  // of grids and octrees of one mesh: the largest error that is allowed, whatever cells that takes
+  // (field_accuracy.h); 0: the cells of the recipe [m]
+  double accuracy = 0;
 };
 
-/// Gives the body the field that the recipe describes. Throws InputError with the recipe's place
-/// for a field that is too fine, and whatever the provider throws.
+/// An octree about the bounds, its finest cells `cell` [m] wide and the bounds four of them away
+/// from its sides. Cells that may hold the surface are no wider than four finest ones, and the band
+/// is three to either side. tolerance [m]. Throws InputError for more than 2^20 cells.
+OctreeSettings octree_about(const Bounds& bounds, double cell, double tolerance);
+
+/// Gives the body the field that the recipe describes. Throws InputError with the recipe's
+/// place for a field that is too fine or an accuracy that cannot be had, and whatever the
+/// provider throws.
 void make_field(const FieldRecipe& recipe, const LevelSetProvider& level_sets, Body& body);
+
+/// Cells, measured error and bytes of a field that was built for an accuracy; "" for others.
+std::string accuracy_report(const FieldRecipe& recipe, const Body& body);
 
 }  // namespace foldproof

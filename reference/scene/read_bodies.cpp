@@ -39,20 +39,23 @@ double read_cell(const KeyTable& keys, const PerParticle3& x) {
   return bounds_of(x).sizes().maxCoeff() / double(count_or(keys, "cells", 64));
 }
 
-/// An octree about the bounds, its finest cells `cell` [m] wide and the bounds four of them away
-/// from its sides. By default it may miss a tenth of a cell: what a finest cell misses of a surface
-/// of 2.5 cells' radius r, cell^2/(4 r). Cells that may hold the surface are no wider than four
-/// finest ones, and the band is three to either side.
+/// By default the octree may miss a tenth of a cell: what a finest cell misses of a surface of 2.5
+/// cells' radius r, cell^2/(4 r).
 OctreeSettings read_octree(const KeyTable& keys, const Bounds& bounds, double cell) {
-  const double least = bounds.sizes().maxCoeff() / cell + 8;
-  const double levels = std::ceil(std::log2(least));
-  if (!(levels <= 20))
-    throw InputError(keys.where("cells") + ": 'cells' must be below 2^20 for an octree");
-  const int depth = std::max(2, int(levels));
-  const double width = std::ldexp(cell, depth);
-  const Vector3 corner = bounds.center() - Vector3::Constant(width / 2);
   const double tolerance = positive_or(keys, "tolerance", cell / 10);
-  return {corner, width, depth, depth - 2, tolerance, 3 * cell, 0.25, 0, HangingNodes::constrained};
+  return with_error_location(keys.where("cells"),
+                             [&] { return octree_about(bounds, cell, tolerance); });
+}
+
+/// The largest error that is allowed, whatever `cells` says [m]; 0: none is given.
+double read_accuracy(const KeyTable& keys, bool is_stored, Repair repair) {
+  if (!keys.has("accuracy")) return 0;
+  if (!is_stored)
+    throw InputError(keys.where("accuracy") + ": field = \"exact\" has no error to choose");
+  if (repair == Repair::winding)
+    throw InputError(keys.where("accuracy") +
+                     ": a mesh that is repaired has no exact distance to compare with");
+  return positive(keys, "accuracy");
 }
 
 /// The refusal of make_closed_mesh with what the frame is called, and another remedy: no repair
@@ -78,8 +81,9 @@ void reject_links_outside(const std::string& folder, const std::string& case_fol
 
 /// The recipe with the place of the key that says how fine the field is.
 template <class Recipe>
-std::shared_ptr<const FieldRecipe> recipe_of(const KeyTable& keys, Recipe of) {
-  return std::make_shared<const FieldRecipe>(FieldRecipe{std::move(of), keys.where("cells")});
+std::shared_ptr<const FieldRecipe> recipe_of(const KeyTable& keys, Recipe of, double accuracy = 0) {
+  const std::string where = keys.where(accuracy > 0 ? "accuracy" : "cells");
+  return std::make_shared<const FieldRecipe>(FieldRecipe{std::move(of), where, accuracy});
 }
 
 MeshSequence read_frames(const KeyTable& keys, const CaseContext& context) {
@@ -146,6 +150,7 @@ BodyShape read_mesh_body(const KeyTable& keys, const CaseContext& context) {
       keys, "field", {{"grid", Field::grid}, {"octree", Field::octree}, {"exact", Field::exact}});
   const auto repair =
       choice<Repair>(keys, "repair", {{"refuse", Repair::refuse}, {"winding", Repair::winding}});
+  const double accuracy = read_accuracy(keys, field != Field::exact, repair);
   // known to all fields, so that one --set changes between them
   const int cells = int(count_or(keys, "cells", 64));
   ObjectSurface surface{soup.rest, soup.triangles};
@@ -153,7 +158,7 @@ BodyShape read_mesh_body(const KeyTable& keys, const CaseContext& context) {
     if (repair == Repair::refuse) make_closed_mesh(soup);  // for its refusals
     const GridMethod method{cells, 4, 3, MarchingOrder::second};
     return {GridSolid{}, std::move(surface),
-            recipe_of(keys, GridRecipe{std::move(soup), method, repair})};
+            recipe_of(keys, GridRecipe{std::move(soup), method, repair}, accuracy)};
   }
   if (repair != Repair::refuse)
     throw InputError(
@@ -164,7 +169,7 @@ BodyShape read_mesh_body(const KeyTable& keys, const CaseContext& context) {
     const OctreeSettings settings =
         read_octree(keys, bounds_of(mesh.rest), read_cell(keys, mesh.rest));
     return {OctreeSolid{}, std::move(surface),
-            recipe_of(keys, OctreeRecipe{mesh.rest, mesh.triangles, settings})};
+            recipe_of(keys, OctreeRecipe{mesh.rest, mesh.triangles, settings}, accuracy)};
   }
   return {MeshSolid{}, std::move(surface), recipe_of(keys, ExactRecipe{mesh.rest, mesh.triangles})};
 }

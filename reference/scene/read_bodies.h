@@ -31,9 +31,9 @@ struct BodyShape {
 /// True if the body deforms: `frames` or [[object.deform]]?
 bool is_deforming(const KeyTable& keys);
 
-/// `shape = "statue"` or `mesh`, as the exact distance, a grid or an octree of
-/// it: `field`, `cells`, `tolerance`. Throws InputError for a mesh that is not
-/// closed, unless it is to be repaired.
+/// `shape = "statue"` or `mesh`, as the exact distance, a grid or an octree of it: `field`,
+/// `cells`, `tolerance`, or `accuracy`. Throws InputError for a mesh that is not closed, unless it
+/// is to be repaired.
 BodyShape read_mesh_body(const KeyTable& keys, const CaseContext& context);
 
 struct DeformingShape {

@@ -47,6 +47,7 @@ WHOLE_TABLE, WHOLE_STUDY_TABLE = 12, 60  # rows; longer tables show FIRST_ROWS a
 FIRST_ROWS, LAST_ROWS = 7, 3
 FIRST_STUDIES = (
     "work-precision",
+    "long-contact",
     "stability-oscillator",
     "stability-sheet",
     "variable-step-stability",

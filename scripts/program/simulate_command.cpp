@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "reference/scene/field_recipe.h"
 #include "scripts/program/commands.h"
 #include "scripts/program/command_line/input_files.h"
 #include "scripts/program/interruption.h"
@@ -126,6 +127,10 @@ int simulate_case(const Options& options) {
   log_warnings(scene);
   log_line(
       fmt::format("{}: {}", scene.name, fmt::join(describe_parts(scene, of.built.system), "; ")));
+  for (std::size_t k = 0; k < scene.objects.size(); ++k)
+    if (const auto& field = scene.objects[k].field)
+      if (const std::string text = accuracy_report(*field, of.built.objects[k].body); !text.empty())
+        log_line(fmt::format("object '{}': {}", scene.objects[k].object.name, text));
   try {
     return report(run_of(of, options), options);
   } catch (const Interrupted& interrupted) {

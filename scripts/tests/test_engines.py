@@ -64,15 +64,16 @@ class Bullet(unittest.TestCase):
             self.assertEqual(done.returncode, 0, done.stdout)
 
     def test_deformable_bodies_meet_every_law_but_those_of_one_stiffness_an_edge(self) -> None:
-        for settings in ((), ("--settings", "implicit=0")):
-            self.require(self.judged("bullet_deformable", *settings), MODULI)
+        self.require(self.judged("bullet_deformable"), MODULI)
+        self.require(self.judged("bullet_deformable", "--settings", "implicit=0"),
+                     MODULI | {"tunnelling.thin-box-stops-a-slow-sheet"})
 
     def test_position_based_bodies_depend_on_the_numbering(self) -> None:
         self.require(self.judged("bullet_position_based"),
                      {"inertia.free-sheet-keeps-its-velocity", "gravity.speed-grows-by-g-t",
                       "gravity.fall-is-as-exact-as-the-order-claims", "symmetry.renumbering",
                       "momentum.angular-drift-falls-with-the-step",
-                      "vibration.undamped-goes-on"} | MODULI)
+                      "vibration.undamped-goes-on", "contact.slides-as-coulomb-says"} | MODULI)
 
     def test_what_its_page_records_is_seen_without_the_adapter(self) -> None:
         program = ROOT / "build" / "engines" / "bullet_laws"
@@ -95,7 +96,7 @@ class Npm(unittest.TestCase):
     """Engines that npm has, in the version that scripts/engines pins."""
 
     name, version = "jolt", "1.1.0"
-    applicable = 26  # laws
+    applicable = 27  # laws
     failing = {"": set()}  # what fails, by setting
 
     @classmethod
@@ -126,7 +127,7 @@ class Jolt(Npm):
 
 
 class MuJoCo(Npm):
-    name, version, applicable = "mujoco", "3.14.0", 29
+    name, version, applicable = "mujoco", "3.14.0", 30
     failing = {
         "": {MODULUS},
         "integrator=RK4": {MODULUS},

@@ -223,6 +223,16 @@ class GravityScaledInSingle(Single):
         return mapping
 
 
+class HeldSheetsWeighTwice(ToySolver):
+    """Gravity is added once more where particles are held."""
+
+    def prepare(self, scene: Scene) -> dict[str, str]:
+        mapping = super().prepare(scene)
+        if len(self.held):
+            self.gravity = 2 * self.gravity
+        return mapping
+
+
 KINDS = {
     "bends": materials.Bends,
     "on_planes": contact.OnPlanes,
@@ -264,6 +274,7 @@ KINDS = {
     "random": Random,
     "knows_its_axes": KnowsItsAxes,
     "depends_on_numbers": DependsOnNumbers,
+    "held_sheets_weigh_twice": HeldSheetsWeighTwice,
     "held_loosely": HeldLoosely,
     "energy_halved": EnergyHalved,
     "pre_stressed": PreStressed,

@@ -19,17 +19,21 @@ struct BulletBody : Solver {
   btSoftBodyWorldInfo info;
   btSoftBody* body = nullptr;
   btVector3 gravity;
+  std::vector<std::unique_ptr<btCollisionShape>> shapes;  // of the obstacles
+  std::vector<std::unique_ptr<btRigidBody>> obstacles;
 
   explicit BulletBody(const char* name) {
     const int version = btGetVersion();
     declared.name = name;
     declared.version = std::to_string(version / 100) + "." + std::to_string(version % 100);
-    declared.capabilities = {"set_state", "held", "masses"};
+    declared.capabilities = {"set_state", "held", "masses", "planes", "boxes"};
   }
   ~BulletBody() override { clear(); }
 
   void clear() {
     if (body) world->removeCollisionObject(body);
+    for (const auto& obstacle : obstacles) world->removeCollisionObject(obstacle.get());
+    obstacles.clear(), shapes.clear();
     delete body;
     body = nullptr;
     world.reset(), constraints.reset();
@@ -50,6 +54,7 @@ struct BulletBody : Solver {
     broadphase = std::make_unique<btDbvtBroadphase>();
     info.m_broadphase = broadphase.get(), info.m_dispatcher = &dispatcher;
     info.m_gravity = gravity, info.air_density = 0, info.water_density = 0;
+    info.m_sparsesdf.Initialize();
     info.m_maxDisplacement = 1e9;  // m; a step's velocity is cut to it over dt
     add_body(scene);
   }
@@ -74,9 +79,38 @@ struct BulletBody : Solver {
     for (size_t t = 0; t + 2 < triangles.size(); t += 3)
       body->appendFace(triangles[t], triangles[t + 1], triangles[t + 2]);
     body->m_bUpdateRtCst = false;  // else the first step takes the start for the rest lengths
-    body->m_cfg.kDP = body->m_cfg.kDF = body->m_cfg.kDG = body->m_cfg.kLF = 0;
+    body->m_cfg.kDP = body->m_cfg.kDG = body->m_cfg.kLF = 0;
+    body->m_cfg.kDF = 1;  // times the obstacle's friction
+    body->getCollisionShape()->setMargin(1e-4);
     body->m_sleepingThreshold = 0;
     body->setActivationState(DISABLE_DEACTIVATION);
+  }
+
+  static btVector3 vector(const Json& list) { return {list[0], list[1], list[2]}; }
+
+  void place(const btVector3& half_extents, const btTransform& pose, double friction) {
+    shapes.push_back(std::make_unique<btBoxShape>(half_extents));
+    shapes.back()->setMargin(0);
+    obstacles.push_back(std::make_unique<btRigidBody>(0, nullptr, shapes.back().get()));
+    obstacles.back()->setWorldTransform(pose);
+    obstacles.back()->setFriction(friction);
+    world->addCollisionObject(obstacles.back().get());
+  }
+
+  /// Soft bodies of Bullet meet convex shapes alone: a plane is the side of a box of `far`. The
+  /// world must be made, and the body in it.
+  void place_obstacles(const Scene& scene) {
+    constexpr double far = 5;  // m
+    const Json& constants = scene.header["scene"];
+    for (const Json& plane : constants.value("planes", Json::array())) {
+      const btVector3 normal = vector(plane["normal"]);
+      const btQuaternion turn = shortestArcQuat(btVector3(0, 0, 1), normal);
+      const btTransform pose(turn, vector(plane["point"]) - far * normal);
+      place({far, far, far}, pose, plane["friction"]);
+    }
+    for (const Json& box : constants.value("boxes", Json::array()))
+      place(vector(box["half_extents"]),
+            btTransform(btQuaternion::getIdentity(), vector(box["centre"])), box["friction"]);
   }
 
   void set_state(Numbers new_x, Numbers new_v, double new_time) override {

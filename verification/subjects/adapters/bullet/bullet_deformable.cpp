@@ -47,9 +47,12 @@ struct Deformable : BulletBody {
     made->setLineSearch(false);
     made->setUseProjection(true);  // without it, implicit cloth does not move
     made->addSoftBody(body);
+    body->m_cfg.collisions = btSoftBody::fCollision::SDF_RD | btSoftBody::fCollision::SDF_RDN;
+    body->m_cfg.kKHR = 1;  // of fixed obstacles, too, nodes are pushed out fully
     made->addForce(body, springs.get());
     made->addForce(body, weight.get());
     constraints = std::move(solver), world = std::move(made);
+    place_obstacles(scene);
     return {{"stretch", "one stiffness [N/m] for all edges, the mean of the scene's"},
             {"damping", "one damper [N s/m] for all edges, along them"},
             {"step", implicit ? "backward Euler, one Newton iteration" : "symplectic Euler"}};

@@ -19,6 +19,7 @@ struct PositionBased : BulletBody {
     body->updateLinkConstants();
     made->addSoftBody(body);
     world = std::move(made);
+    place_obstacles(scene);
     return {{"stretch", "kLST = 1: as stiff as the iterations make it; Young's modulus is ignored"},
             {"damping", "none but that of the method"}};
   }

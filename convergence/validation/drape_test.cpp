@@ -1,0 +1,186 @@
+#include "convergence/validation/drape_test.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "convergence/validation/equilibrium.h"
+#include "verification/oracles/exact_crossings.h"
+#include "verification/specimens/specimens.h"
+
+namespace foldproof {
+
+namespace {
+
+constexpr double g = 9.80665;                                  // m/s^2
+constexpr double ring_width = specimen_radius - plate_radius;  // m
+
+/// Ring j has 6 j vertices, from `first`, which is half a row inside the plate, to
+/// `last`, the edge.
+struct Rings {
+  int first, last;
+  double spacing;  // m
+
+  double radius(int j) const { return plate_radius + (j - first - 0.5) * spacing; }
+};
+
+/// Triangles are equilateral halfway between the rim and the edge.
+Rings rings_of(int rows) {
+  const double spacing = ring_width / (rows + 0.5);
+  const double middle = (specimen_radius + plate_radius) / 2 * std::numbers::sqrt3 / 2;
+  // 6 j edges of length spacing / (sqrt(3)/2) around the middle
+  const double j = 2 * pi * middle / (6 * spacing);
+  const int first = int(std::lround(j - (rows + 0.5) / 2 - 0.5));
+  return {first, first + rows + 1, spacing};
+}
+
+TriangleMesh ring_mesh(const Rings& rings) {
+  const auto start = [&](int j) { return 3 * (j * (j - 1) - rings.first * (rings.first - 1)); };
+  const auto vertex = [&](int j, int k) { return start(j) + k % (6 * j); };
+  PerParticle3 rest(3, start(rings.last + 1));
+  for (int j = rings.first; j <= rings.last; ++j)
+    for (int k = 0; k < 6 * j; ++k) {
+      const double angle = 2 * pi * k / (6 * j);
+      rest.col(vertex(j, k)) = rings.radius(j) * Vector3(std::cos(angle), std::sin(angle), 0);
+    }
+  std::vector<Triangle> triangles;
+  for (int j = rings.first; j < rings.last; ++j)
+    for (int sector = 0; sector < 6; ++sector)
+      for (int k = 0; k <= j; ++k) {
+        const int inner = sector * j + k, outer = sector * (j + 1) + k;
+        triangles.push_back({vertex(j, inner), vertex(j + 1, outer), vertex(j + 1, outer + 1)});
+        if (k < j)
+          triangles.push_back({vertex(j, inner), vertex(j + 1, outer + 1), vertex(j, inner + 1)});
+      }
+  return make_triangle_mesh(std::move(rest), std::move(triangles));
+}
+
+/// The rigidity of narrow strips of such a mesh over ke, in the mean of two directions [1].
+double rigidity_ratio() {
+  static const double ratio = [] {
+    const FabricOnMesh on =
+        fabric_on_mesh({"unit", "", "", "", "", 1, {1, 1}, nan, {}}, ring_mesh(rings_of(60)));
+    return on.rigidity_ratio * (1 + on.second_over_first) / 2;
+  }();
+  return ratio;
+}
+
+double largest_strain(const TriangleMesh& mesh, const PerParticle3& x) {
+  const Eigen::VectorXd rest = rest_lengths(mesh);
+  double largest = 0;
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
+    const double length = (x.col(mesh.edges[e].a) - x.col(mesh.edges[e].b)).norm();
+    largest = std::max(largest, std::abs(length / rest[Eigen::Index(e)] - 1));
+  }
+  return largest;
+}
+
+}  // namespace
+
+const std::vector<DrapeFabric>& drape_fabrics() {
+  static const std::vector<DrapeFabric> fabrics{{"wool", 5.29e-6, 0.168},
+                                                {"denim", 20.143504e-6, 0.324},
+                                                {"interlock", 4.682415e-6, 0.187},
+                                                {"ponte-roma", 9.188245e-6, 0.284},
+                                                {"rib-knit", 9.810185e-6, 0.276}};
+  return fabrics;
+}
+
+double bending_length(const DrapeFabric& fabric) {
+  return std::cbrt(fabric.rigidity / (fabric.density * g));
+}
+
+double weight_for(double rigidity, double bending_length) {
+  return rigidity / (g * std::pow(bending_length, 3));
+}
+
+Outline outline_of(const PerParticle3& x, const TriangleMesh& mesh, int directions) {
+  Outline outline(std::size_t(directions), plate_radius);
+  const double step = 2 * pi / directions;
+  for (const Edge& edge : mesh.edges) {
+    const Eigen::Vector2d a = x.col(edge.a).head<2>(), d = x.col(edge.b).head<2>() - a;
+    const double from = std::atan2(a.y(), a.x());
+    // the angle from a to b, to either side
+    const double by = std::atan2(a.x() * d.y() - a.y() * d.x(), a.dot(a + d));
+    const double low = std::min(from, from + by) / step, high = std::max(from, from + by) / step;
+    for (long k = long(std::ceil(low)); k <= long(std::floor(high)); ++k) {
+      const double c = std::cos(double(k) * step), s = std::sin(double(k) * step);
+      const double across = d.x() * s - d.y() * c;
+      if (across == 0) continue;
+      // a + t d lies on the ray
+      const double t = -(a.x() * s - a.y() * c) / across;
+      double& reach = outline[std::size_t(((k % directions) + directions) % directions)];
+      reach = std::max(reach, (a.x() + t * d.x()) * c + (a.y() + t * d.y()) * s);
+    }
+  }
+  return outline;
+}
+
+double coefficient_of(const Outline& outline) {
+  double squares = 0;
+  for (const double reach : outline) squares += reach * reach;
+  const double plate = plate_radius * plate_radius;
+  return (squares / double(outline.size()) - plate) / (specimen_radius * specimen_radius - plate);
+}
+
+int folds_of(const Outline& outline) {
+  constexpr double prominence = specimen_radius / 50;
+  // from the lowest point once around: up by the prominence, then down by it
+  const std::size_t n = outline.size();
+  const std::size_t first = std::size_t(std::ranges::min_element(outline) - outline.begin());
+  double low = outline[first], high = low;
+  bool rising = true;
+  int folds = 0;
+  for (std::size_t k = 1; k <= n; ++k) {
+    const double reach = outline[(first + k) % n];
+    if (rising) {
+      high = std::max(high, reach);
+      low = std::min(low, reach);
+      if (high - low > prominence && reach < high - prominence) {
+        ++folds;
+        rising = false;
+        low = reach;
+      }
+    } else {
+      low = std::min(low, reach);
+      if (reach > low + prominence) {
+        rising = true;
+        high = reach;
+      }
+    }
+  }
+  return folds;
+}
+
+Scene ring_of_cloth(const DrapeTest& test) {
+  const Rings rings = rings_of(test.rows);
+  Scene scene = scene_at_rest(ring_mesh(rings), test.fabric.density);
+  scene.bending = BendingMaterial{test.fabric.rigidity / rigidity_ratio(), 0, Weighting::rest,
+                                  DampingFactor::edge, "sine"};
+  scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
+  scene.stretch = StretchMaterial{test.stretch * test.fabric.density * g * ring_width, 0, 1};
+  scene.gravity = Vector3(0, 0, -g);
+  const double rim = rings.radius(rings.first + 1);
+  for (int i = 0; i < scene.mesh.particles(); ++i) {
+    const Vector3 at = scene.mesh.rest.col(i);
+    const double beyond = at.norm() - rim;
+    if (beyond < 0.5 * rings.spacing)
+      scene.prescribed.push_back({i, at, Motion{}});
+    else  // not along the mesh's own six axes
+      scene.x(2, i) += beyond * std::cos(test.waves * (std::atan2(at.y(), at.x()) - 0.1));
+  }
+  return scene;
+}
+
+Drape drape(const Subject& subject, const DrapeTest& test) {
+  const Scene scene = ring_of_cloth(test);
+  const Equilibrium rest = equilibrium_of(subject, scene);
+  Drape result{outline_of(rest.x, scene.mesh, 1440), 0, 0, rest.unbalanced, rest.stable, 0,
+               largest_strain(scene.mesh, rest.x)};
+  result.coefficient = coefficient_of(result.outline);
+  result.folds = folds_of(result.outline);
+  result.crossings = long(oracles::exact_crossings(rest.x, scene.mesh.triangles).size());
+  return result;
+}
+
+}  // namespace foldproof

@@ -1,0 +1,68 @@
+// The drape test: a disc of cloth between two smaller plates, its ring free to hang.
+#pragma once
+
+#include <vector>
+
+#include "reference/scene/fabrics.h"
+#include "reference/scene/scene.h"
+#include "verification/subject.h"
+
+namespace foldproof {
+
+// ISO 9073-9, BS 5058: the specimen's radius and that of the plates [m]
+constexpr double specimen_radius = 0.15, plate_radius = 0.09;
+
+/// What the test needs of a fabric.
+struct DrapeFabric {
+  const char* name;  // as in cases/fabrics.toml
+  double rigidity;   // B [N m]
+  double density;    // kg/m^2
+
+  bool operator==(const DrapeFabric&) const = default;
+};
+
+/// Those of cases/fabrics.toml, with the mean of their two rigidities.
+const std::vector<DrapeFabric>& drape_fabrics();
+
+/// (B/(density g))^(1/3): all that the shape depends on, besides the radii [m].
+double bending_length(const DrapeFabric& fabric);
+
+/// The density with which a rigidity [N m] has this bending length [m]; kg/m^2.
+double weight_for(double rigidity, double bending_length);
+
+/// How a test is run. The ring of cloth around the plates has `rows` and a half rows of nearly
+/// equilateral triangles. It starts level, but for waves around it that rise outward.
+struct DrapeTest {
+  DrapeFabric fabric;
+  int rows = 0;
+  int waves = 8;
+  double stretch = 300;  // Y of the springs over the weight per width of the ring [1]
+
+  bool operator==(const DrapeTest&) const = default;
+};
+
+/// The cloth from above, from outside in: how far its edge or a fold reaches in each of equally
+/// spaced directions [m].
+using Outline = std::vector<double>;
+
+struct Drape {
+  Outline outline;
+  double coefficient;  // shadow beyond the plate over that of the level ring [1]
+  int folds;           // highest points of the outline that stand out by a fiftieth of the radius
+  double unbalanced;   // see Equilibrium [1]
+  bool stable;
+  long crossings;         // pairs of an edge and a triangle that meet
+  double largest_strain;  // of an edge, as a size [1]
+};
+
+Outline outline_of(const PerParticle3& x, const TriangleMesh& mesh, int directions);
+double coefficient_of(const Outline& outline);
+int folds_of(const Outline& outline);
+
+/// The ring, with rows that are held by the plates up to half a row beyond their rim.
+Scene ring_of_cloth(const DrapeTest& test);
+
+/// Lets it settle.
+Drape drape(const Subject& subject, const DrapeTest& test);
+
+}  // namespace foldproof

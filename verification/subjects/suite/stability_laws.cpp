@@ -1,0 +1,76 @@
+// Steps that are too long: how far they can be doubled, and that short ones gain no energy.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "verification/subjects/suite/laws.h"
+#include "verification/subjects/suite/scenes.h"
+
+namespace foldproof {
+
+namespace {
+
+using namespace suite;
+
+constexpr double duration = 0.256;  // s
+constexpr double tolerance = 0.05;  // of the energy scale [1]
+
+/// The largest kinetic energy beyond what gravity has done, over m g size [1]. The sheet starts at
+/// rest in its rest shape, where its elastic energy is least; so a sheet that gains none has none,
+/// whatever its elastic law.
+double gained(Trial& trial, double step) {
+  PortableScene scene = hanging_sheet();
+  scene.dt = step;
+  const long steps = std::lround(duration / step), frames = std::min<long>(steps, 64);
+  std::vector<long> at;
+  for (long k = 1; k <= frames; ++k) at.push_back(k * steps / frames);
+  double worst = 0;
+  for (const Snapshot& now : trial.motion(scene, at)) {
+    const double kinetic = (now.v.colwise().squaredNorm() * scene.mass)[0] / 2;
+    const double work = scene.gravity.dot((now.x - scene.x) * scene.mass);
+    worst = std::max(worst, kinetic - work);
+  }
+  return worst / (scene.mass.sum() * scene.gravity.norm() * size_of(scene.x));
+}
+
+/// The same; NaN if the solver gives up on what has become unstable.
+double gained_or_failed(Trial& trial, double step) {
+  try {
+    return gained(trial, step);
+  } catch (const SolverFailure& failure) {
+    if (failure.cause != "error" && failure.cause != "nan") throw;
+    trial.restart();
+    return nan;
+  }
+}
+
+Finding small_steps_gain_no_energy(Trial& trial) {
+  trial.require("held");
+  const double usual = hanging_sheet().dt;
+  Table measured{
+      {"step", "s"}, {"gained energy", "m g size"}, {"gained in a small step", "m g size"}};
+  double stable = 0;
+  for (double step = usual / 8; step <= duration / 2; step *= 2) {
+    const bool is_small = step < usual / 4;
+    const double gain = is_small ? gained(trial, step) : gained_or_failed(trial, step);
+    measured.row(step, gain, is_small ? gain : 0);
+    if (!(gain <= tolerance)) break;
+    stable = step;
+  }
+  return judge_worst(measured, tolerance,
+                     "empirical: the sheet falls through eight times as much in free fall; a first "
+                     "order scheme errs by dt/t, 0.1 % of it",
+                     fmt::format("by doubling, the largest step that gains none is {} s", stable));
+}
+
+}  // namespace
+
+std::vector<Law> stability_laws() {
+  return {
+      {"stability.small-steps-gain-no-energy",
+       "A hanging sheet never moves faster than its fall allows where steps are short.",
+       "conservation of energy", small_steps_gain_no_energy},
+  };
+}
+
+}  // namespace foldproof
