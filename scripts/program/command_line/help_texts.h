@@ -236,7 +236,8 @@ constexpr const char* ablate =
 and that of its mesh, the distance by which edges half as long move its particles (one difference,
 without the error bar that converge --in space adds). OUT/store keeps these runs, and takes those
 that converge left there. Then it removes one part at a time, and adds, one at a time, the missing
-parts that need no parameters: self-collision, strain limits, points between particles. A part is needed, or missing, if one of these happens without it:
+parts that need no parameters: self-collision, strain limits, points between particles. A part is
+needed, or missing, if one of these happens without it:
 - particles move by more than the scene's own error;
 - the run does not reach its end, or an expectation of the case fails or loses its meaning;
 - the cloth crosses itself, or lies deeper in an object by more than the scene's own error.
