@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import os
 import sys
+import time
 from pathlib import Path
 
 os.environ["OPENBLAS_NUM_THREADS"] = "1"  # before numpy: small systems, and other jobs beside
@@ -223,6 +224,23 @@ class GravityScaledInSingle(Single):
         return mapping
 
 
+class StiffensWithSmallSteps(ToySolver):
+    """What a fixed number of iterations without compliance does: stiffness goes as 1/dt^2."""
+
+    def advance(self, dt: float, steps: int) -> None:
+        given, self.k = self.k, self.k * (0.002 / dt) ** 2
+        super().advance(dt, steps)
+        self.k = given
+
+
+class Sleeps(ToySolver):
+    """Right, and slow: a millisecond more a step."""
+
+    def advance(self, dt: float, steps: int) -> None:
+        super().advance(dt, steps)
+        time.sleep(1e-3 * steps)
+
+
 class HeldSheetsWeighTwice(ToySolver):
     """Gravity is added once more where particles are held."""
 
@@ -274,6 +292,8 @@ KINDS = {
     "random": Random,
     "knows_its_axes": KnowsItsAxes,
     "depends_on_numbers": DependsOnNumbers,
+    "stiffens_with_small_steps": StiffensWithSmallSteps,
+    "sleeps": Sleeps,
     "held_sheets_weigh_twice": HeldSheetsWeighTwice,
     "held_loosely": HeldLoosely,
     "energy_halved": EnergyHalved,
