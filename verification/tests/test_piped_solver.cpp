@@ -256,7 +256,10 @@ TEST_CASE("subject: false claims of precision and order are found") {
 }
 
 TEST_CASE("subject: a motion without a limit is found") {
-  require_law_fails("stiffens_with_small_steps", "order.halved-steps-approach-a-limit");
+  const std::string approaches = "order.halved-steps-approach-a-limit";
+  require_law_fails("stiffens_with_small_steps", approaches);
+  // its changes grow, too, but rounding explains them
+  CHECK(failing_laws("substeps_in_single", laws_of({approaches})).empty());
 }
 
 TEST_CASE("subject: the clock of a law is that of its solver, and errors fall as its order says") {

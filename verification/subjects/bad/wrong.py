@@ -4,7 +4,8 @@ physics or one claim: wrong.py KIND
 
 The portable suite must find each by the laws that it breaks. "none" is the unspoiled toy;
 "backward_euler" and "trapezoidal" are other correct schemes, which must raise no alarm, at f8;
-"single" and "backward_euler_single" are some at f4.
+"single" and "backward_euler_single" are some at f4; "substeps_in_single" must meet the law of
+limits, and "sleeps" is right but slow.
 """
 from __future__ import annotations
 
@@ -233,6 +234,19 @@ class StiffensWithSmallSteps(ToySolver):
         self.k = given
 
 
+class SubstepsInSingle(Single):
+    """Right, as position based engines are: five substeps a step, velocities from positions of
+    single precision, so that short steps are mostly rounding."""
+
+    def advance(self, dt: float, steps: int) -> None:
+        dt /= 5
+        for _ in range(5 * steps):
+            start = self.x.astype("f4")
+            super().advance(dt, 1)
+            self.x = self.x.astype("f4").astype("f8")
+            self.v = (self.x - start) / dt
+
+
 class Sleeps(ToySolver):
     """Right, and slow: a millisecond more a step."""
 
@@ -293,6 +307,7 @@ KINDS = {
     "knows_its_axes": KnowsItsAxes,
     "depends_on_numbers": DependsOnNumbers,
     "stiffens_with_small_steps": StiffensWithSmallSteps,
+    "substeps_in_single": SubstepsInSingle,
     "sleeps": Sleeps,
     "held_sheets_weigh_twice": HeldSheetsWeighTwice,
     "held_loosely": HeldLoosely,
