@@ -18,7 +18,8 @@ from typing import NamedTuple
 ROOT = Path(__file__).resolve().parents[2]
 TUTORIAL = ROOT / "reports" / "TUTORIAL.md"
 BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
-PROGRESS = re.compile(r".*: \d+ %, .* left")  # a line now and then, where a command takes long
+# a line now and then, where a command takes long
+PROGRESS = re.compile(r".*: \d+ %(, .* left at this pace)?")
 
 
 class Command(NamedTuple):

@@ -72,7 +72,9 @@ std::string in_words(const Comparison& c) {
       "frames compared {1}: {0}; the largest root mean square distance is {2:.3g} m, at t = "
       "{3:.4g} s",
       c.frames.size(), name_of(c.matching), worst->distance.rms, worst->time);
-  if (c.left_out > 0) words += fmt::format("; {} frames outside of the run's time", c.left_out);
+  if (c.left_out > 0)
+    words += fmt::format("; {} frame{} outside of the run's time left out", c.left_out,
+                         c.left_out == 1 ? "" : "s");
   if (c.matching == Matching::surface)
     words += "; another mesh than the run's, so its energies are not known";
   return words;
