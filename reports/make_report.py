@@ -210,12 +210,13 @@ def compare_runs(first: Path, other: Path, out: Path | None) -> Path:
 
 
 def compare_trials(folders: list[Path], out: Path | None) -> Path:
-    """Writes the page of judged solvers, and its numbers as JSON beside it. Throws Unreadable if
-    one of them cannot be read."""
+    """Writes the page of judged solvers, its numbers as JSON and the folder figures beside it.
+    Throws Unreadable if one of them cannot be read."""
     said = trials_of([read_trial(folder) for folder in folders])
     out = out or folders[-1] / "compare.html"
-    out.parent.mkdir(parents=True, exist_ok=True)
-    write_whole(out, render_trials(said).encode("utf-8"))
+    figures = out.parent / "figures"
+    figures.mkdir(parents=True, exist_ok=True)
+    write_whole(out, render_trials(said, figures).encode("utf-8"))
     write_whole(out.with_suffix(".json"), trials_json(said).encode("utf-8"))
     return out
 

@@ -86,12 +86,15 @@ def _facts(path: Path) -> dict[str, Any]:
             "capabilities": [str(one) for one in facts["capabilities"]],
             "order": int(facts["order"]),
             "solve_tolerance": float(facts["solve_tolerance"]),
-            "calibration": [_calibration(one) for one in facts.get("calibration", [])],
+            **{
+                key: [_evidence(one) for one in facts.get(key, [])]
+                for key in ("calibration", "cost")
+            },
         }
 
 
-def _calibration(table: dict[str, Any]) -> dict[str, Any]:
-    """Effective moduli that a law measured: columns with units; null: no number."""
+def _evidence(table: dict[str, Any]) -> dict[str, Any]:
+    """What a law measured: columns with units; null: no number."""
     columns = [
         {
             "name": str(one["name"]),

@@ -6,10 +6,12 @@ import json
 from collections import Counter
 from dataclasses import asdict, dataclass
 from math import isfinite
+from pathlib import Path
 from typing import Any
 
 from data.trials import Answer, Law, Trial
 from pages.page import OUTCOMES, new_environment
+from pages.trial_costs import cost_rows, costs_of
 
 DECLINED = "the subject does not offer "  # begins the note of a law that does not apply
 
@@ -80,21 +82,22 @@ def count(trial: Trial) -> list[tuple[str, int]]:
 
 
 @dataclass(frozen=True)
-class Calibration:
-    """The effective moduli that one law measured, solver by solver."""
+class Measured:
+    """What one law measured, solver by solver."""
 
     name: str
     columns: list[dict[str, Any]]
     rows: list[tuple[str, list[Any]]]  # label of the solver, cells
 
 
-def calibrations(said: Trials) -> list[Calibration]:
-    """Tables of the solvers under one heading; those with other columns are left out of it."""
-    found: dict[str, Calibration] = {}
+def measured_tables(said: Trials, what: str) -> list[Measured]:
+    """Tables of the solvers, "calibration" or "cost", under one heading for each law; those with
+    other columns are left out of it."""
+    found: dict[str, Measured] = {}
     for trial, label in zip(said.trials, said.labels):
-        for table in trial.facts["calibration"]:
+        for table in trial.facts[what]:
             columns = table["columns"]
-            known = found.setdefault(table["law"], Calibration(table["law"], columns, []))
+            known = found.setdefault(table["law"], Measured(table["law"], columns, []))
             if [one["name"] for one in columns] == [one["name"] for one in known.columns]:
                 cells = zip(*(one["values"] for one in columns))
                 known.rows.extend((label, list(row)) for row in cells)
@@ -121,6 +124,7 @@ def trials_json(said: Trials) -> str:
                     {**asdict(row.law), "answers": [_answer_json(answer) for answer in row.answers]}
                     for row in said.rows
                 ],
+                "error_against_cost": cost_rows(said.trials, said.labels),
             },
             indent=1,
             allow_nan=False,
@@ -138,8 +142,9 @@ def _answer_json(answer: Answer | None) -> dict[str, Any] | None:
     }
 
 
-def render_trials(said: Trials) -> str:
-    """The page as one HTML text."""
+def render_trials(said: Trials, figures: Path) -> str:
+    """The page as one HTML text; its figure is also a file in the folder."""
     environment = new_environment()
-    environment.globals.update(count=count, reason=reason, calibrations=calibrations)
-    return environment.get_template("trials.html.j2").render(said=said)
+    environment.globals.update(count=count, reason=reason, measured_tables=measured_tables)
+    costs = costs_of(said.trials, said.labels, figures)
+    return environment.get_template("trials.html.j2").render(said=said, costs=costs)

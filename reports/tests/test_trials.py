@@ -60,6 +60,16 @@ def put_trial(folder: Path, subject: str, findings: list[dict[str, Any]]) -> Pat
                 ],
             }
         ],
+        "cost": [
+            {
+                "law": "one",
+                "columns": [
+                    {"name": "steps", "unit": "1", "values": [20, 40]},
+                    {"name": "seconds by the clock", "unit": "s", "values": [0.001, 0.0023]},
+                    {"name": "error", "unit": "motion", "values": [0.0177, None]},
+                ],
+            }
+        ],
     }
     (folder / "verdicts.json").write_text(json.dumps({"program": program, "findings": findings}))
     (folder / "solver.json").write_text(json.dumps(facts))
@@ -110,7 +120,7 @@ class JudgedSolvers(unittest.TestCase):
         )
 
     def test_the_page_shows_numbers_reasons_settings_and_versions(self) -> None:
-        text = render_trials(trials_of([read_trial(self.a), read_trial(self.b)]))
+        text = render_trials(trials_of([read_trial(self.a), read_trial(self.b)]), self.path)
         for words in (
             "2 solvers on trial",
             "3.5",
@@ -136,11 +146,43 @@ class JudgedSolvers(unittest.TestCase):
             [law["answers"][0] and law["answers"][0]["measured"] for law in said["laws"]],
             [0.25, 3.5, None, None, None],
         )
+        self.assertEqual(
+            [(row["has_limit"], row["error"]) for row in said["error_against_cost"]],
+            [(True, 0.0177), (True, None), (False, 0.0177), (False, None)],
+        )
         self.assertEqual(said["solvers"][1]["settings"], {"iterations": "20"})
         self.assertEqual(
             said["solvers"][0]["counts"],
             {"holds": 1, "fails": 1, "inconclusive": 0, "not applicable": 2},
         )
+
+    def test_error_against_cost_is_drawn_where_its_law_holds(self) -> None:
+        text = render_trials(trials_of([read_trial(self.a), read_trial(self.b)]), self.path)
+        section = text[text.index('<section id="cost">') : text.index('<section id="calibration">')]
+        self.assertEqual(section.count('<svg class="plot"'), 1)
+        self.assertEqual(section.count('<svg class="key"'), 1)
+        for words in (
+            "Seconds are a clock of one machine",
+            "an error of the time step, not of the model",
+            f"No curve, since the law that measures it does not hold: mine ({self.b}).",
+            "1 point not drawn",
+            "0.0177",
+        ):
+            self.assertIn(words, section)
+        self.assertNotIn("different processors", section)
+        self.assertTrue((self.path / "error-against-cost.svg").is_file())
+
+    def test_clocks_of_different_processors_are_not_to_be_compared(self) -> None:
+        verdicts = json.loads((self.b / "verdicts.json").read_text(encoding="utf-8"))
+        verdicts["program"]["cpu"] = "another processor"
+        (self.b / "verdicts.json").write_text(json.dumps(verdicts), encoding="utf-8")
+        text = render_trials(trials_of([read_trial(self.a), read_trial(self.b)]), self.path)
+        self.assertIn("judged on different processors: compare no seconds", text)
+
+    def test_without_a_limit_there_is_no_figure(self) -> None:
+        text = render_trials(trials_of([read_trial(self.b)]), self.path)
+        self.assertIn("No solver has an error to show", text)
+        self.assertNotIn('<svg class="plot"', text)
 
     def test_what_is_no_trial_is_refused_by_its_file(self) -> None:
         self.assertFalse(is_trial(self.path))

@@ -1,8 +1,10 @@
 // foldproof judge, subject, serve: another solver on trial, its adapter, and the reference as one.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string_view>
 
 #include "scripts/program/command_line/out_folder.h"
 #include "scripts/program/commands.h"
@@ -18,6 +20,8 @@
 namespace foldproof {
 
 namespace {
+
+constexpr std::string_view law_of_cost = "order.halved-steps-approach-a-limit";
 
 SolverCommand solver_command(const Options& options) {
   SolverCommand command;
@@ -46,12 +50,12 @@ std::string heading(const Judgement& judgement, const SolverCommand& command) {
   return text;
 }
 
-/// The tables of the laws of calibration: effective moduli, for the page of several solvers.
-nlohmann::json calibration_json(const std::vector<Record>& records) {
+/// The evidence of the laws whose names begin so, for the page of several solvers.
+nlohmann::json evidence_json(const std::vector<Record>& records, std::string_view beginning) {
   using nlohmann::json;
   json tables = json::array();
   for (const Record& record : records) {
-    if (!record.name.starts_with("calibration.") || record.finding.evidence.rows() == 0) continue;
+    if (!record.name.starts_with(beginning) || record.finding.evidence.rows() == 0) continue;
     json columns = json::array();
     for (const Column& column : record.finding.evidence.columns()) {
       json values;
@@ -82,13 +86,38 @@ std::string solver_json(const Judgement& judgement, const SolverCommand& command
                {"command", command.command},
                {"settings", json::object()},
                {"mapping", json::object()},
-               {"calibration", calibration_json(judgement.records)}};
+               {"calibration", evidence_json(judgement.records, "calibration.")},
+               {"cost", evidence_json(judgement.records, law_of_cost)}};
   for (const auto& [key, value] : command.settings) said["settings"][key] = value;
   for (const auto& [key, value] : judgement.mapping) {
     json& words = said["mapping"][key];  // scenes may be mapped otherwise
     words = words.is_null() ? value : words.get<std::string>() + "; " + value;
   }
   return said.dump(1, ' ', false, json::error_handler_t::replace) + "\n";
+}
+
+/// The evidence of that law as a curve; none where it does not hold: without a limit, no error.
+std::optional<StudyRecord> error_against_cost(const Judgement& judgement) {
+  const auto record = std::ranges::find(judgement.records, law_of_cost, &Record::name);
+  if (record == judgement.records.end() || record->outcome != Outcome::holds) return {};
+  const Table& rows = record->finding.evidence;
+  const Curve curve = curve_of(judgement.declaration.name, rows, "seconds by the clock", "error");
+  StudyRecord study;
+  study.name = "solver.error-against-cost";
+  study.claim = "What error does a second of the solver buy?";
+  study.source = "the law " + record->name;
+  study.about =
+      "The error of the time step, not of the model: its limit is the solver's own. Seconds are "
+      "the clock of one machine, through the pipe: the least of up to five readings.";
+  study.figures.push_back({"error_against_cost",
+                           "Error against cost",
+                           {"seconds of 0.04 s of motion, by the clock", "s", Scale::log},
+                           {"error of the step, over the motion", "1", Scale::log},
+                           nan,
+                           "A mark for each step; its error is against the extrapolated end.",
+                           {curve}});
+  study.tables.emplace_back("steps", "Each step", rows);
+  return study;
 }
 
 RunRecord run_of(const Judgement& judgement, const Options& options) {
@@ -99,6 +128,7 @@ RunRecord run_of(const Judgement& judgement, const Options& options) {
   if (run.subject.empty()) run.subject = options.solver;
   run.subject_version = judgement.declaration.version;
   run.records = judgement.records;
+  if (const auto study = error_against_cost(judgement)) run.studies.push_back(*study);
   return run;
 }
 

@@ -26,7 +26,7 @@ SUBJECTS = ROOT / "verification" / "subjects"
 PYTHON = "exec /usr/bin/python3"
 TOY = f"{PYTHON} '{SUBJECTS}/adapters/toy_solver.py'"
 SCHEMA = json.loads((SUBJECTS / "protocol.schema.json").read_text(encoding="utf-8"))
-LAWS = 38  # of the portable suite
+LAWS = 39  # of the portable suite
 BYTES = {"f8": 8, "f4": 4, "i4": 4}
 
 # An adapter that writes down every header that comes or goes, and states its settings as its
@@ -213,8 +213,16 @@ class Judge(unittest.TestCase):
         text = page.read_text(encoding="utf-8")
         self.assertIn('Differences from a law <span class="quiet">'
                       f"{LAWS + 3}</span>", text)
+        rows = said["error_against_cost"]
+        self.assertEqual(len(rows), 4 * 4)  # of the four that started
+        self.assertTrue(all(row["has_limit"] and row["seconds by the clock"] > 0 for row in rows))
+        self.assertEqual(
+            [row["steps"] for row in rows if row["solver"] == said["solvers"][0]["name"]],
+            [20, 40, 80, 160],
+        )
         for words in (
-            "5 solvers on trial", "f4", "a spring per edge", "iterations</b> 20",
+            "5 solvers on trial", "f4", "Seconds are a clock of one machine", "a spring per edge",
+            "iterations</b> 20",
             "calibration.modulus-survives-refinement"
         ):
             self.assertIn(words, text)

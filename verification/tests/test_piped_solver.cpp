@@ -255,6 +255,27 @@ TEST_CASE("subject: false claims of precision and order are found") {
                               "order.observed-is-as-claimed", "vibration.undamped-goes-on"});
 }
 
+TEST_CASE("subject: a motion without a limit is found") {
+  const std::string approaches = "order.halved-steps-approach-a-limit";
+  require_law_fails("stiffens_with_small_steps", approaches);
+  // its changes grow, too, but rounding explains them
+  CHECK(failing_laws("substeps_in_single", laws_of({approaches})).empty());
+}
+
+TEST_CASE("subject: the clock of a law is that of its solver, and errors fall as its order says") {
+  const std::vector<Law> laws = laws_of({"order.halved-steps"});
+  const auto evidence = [&](const SolverCommand& command) {
+    return judge_solver(command, laws, ignore).records.front().finding.evidence;
+  };
+  // it sleeps for a millisecond a step
+  const Table slow = evidence(python("bad/wrong.py sleeps"));
+  for (size_t k = 0; k < slow.rows(); ++k)
+    CHECK(slow.numbers("seconds by the clock")[k] >= 1e-3 * slow.numbers("steps")[k]);
+  const std::vector<double> errors = slow.numbers("error");
+  REQUIRE(errors.size() == 4);
+  for (size_t k = 1; k < errors.size(); ++k) CHECK(std::abs(errors[k] / errors[k - 1] - 0.5) < 0.1);
+}
+
 TEST_CASE("subject: states that are not restored are found") {
   CHECK(failing_laws("state_not_restored") ==
         std::set<std::string>{"repeat.step-depends-on-its-state-alone"});

@@ -4,12 +4,14 @@ physics or one claim: wrong.py KIND
 
 The portable suite must find each by the laws that it breaks. "none" is the unspoiled toy;
 "backward_euler" and "trapezoidal" are other correct schemes, which must raise no alarm, at f8;
-"single" and "backward_euler_single" are some at f4.
+"single" and "backward_euler_single" are some at f4; "substeps_in_single" must meet the law of
+limits, and "sleeps" is right but slow.
 """
 from __future__ import annotations
 
 import os
 import sys
+import time
 from pathlib import Path
 
 os.environ["OPENBLAS_NUM_THREADS"] = "1"  # before numpy: small systems, and other jobs beside
@@ -223,6 +225,36 @@ class GravityScaledInSingle(Single):
         return mapping
 
 
+class StiffensWithSmallSteps(ToySolver):
+    """What a fixed number of iterations without compliance does: stiffness goes as 1/dt^2."""
+
+    def advance(self, dt: float, steps: int) -> None:
+        given, self.k = self.k, self.k * (0.002 / dt) ** 2
+        super().advance(dt, steps)
+        self.k = given
+
+
+class SubstepsInSingle(Single):
+    """Right, as position based engines are: five substeps a step, velocities from positions of
+    single precision, so that short steps are mostly rounding."""
+
+    def advance(self, dt: float, steps: int) -> None:
+        dt /= 5
+        for _ in range(5 * steps):
+            start = self.x.astype("f4")
+            super().advance(dt, 1)
+            self.x = self.x.astype("f4").astype("f8")
+            self.v = (self.x - start) / dt
+
+
+class Sleeps(ToySolver):
+    """Right, and slow: a millisecond more a step."""
+
+    def advance(self, dt: float, steps: int) -> None:
+        super().advance(dt, steps)
+        time.sleep(1e-3 * steps)
+
+
 class HeldSheetsWeighTwice(ToySolver):
     """Gravity is added once more where particles are held."""
 
@@ -274,6 +306,9 @@ KINDS = {
     "random": Random,
     "knows_its_axes": KnowsItsAxes,
     "depends_on_numbers": DependsOnNumbers,
+    "stiffens_with_small_steps": StiffensWithSmallSteps,
+    "substeps_in_single": SubstepsInSingle,
+    "sleeps": Sleeps,
     "held_sheets_weigh_twice": HeldSheetsWeighTwice,
     "held_loosely": HeldLoosely,
     "energy_halved": EnergyHalved,

@@ -1,6 +1,7 @@
-// Determinism, state, observed order, precision.
+// Determinism, state, observed order, the error of the step and its cost, precision.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "verification/subjects/suite/laws.h"
 #include "verification/subjects/suite/scenes.h"
@@ -51,11 +52,15 @@ Finding step_depends_on_its_state_alone(Trial& trial) {
                            "the state that was set is all that a step depends on");
 }
 
-/// Positions of the moving sheet after 0.04 s, in so many steps.
-PerParticle3 positions_after(Trial& trial, long count) {
+/// The moving sheet, which takes so many steps to 0.04 s.
+PortableScene moving_sheet_in(long count) {
   PortableScene scene = moving_sheet();
   scene.dt *= double(steps) / double(count);
-  return trial.after(scene, count).x;
+  return scene;
+}
+
+PerParticle3 positions_after(Trial& trial, long count) {
+  return trial.after(moving_sheet_in(count), count).x;
 }
 
 Finding order_is_as_claimed(Trial& trial) {
@@ -84,6 +89,82 @@ Finding order_is_as_claimed(Trial& trial) {
                      "halved steps see the next term of the series as a third of an order at most");
 }
 
+/// A run to 0.04 s: its end, and the least of several readings of the clock.
+struct TimedRun {
+  long count;
+  PerParticle3 x;
+  double seconds;
+};
+
+constexpr int most_readings = 5;
+constexpr double enough_seconds = 0.2;  // of readings; slow solvers are read once
+
+TimedRun timed_run(Trial& trial, long count) {
+  TimedRun run{count, {}, std::numeric_limits<double>::infinity()};
+  double spent = 0;
+  for (int k = 0; k < most_readings && spent < enough_seconds; ++k) {
+    run.x = positions_after(trial, count);
+    spent += trial.seconds_of_motion();
+    run.seconds = std::min(run.seconds, trial.seconds_of_motion());
+  }
+  return run;
+}
+
+/// The solver's own limit, as the step goes to 0, by the claimed order, or by 1. It is extrapolated
+/// from the two neighbours that differ least: at steps below theirs, rounding has taken over.
+PerParticle3 limit_of(const std::vector<TimedRun>& runs, const Declaration& declared) {
+  const auto change = [&](size_t k) { return (runs[k].x - runs[k - 1].x).norm(); };
+  size_t least = 1;
+  for (size_t k = 2; k < runs.size(); ++k)
+    if (change(k) <= change(least)) least = k;
+  const PerParticle3 &fine = runs[least].x, &coarse = runs[least - 1].x;
+  return fine + (fine - coarse) / (std::pow(2.0, std::max(1, declared.order)) - 1);
+}
+
+/// A row for each step: what it costs, what halving it changed, and its error.
+Table errors_and_costs(const std::vector<TimedRun>& runs, const Declaration& declared) {
+  const PerParticle3 limit = limit_of(runs, declared);
+  const double motion = (limit - moving_sheet().x).norm();
+  Table table{{"steps", "1"},
+              {"step", "s"},
+              {"seconds by the clock", "s"},
+              {"change from twice the step", "motion"},
+              {"error", "motion"}};
+  for (size_t k = 0; k < runs.size(); ++k)
+    table.row(runs[k].count, moving_sheet_in(runs[k].count).dt, runs[k].seconds,
+              k == 0 ? nan : (runs[k].x - runs[k - 1].x).norm() / motion,
+              (runs[k].x - limit).norm() / motion);
+  return table;
+}
+
+/// The largest factor by which a change grows from one halving to the next. Changes that rounding
+/// explains are no growth.
+double growth_of_changes(const std::vector<TimedRun>& runs, const Declaration& declared) {
+  Worst growth;
+  for (size_t k = 2; k < runs.size(); ++k) {
+    const PerParticle3 &coarse = runs[k - 2].x, &middle = runs[k - 1].x, &fine = runs[k].x;
+    const PortableScene scene = moving_sheet_in(runs[k].count);
+    const double rounding = rounding_error(scene, runs[k].count, declared) * fine.norm();
+    const double change = (fine - middle).norm();
+    growth.observe(change <= rounding ? 0 : change / (middle - coarse).norm());
+  }
+  return growth.value();
+}
+
+Finding halved_steps_approach_a_limit(Trial& trial) {
+  std::vector<TimedRun> runs;
+  for (const long count : {steps, 2 * steps, 4 * steps, 8 * steps})
+    runs.push_back(timed_run(trial, count));
+  const Declaration& declared = trial.declaration();
+  Table growth{{"change over the change before", "1"}};
+  growth.row(growth_of_changes(runs, declared));
+  Finding finding = judge_worst(
+      std::move(growth), 1,
+      "an error that falls as any power of the step changes less at each halving; 0: rounding");
+  finding.evidence = errors_and_costs(runs, declared);
+  return finding;
+}
+
 bool is_float(double number) { return double(float(number)) == number; }
 
 Finding results_need_their_digits(Trial& trial) {
@@ -107,6 +188,9 @@ std::vector<Law> repeat_laws() {
        "determinism", step_depends_on_its_state_alone},
       {"order.observed-is-as-claimed", "Halving the step reduces the error as claimed.",
        "Richardson", order_is_as_claimed},
+      {"order.halved-steps-approach-a-limit",
+       "Each halving of the step changes the motion less than the one before.", "Cauchy",
+       halved_steps_approach_a_limit},
       {"precision.results-need-the-declared-digits",
        "Positions declared double are not all single precision numbers.", "IEEE 754",
        results_need_their_digits},

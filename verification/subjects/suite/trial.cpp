@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
+
 namespace foldproof {
 
 namespace {
@@ -51,12 +53,20 @@ void Trial::prepare(const PortableScene& scene) {
 }
 
 std::vector<Snapshot> Trial::motion(const PortableScene& scene, const std::vector<long>& steps) {
-  if (declaration().level == 0) return solver().run(scene, steps);
-  prepare(scene);
+  using Clock = std::chrono::steady_clock;
+  const bool whole = declaration().level == 0;
+  if (!whole) prepare(scene);
+  const Clock::time_point start = Clock::now();
+  std::vector<Snapshot> states = whole ? solver().run(scene, steps) : advance(scene.dt, steps);
+  seconds_of_motion_ = std::chrono::duration<double>(Clock::now() - start).count();
+  return states;
+}
+
+std::vector<Snapshot> Trial::advance(double dt, const std::vector<long>& steps) {
   std::vector<Snapshot> states;
   long done = 0;
   for (const long count : steps) {
-    states.push_back(solver().advance(scene.dt, count - done));
+    states.push_back(solver().advance(dt, count - done));
     done = count;
   }
   return states;
