@@ -113,7 +113,7 @@ std::string as_sentence(std::string words) {
   return words + ".";
 }
 
-/// What shrinks from level to level: of a mesh, its edges.
+/// Steps, or edges, become shorter from level to level.
 std::string shortened(const LadderAnswer& answer) {
   return answer.in == "time" ? "steps" : "edges";
 }

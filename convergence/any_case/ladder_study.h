@@ -9,9 +9,10 @@ namespace foldproof {
 /// How large the error of the case as it stands is, in one or two sentences.
 std::string in_words(const LadderAnswer& answer);
 
-/// What halves the error of the positions, and its price: in the asymptotic range, steps (edges)
-/// divided by 2^(1/order) and the growth of cost between the two finest levels; outside it, the
-/// first level whose measured error is at most half of the first's; else why neither is known.
+/// Says how to halve the error of the positions, and at which price. In the asymptotic range, steps
+/// (edges) are divided by 2^(1/order), and the cost grows as between the two finest levels. Outside
+/// it, the sentence names the first level whose measured error is at most half of the first one's,
+/// or says that no level does, or that nothing is known.
 std::string how_to_halve(const LadderAnswer& answer);
 
 /// One mark a difference of the quantity: measured in the asymptotic range, which ends at the

@@ -75,7 +75,7 @@ NamedFinding limit_finding(const Integrator& integrator, const Table& row) {
            "measured is the largest relative deviation"}};
 }
 
-/// What a row says of heavy damping: between its two largest ratios.
+/// Heavy damping: the row between its two largest ratios.
 void add_heavy(const Integrator& integrator, const Table& row, Table& heavy) {
   const double exponent = last_exponent(row, "damping ratio", "largest stable omega h");
   heavy.row(std::string(integrator.name), row.numbers("largest stable omega h").back(), exponent,

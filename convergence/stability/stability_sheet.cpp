@@ -100,7 +100,7 @@ NamedFinding as_known(const Integrator& integrator, const Damping& damping, cons
        "measured is the largest relative deviation while the damping rises by a factor of 1e4"}};
 }
 
-/// What limits say of heavy damping: between their two largest dampings.
+/// Heavy damping: the limits at the two largest dampings.
 void add_heavy(const Integrator& integrator, const Table& limits, Table& heavy) {
   const double exponent = last_exponent(limits, "multiple of the damping", "largest stable step");
   heavy.row(std::string(integrator.name), limits.numbers("largest stable step").back(), exponent,

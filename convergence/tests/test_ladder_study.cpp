@@ -49,7 +49,7 @@ TEST_CASE("an answer in words says what the reading is worth") {
              Contains("No error can be stated for strip with method C"));
 }
 
-TEST_CASE("what halves an error is told by the order, by a level, or not at all") {
+TEST_CASE("an error is halved by its order, or by a level, or in no known way") {
   LadderAnswer settled = answer_of({quantity_of("positions", {16, 4, 1})});  // work doubles a level
   CHECK(how_to_halve(settled) ==
         "Steps 1.41 times shorter (0.057 s) halve that error, at 1.4 times the work.");

@@ -120,6 +120,7 @@ Starts from_starts(Drapes& drapes, Tier tier) {
         starts.drapes, [&](const Drape& other) { return other.folds == one.folds; });
     if (one.stable && !known) starts.drapes.push_back(one);
   }
+  if (starts.drapes.empty()) return starts;  // none is stable
   const auto [least, most] =
       std::ranges::minmax(starts.drapes, {}, [](const Drape& one) { return one.coefficient; });
   starts.spread = most.coefficient - least.coefficient;

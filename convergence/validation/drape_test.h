@@ -12,7 +12,7 @@ namespace foldproof {
 // ISO 9073-9, BS 5058: the specimen's radius and that of the plates [m]
 constexpr double specimen_radius = 0.15, plate_radius = 0.09;
 
-/// What the test needs of a fabric.
+/// A fabric, as the test needs it.
 struct DrapeFabric {
   const char* name;  // as in cases/fabrics.toml
   double rigidity;   // B [N m]
@@ -24,7 +24,7 @@ struct DrapeFabric {
 /// Those of cases/fabrics.toml, with the mean of their two rigidities.
 const std::vector<DrapeFabric>& drape_fabrics();
 
-/// (B/(density g))^(1/3): all that the shape depends on, besides the radii [m].
+/// (B/(density g))^(1/3) [m]: with the radii, it decides the shape of cloth that does not stretch.
 double bending_length(const DrapeFabric& fabric);
 
 /// The density with which a rigidity [N m] has this bending length [m]; kg/m^2.

@@ -39,8 +39,8 @@ struct AnimationRecipe {
 struct FieldRecipe {
   std::variant<GridRecipe, OctreeRecipe, ExactRecipe, AnimationRecipe> of;
   std::string where;  // "file:line" of the key that sets its resolution; for error messages
-  // of grids and octrees of one mesh: the largest error that is allowed, whatever cells that takes
-  // (field_accuracy.h); 0: the cells of the recipe [m]
+  // of grids and octrees of one mesh: the largest error that is allowed [m], from which the number
+  // of cells follows (field_accuracy.h); 0: the cells of the recipe
   double accuracy = 0;
 };
 

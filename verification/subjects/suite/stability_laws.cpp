@@ -24,13 +24,13 @@ double gained(Trial& trial, double step) {
   const long steps = std::lround(duration / step), frames = std::min<long>(steps, 64);
   std::vector<long> at;
   for (long k = 1; k <= frames; ++k) at.push_back(k * steps / frames);
-  double worst = 0;
+  Worst worst;
   for (const Snapshot& now : trial.motion(scene, at)) {
     const double kinetic = (now.v.colwise().squaredNorm() * scene.mass)[0] / 2;
     const double work = scene.gravity.dot((now.x - scene.x) * scene.mass);
-    worst = std::max(worst, kinetic - work);
+    worst.observe(kinetic - work);
   }
-  return worst / (scene.mass.sum() * scene.gravity.norm() * size_of(scene.x));
+  return worst.value() / (scene.mass.sum() * scene.gravity.norm() * size_of(scene.x));
 }
 
 /// The same; NaN if the solver gives up on what has become unstable.
