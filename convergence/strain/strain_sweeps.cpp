@@ -111,9 +111,8 @@ NamedFinding growth(const std::string& order, const Table& row) {
               "of the number of cells along a side.",
           {{std::abs(exponent - 2), 0.1, 0, "1",
             "near the limits a sweep is one iteration for a Poisson equation, in which a "
-            "correction spreads like heat, over n cells in n^2 sweeps; another power is off by 1. "
-            "Whether the held edge counts as a row shifts n by half a cell, which is 0.06 of the "
-            "exponent between 12 and 24 cells"},
+            "correction spreads like heat, over n cells in n^2 sweeps; another power is off by 1, "
+            "and a tenth is what an order is allowed elsewhere"},
            row,
            "measured is |exponent - 2| between the two finest meshes"}};
 }
