@@ -136,14 +136,13 @@ NamedFinding order_of(const Table& levels, double floor, const oracles::FreeFold
   const oracles::Estimate deviation = order_deviation(errors, 2, 1);
   Table evidence = levels;
   evidence.add({"order", "1", row_orders(errors)});
-  return {
-      "free-fold.is-second-order",
-      "The height of a free fold tends to the elastica's with second order.",
-      {{deviation.value, 0.1, deviation.uncertainty, "1",
-        "another order, as with a lift-off at a row, not in the middle of a panel, is off by 1; "
-        "the third term of the error is smaller than the second by the number of panels that bend"},
-       std::move(evidence),
-       ""}};
+  return {"free-fold.is-second-order",
+          "The height of a free fold tends to the elastica's with second order.",
+          {{deviation.value, same_order, deviation.uncertainty, "1",
+            "orders closer than this are taken for the same; a lift-off at a row, not in the "
+            "middle of a panel, would be off by 1"},
+           std::move(evidence),
+           ""}};
 }
 
 NamedFinding floor_only_pushes(const Table& levels, double floor) {
@@ -162,7 +161,8 @@ NamedFinding comes_down(const Table& levels, double floor) {
   return {"free-fold.comes-down-on-the-floor",
           "A free fold that lifts off without a moment, and ends flat without one, ends on the "
           "floor, to second order.",
-          {{deviation.value, 0.1, deviation.uncertainty, "1", "another order is off by 1"},
+          {{deviation.value, same_order, deviation.uncertainty, "1",
+            "orders closer than this are taken for the same"},
            levels,
            "its end's height is none of the conditions that the simulated strip is given"}};
 }
