@@ -131,18 +131,21 @@ NamedFinding height_agrees(const Table& levels, double floor, const oracles::Fre
 }
 
 NamedFinding order_of(const Table& levels, double floor, const oracles::FreeFold& fold) {
-  Convergence errors = convergence_of(levels, "error of the height");
-  errors.floor = floor + fold.height.uncertainty;
-  const oracles::Estimate deviation = order_deviation(errors, 2, 1);
-  Table evidence = levels;
-  evidence.add({"order", "1", row_orders(errors)});
-  return {"free-fold.is-second-order",
-          "The height of a free fold tends to the elastica's with second order.",
-          {{deviation.value, same_order, deviation.uncertainty, "1",
-            "orders closer than this are taken for the same; a lift-off at a row, not in the "
-            "middle of a panel, would be off by 1"},
-           std::move(evidence),
-           ""}};
+  Convergence heights = convergence_of(levels, "error of the height"),
+              lengths = convergence_of(levels, "error of the lifted length");
+  heights.floor = floor + fold.height.uncertainty;
+  lengths.floor = floor + fold.lifted.uncertainty;
+  Table orders{{"error", ""}, {"distance of its order from 2", "1"}};
+  for (const auto& [name, errors] : {std::pair{"height", heights}, {"lifted length", lengths}}) {
+    const oracles::Estimate deviation = order_deviation(errors, 2, 1);
+    orders.row(name, deviation);
+  }
+  return {
+      "free-fold.is-second-order",
+      "The height and the lifted length of a free fold tend to the elastica's with second order.",
+      judge_worst(std::move(orders), same_order,
+                  "orders closer than this are taken for the same; a lift-off at a row, not in the "
+                  "middle of a panel, would make the length's order 1")};
 }
 
 NamedFinding floor_only_pushes(const Table& levels, double floor) {
@@ -189,18 +192,22 @@ StudyResult run_free_fold(const Subject& subject, Tier tier, const Progress& pro
   const oracles::FreeFold fold = oracles::free_fold_by_shooting();
   std::vector<int> panels{32, 64, 128};
   if (tier == Tier::full) panels.push_back(256);
-  Table levels{
-      {"spacing of the rows", "1"},  {"lifted length", "1"},      {"height", "1"},
-      {"error of the height", "1"},  {"end over the floor", "1"}, {"pull of the floor", "1"},
-      {"depth below the floor", "1"}};
+  Table levels{{"spacing of the rows", "1"},
+               {"lifted length", "1"},
+               {"height", "1"},
+               {"error of the height", "1"},
+               {"error of the lifted length", "1"},
+               {"end over the floor", "1"},
+               {"pull of the floor", "1"},
+               {"depth below the floor", "1"}};
   LiftedPart finest;
   double floor = 0;
   for (const int count : panels) {
     finest = lifted_part_on_mesh(subject, fold, count);
     update_worst(floor, finest.unfinished);
-    levels.row(finest.spacing, finest.lifted, finest.height,
-               std::abs(finest.height - fold.height.value), finest.landing, finest.pull,
-               finest.sunk);
+    levels.row(
+        finest.spacing, finest.lifted, finest.height, std::abs(finest.height - fold.height.value),
+        std::abs(finest.lifted - fold.lifted.value), finest.landing, finest.pull, finest.sunk);
     progress(double(levels.rows()) / double(panels.size()));
   }
   StudyResult result;

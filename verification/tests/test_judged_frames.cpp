@@ -12,11 +12,12 @@ using namespace foldproof;
 
 namespace {
 
-/// A sheet falls onto a ball; the other hangs by a corner row and has strain limits.
+/// A sheet falls onto a ball; the other hangs by a corner row and has strain limits. Their width
+/// has more digits than a file of six.
 constexpr const char* falling = R"([cloth]
 shape = "sheet"
 pattern = "one_diagonal"
-width = 0.4
+width = 0.4123456789
 height = 0.3
 columns = 8
 rows = 6
@@ -45,7 +46,7 @@ why = "a trial"
 constexpr const char* hanging = R"([cloth]
 shape = "sheet"
 pattern = "one_diagonal"
-width = 0.4
+width = 0.4123456789
 height = 0.3
 columns = 8
 rows = 6
@@ -119,8 +120,10 @@ TEST_CASE("judged frames: those of the reference meet every law that applies") {
 TEST_CASE("judged frames: files of six digits raise no alarm") {
   for (const char* text : {falling, hanging}) {
     Frames frames(text);
+    const double exact = frames.frames[0].x(0, 8);  // of a corner, prescribed where one is
     // coordinates are below 1 m
     for (TimedMesh& frame : frames.frames) frame.x = (frame.x.array() * 1e6).round() / 1e6;
+    CHECK(std::abs(frames.frames[0].x(0, 8) - exact) > 1e-7);  // or nothing is shown
     CHECK(frames.failing() == Names{});
   }
 }
@@ -176,16 +179,28 @@ TEST_CASE("judged frames: a triangle that goes through its neighbour is found") 
 }
 
 TEST_CASE("judged frames: cloth that rises from nowhere is found") {
-  Frames frames(hanging);
-  // swings up instead of down
+  Frames frames(falling);
+  // as it started, but higher and higher: only its weight has energy
+  const PerParticle3 start = frames.frames[0].x;
   for (TimedMesh& frame : frames.frames)
-    for (Eigen::Index i = 0; i < frame.x.cols(); ++i) frame.x(1, i) = -0.2 * frame.x(1, i);
+    frame.x = start.colwise() + Vector3(0, 0.3 * frame.time, 0);
+  CHECK(frames.failing().contains("frames.energy-stays-in-budget"));
+}
+
+TEST_CASE("judged frames: cloth that stretches from nowhere is found") {
+  Frames frames(falling);
+  // wider and wider at one height: only its springs have energy
+  const PerParticle3 start = frames.frames[0].x;
+  for (TimedMesh& frame : frames.frames) {
+    frame.x = start;
+    frame.x.row(0) *= 1 + 0.5 * frame.time;
+  }
   CHECK(frames.failing().contains("frames.energy-stays-in-budget"));
 }
 
 TEST_CASE("judged frames: of another mesh crossings and depths are judged, the rest declined") {
   Frames frames(falling);
-  const TriangleMesh finer = make_sheet({SheetPattern::one_diagonal, 0.4, 0.3, 16, 12});
+  const TriangleMesh finer = make_sheet({SheetPattern::one_diagonal, 0.4123456789, 0.3, 16, 12});
   for (TimedMesh& frame : frames.frames) {
     frame.triangles = finer.triangles;
     frame.x.resize(3, finer.rest.cols());
