@@ -210,15 +210,17 @@ StudyResult run_price_by_scene(const Subject&, Tier tier, const Progress& progre
 
 Study price_by_scene_study() {
   return {"price-by-scene",
-          "To one percent of error and to a tenth of it, scheme C costs at most twice the cheapest "
-          "method on a small, lightly damped sheet that swings from an edge; on such a sheet with "
-          "heavy damping, contact or strain limits another method is cheaper.",
+          "To one percent of error and to a tenth of it, scheme C takes at most twice the work of "
+          "the cheapest method on a small, lightly damped sheet that swings from an edge; on small "
+          "sheets that are heavily damped, slide on a ball or reach strain limits another method "
+          "takes less. Work counts force operators, neither contact nor strain limits.",
           "BMF03 section 3",
           "Four small scenes, one a kind, asked as `foldproof precision` asks any case: every "
           "method runs with constant steps, halved until it reaches an error of one percent of the "
           "motion, and of a tenth of it. The truth is where two methods of different families "
           "agree. Work is counted, so prices are the same on every machine; seconds of shipped "
-          "cases are in cases/errors.json.",
+          "cases are in cases/errors.json. Methods that take shorter steps than C also pay for "
+          "contact and strain limits more often.",
           run_price_by_scene};
 }
 

@@ -128,17 +128,19 @@ NamedFinding comes_back(const std::vector<Shell>& shells, const std::vector<Retu
 }
 
 NamedFinding angles_matter(const Shell& shell, const Return& own, const Return& flat) {
-  const Verdict verdict{own.left / flat.left, 0.01, 0, "1",
-                        "a shell that springs alone brought back would return as well with flat "
-                        "rest angles, and the ratio would be 1"};
+  const double start = flat.history.numbers("distance").front();
+  Table distances{{"shell", ""},
+                  {"distance at the start", "m"},
+                  {"distance with its own angles", "m"},
+                  {"distance with flat angles", "m"}};
+  distances.row(shell.words, start, own.left, flat.left);
+  const Verdict verdict{0.1 * start / flat.left, 1, 0, "1",
+                        "another rest shape is at least a tenth of the disturbance away"};
   return {
       "shape-recovery.flat-rest-angles-do-not-restore-it",
       "The same shell with flat rest angles does not return: springs alone do not keep the shape.",
-      {verdict,
-       Table{
-           {"shell", ""}, {"distance with its own angles", "m"}, {"distance with flat angles", "m"}}
-           .with_row(shell.words, own.left, flat.left),
-       ""}};
+      {verdict, std::move(distances),
+       "measured is a tenth of the distance at the start over the distance with flat angles"}};
 }
 
 StudyResult run_shape_return(const Subject& subject, Tier tier, const Progress& progress) {

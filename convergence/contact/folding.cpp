@@ -166,7 +166,7 @@ NamedFinding wavelength_finding(const std::vector<WrinkledSheet>& runs) {
     worst.observe(run.height > 1e-3 ? std::abs(run.wavelength / run.expected - 1) : nan);
   return {"folding.wrinkle-length-matches-theory",
           "With 0 % compression, a strip on an elastic bed folds into waves of length 2 pi "
-          "(D/K)^(1/4), those of the least energy.",
+          "(D/K)^(1/4), those of the least energy, to a sixth.",
           {{worst.value(), 1. / 6, 0, "1",
             "the spectrum has whole waves only, five and three in the strip: half a wave in three"},
            evidence_of(runs),

@@ -134,8 +134,8 @@ StudyResult run_pointwise_contact(const Subject& subject, Tier tier, const Progr
 
 Study pointwise_contact_study() {
   return {"pointwise-contact",
-          "Edges between particles cut into a ball as deep as chords, by the square of their "
-          "length; a pin thinner than an edge passes through.",
+          "Edges between particles cut into a ball by the square of their length, no deeper than "
+          "chords; a pin thinner than an edge passes through.",
           "BMF03 section 5.2",
           "The response holds points out of objects. What lies between the points is held out only "
           "as far as the object is flat from one point to the next.",

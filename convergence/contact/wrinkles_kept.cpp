@@ -283,8 +283,8 @@ StudyResult run_wrinkles_kept(const Subject&, Tier tier, const Progress& progres
 Study wrinkles_kept_study() {
   return {"wrinkle-preservation",
           "Plain projection flattens wrinkles; maps of depth keep their wavelength. The blend "
-          "keeps a derived share of their depths; the power law crushes the deepest if tau is "
-          "small compared with them.",
+          "keeps at least a derived share of their depths; the power law crushes the deepest if "
+          "tau is small compared with them.",
           "BMF03 section 5.3, figure 2",
           "Wrinkled strips lie half inside a half space, a ball and a torus, and are projected by "
           "each map over a range of tau. Of the particles that were inside, the standard deviation "

@@ -135,8 +135,8 @@ NamedFinding frame_is_cheap(const std::vector<Pair>& pairs, int depth) {
   Worst worst;
   for (const Pair& pair : pairs) worst.observe(pair.evaluations / nodes);
   return {"level-sets-in-time.frames-compute-few-distances",
-          "A frame of a deforming body needs a tenth of the distances that a full grid of the same "
-          "spacing would need.",
+          "A frame of a deforming body needs at most a tenth of the distances that a full grid of "
+          "the same spacing would need.",
           {{worst.value(), 0.1, 0, "1",
             "a tenth: beyond the band the octree is sampled only as finely as needed"},
            {{"time between frames", "s", column(pairs, &Pair::interval)},

@@ -174,8 +174,8 @@ NamedFinding one_phase_finding(const std::vector<PulledStrip>& runs) {
   for (const PulledStrip& run : runs)
     if (!run.springs.is_limited) measured.row(run.springs.name, std::abs(late_over_early(run) - 1));
   return {"biphasic.springs-without-limits-have-one-phase",
-          "Without limits a strip is as compliant at the end as at the start, with weak or stiff "
-          "springs.",
+          "Without limits a strip is as compliant at the end as at the start, to a quarter, with "
+          "weak or stiff springs.",
           judge_worst(measured, 0.25,
                       "springs are linear, but the load grows in a finite time; a strip with "
                       "limits would be off by 11/12")};

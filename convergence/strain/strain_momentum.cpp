@@ -88,7 +88,7 @@ NamedFinding kept(const std::string& scheme, const Table& drifts) {
   return {
       "strain-momentum.is-conserved." + scheme,
       "Scheme " + scheme +
-          " keeps the angular momentum of a free sheet at its strain limits to rounding.",
+          " keeps the angular momentum of a free, undamped sheet at its strain limits to rounding.",
       {{drifts.worst("drift in roundings"), 16 + 12 * sweeps, 0, "epsilon, a step, of sum m|x||v|",
         "sixteen roundings of x, v and the forces, all to the same side, and two in each sweep for "
         "each of about six springs at a particle"},
@@ -99,8 +99,8 @@ NamedFinding kept(const std::string& scheme, const Table& drifts) {
 NamedFinding drift_order(const std::string& scheme, const Table& drifts) {
   const double fitted = fitted_order(convergence_of(drifts, "relative drift"));
   return {"strain-momentum.drift-is-first-order." + scheme,
-          "The angular momentum of a free sheet at its strain limits drifts under " + scheme +
-              ", by first order in the step.",
+          "The angular momentum of a free, undamped sheet at its strain limits drifts under " +
+              scheme + ", by first order in the step.",
           {{std::abs(fitted - 1), 0.1, 0, "1",
             "a drift of another power of the step is off by 1; at these steps the next term leaves "
             "less than a tenth"},
@@ -136,8 +136,8 @@ StudyResult run_strain_momentum(const Subject& subject, Tier tier, const Progres
 
 Study strain_momentum_study() {
   return {"strain-momentum",
-          "While strain limits act, scheme B keeps the angular momentum of a free sheet to "
-          "rounding; A and C let it drift, by first order in the step.",
+          "While strain limits act, scheme B keeps the angular momentum of a free, undamped sheet "
+          "to rounding; A and C let it drift, by first order in the step.",
           "BMF03 section 3",
           "An undamped sheet spins and flaps at its strain limits. Each correction keeps angular "
           "momentum. But A and C move positions with the corrected velocity and keep the "

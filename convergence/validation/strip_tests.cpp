@@ -61,9 +61,9 @@ NamedFinding order_of(const StripTest& test, const StripLadder& levels) {
   const oracles::Estimate deviation = order_deviation(errors, 2, 1);
   Table evidence = levels.levels;
   evidence.add({"order", "1", row_orders(errors)});
-  const Verdict verdict{deviation.value, same_order, deviation.uncertainty, "1",
-                        "orders closer than this are taken for the same; a clamp on the hinge line "
-                        "would be off by 1"};
+  const Verdict verdict{deviation.value, 0.1, deviation.uncertainty, "1",
+                        "another order, as with a clamp on the hinge line, is off by 1; the third "
+                        "term of the error is smaller than the second by the number of panels"};
   return {fmt::format("strip-tests.is-second-order.{}", test.name),
           fmt::format("The shape of a {} tends to the elastica's with second order.", test.words),
           {verdict, std::move(evidence), ""}};

@@ -48,8 +48,8 @@ Study work_precision_study() {
   return {
       "work-precision",
       "At one percent of error on a heavily damped sheet, the steps of schemes A and B exceed "
-      "those of explicit methods by about the ratio of the elastic limit to the damping limit; C "
-      "needs shorter steps to be as accurate.",
+      "those of explicit methods by the ratio of the elastic limit to the damping limit, within a "
+      "factor of two; C needs shorter steps to be as accurate.",
       "BMF03 section 3",
       "Which integrator should I use for my scene, at which step, and at what cost? Every method "
       "of the table runs four motions over a range of constant steps. The error is the largest "
