@@ -100,6 +100,22 @@ std::string reason(const ObservedRun& without, const ObservedRun& with, double m
   return "";
 }
 
+/// Why one cannot tell whether the run without the part is another one, in words; "" if it is none.
+std::string doubt(const ObservedRun& without, const ObservedRun& with, double moved,
+                  const DiscretisationError& error) {
+  const double deeper = without.deepest - with.deepest;
+  if (std::max(moved, deeper) <= error.seen()) return "";
+  const std::string what = moved > error.seen()
+                               ? fmt::format("it moves particles by {:.3g} m", moved)
+                               : fmt::format("without it cloth is {:.3g} m deeper", deeper);
+  return fmt::format("{}; the scene's own error is {:.3g} m, {:.3g} m with its error bar", what,
+                     error.seen(), error.value());
+}
+
+double sum_of_known(double time, double mesh) {
+  return (std::isnan(time) ? 0 : time) + (std::isnan(mesh) ? 0 : mesh);
+}
+
 }  // namespace
 
 std::string_view name_of(Need need) {
@@ -111,9 +127,11 @@ std::string_view name_of(Need need) {
     case Need::missing:
       return "missing here";
     case Need::no_effect:
+      return "no effect if added";
+    case Need::cannot_tell:
       break;
   }
-  return "no effect if added";
+  return "cannot tell";
 }
 
 ObservedRun observe_run(const Case& input_case, const LevelSetProvider& level_sets, int particles) {
@@ -143,7 +161,7 @@ double position_difference(const ObservedRun& a, const ObservedRun& b, const Per
 
 bool JudgedPart::is_justified() const {
   const bool is_plain = need == Need::needed || need == Need::no_effect;
-  return is_plain == declared.empty();
+  return need == Need::cannot_tell || is_plain == declared.empty();
 }
 
 std::string declared_reason(const Case& input_case, std::string_view name) {
@@ -166,10 +184,11 @@ void reject_unknown_parts(const Case& input_case, const std::vector<ScenePart>& 
 }
 
 double DiscretisationError::value() const {
-  double sum = 0;
-  for (const double part : {time, mesh})
-    if (!std::isnan(part)) sum += part;
-  return std::max(sum, floor);
+  return std::max(sum_of_known(time.value, mesh.value), floor);
+}
+
+double DiscretisationError::seen() const {
+  return std::max(sum_of_known(time.seen, mesh.seen), floor);
 }
 
 JudgedPart judge_part(const ScenePart& part, const ObservedRun& scene, ObservedRun toggled,
@@ -177,16 +196,20 @@ JudgedPart judge_part(const ScenePart& part, const ObservedRun& scene, ObservedR
   JudgedPart result{part.name, part.is_present, Need::needed, "", 0, 0, "", {}};
   result.position_difference = position_difference(scene, toggled, mass);
   result.energy_difference = energy_difference(scene, toggled);
-  result.reason = part.is_present ? reason(toggled, scene, result.position_difference, error)
-                                  : reason(scene, toggled, result.position_difference, error);
-  const bool matters = !result.reason.empty();
-  if (part.is_present)
-    result.need = matters ? Need::needed : Need::not_needed;
-  else
-    result.need = matters ? Need::missing : Need::no_effect;
-  if (!matters)
+  const ObservedRun &with = part.is_present ? scene : toggled,
+                    &without = part.is_present ? toggled : scene;
+  result.reason = reason(without, with, result.position_difference, error);
+  const std::string in_doubt = doubt(without, with, result.position_difference, error);
+  if (!result.reason.empty()) {
+    result.need = part.is_present ? Need::needed : Need::missing;
+  } else if (!in_doubt.empty()) {
+    result.need = Need::cannot_tell;
+    result.reason = in_doubt;
+  } else {
+    result.need = part.is_present ? Need::not_needed : Need::no_effect;
     result.reason = fmt::format("it moves particles by {:.3g} m; the scene's own error is {:.3g} m",
-                                result.position_difference, error.value());
+                                result.position_difference, error.seen());
+  }
   result.run = std::move(toggled);
   return result;
 }

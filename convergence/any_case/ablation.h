@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "convergence/any_case/framed_run.h"
+#include "convergence/any_case/own_error.h"
 #include "reference/bodies/level_set_provider.h"
 #include "reference/dynamics/simulate.h"
 #include "reference/scene/scene.h"
@@ -59,9 +60,9 @@ Case with_scene(const Case& input_case, Scene scene);
 /// weighted with their masses (N [kg]), of how far apart they are [m].
 double position_difference(const ObservedRun& a, const ObservedRun& b, const PerParticle& mass);
 
-enum class Need { needed, not_needed, missing, no_effect };
+enum class Need { needed, not_needed, missing, no_effect, cannot_tell };
 
-// "needed", "not needed here", "missing here", "no effect if added"
+// "needed", "not needed here", "missing here", "no effect if added", "cannot tell"
 std::string_view name_of(Need need);
 
 /// A part of a case, run without it if it is there, else with it.
@@ -76,22 +77,27 @@ struct JudgedPart {
   ObservedRun run;
 
   /// It is there and needed, or absent without effect; otherwise a reason is declared. A reason
-  /// that is not needed is not justified.
+  /// that is not needed is not justified. Where one cannot tell, a reason may be given, or none.
   bool is_justified() const;
 };
 
-/// How far the scene's own run is from the truth, by its steps and by its mesh (own_error.h).
+/// How far the scene's own run is from the truth, by its steps and by its mesh.
 struct DiscretisationError {
-  double time = 0, mesh = 0;  // m; NaN: not known
-  double floor = 0;           // a millionth of the cloth's size: less than that no one asks for [m]
+  ErrorPart time, mesh;
+  double floor = 0;  // a millionth of the cloth's size: less than that no one asks for [m]
 
-  /// The least change of positions that counts [m].
+  /// A change of positions above it counts: the sum with error bars [m].
   double value() const;
+
+  /// A change of positions up to it does not count: the sum without error bars [m].
+  double seen() const;
 };
 
-/// needed / missing, if the part changes positions by more than the scene's own error; or if
-/// without it the run comes to no end, an expectation of the case fails or has no meaning, the
-/// cloth crosses itself, or is deeper in objects by more than that error.
+/// needed / missing, if the part changes positions by more than the scene's own error, its bar
+/// included; or if without it the run comes to no end, an expectation of the case fails or has no
+/// meaning, the cloth crosses itself, or is deeper in objects by more than that error. Not needed /
+/// no effect, if the change and the depth are within the error that is seen. Between the two one
+/// cannot tell: finer steps or meshes would.
 JudgedPart judge_part(const ScenePart& part, const ObservedRun& scene, ObservedRun toggled,
                       const DiscretisationError& error, const PerParticle& mass);
 

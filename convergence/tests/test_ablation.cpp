@@ -73,7 +73,8 @@ ObservedRun made_up_run(double x) {
 
 Need judge_need(bool is_present, const ObservedRun& scene, const ObservedRun& toggled) {
   const ScenePart one{"part", is_present, {}};
-  return judge_part(one, scene, toggled, {0.01, 0.02, 1e-6}, PerParticle::Constant(1, 0.5)).need;
+  const DiscretisationError error{{0.005, 0.01, ""}, {0.005, 0.02, ""}, 1e-6};
+  return judge_part(one, scene, toggled, error, PerParticle::Constant(1, 0.5)).need;
 }
 
 }  // namespace
@@ -174,11 +175,27 @@ TEST_CASE("a case names its coarser mesh beside its reasons") {
 
 TEST_CASE("a part is needed when it changes more than the scene's own error") {
   const ObservedRun scene = made_up_run(0);
-  CHECK(judge_need(true, scene, made_up_run(0.029)) == Need::not_needed);
+  CHECK(judge_need(true, scene, made_up_run(0.009)) == Need::not_needed);
   CHECK(judge_need(true, scene, made_up_run(0.031)) == Need::needed);
-  CHECK(judge_need(false, scene, made_up_run(0.029)) == Need::no_effect);
+  CHECK(judge_need(false, scene, made_up_run(0.009)) == Need::no_effect);
   CHECK(judge_need(false, scene, made_up_run(0.031)) == Need::missing);
   CHECK(judge_need(true, scene, made_up_run(std::nan(""))) == Need::needed);
+}
+
+TEST_CASE("whether a part is needed cannot be told within the error bar of the scene's own error") {
+  const ObservedRun scene = made_up_run(0);
+  ObservedRun sinks = made_up_run(0);
+  sinks.deepest = 0.011;
+  for (const double moved : {0.011, 0.029})
+    for (const bool is_present : {true, false})
+      CHECK(judge_need(is_present, scene, made_up_run(moved)) == Need::cannot_tell);
+  CHECK(judge_need(true, scene, sinks) == Need::cannot_tell);
+  CHECK(judge_need(false, scene, sinks) == Need::no_effect);
+  CHECK(judge_need(false, sinks, scene) == Need::cannot_tell);
+  JudgedPart part{"gravity", true, Need::cannot_tell, "", 0, 0, "", {}};
+  CHECK(part.is_justified());
+  part.declared = "a reason";
+  CHECK(part.is_justified());
 }
 
 TEST_CASE("a part is needed where cloth fails without it, however little it moves") {

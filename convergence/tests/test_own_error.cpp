@@ -59,7 +59,9 @@ TEST_CASE(
   for (const int k : {1, 2}) runs.push_back(asked.run(time_level(plan, k, runs[0].step_ends)));
   const ErrorPart error = error_of_steps(asked.source, asked.by());
   CHECK(error.unknown.empty());
-  CHECK(error.value == time_answer(plan, runs).quantities.front().first_error);
+  const QuantityOverLevels positions = time_answer(plan, runs).quantities.front();
+  CHECK(error.value == positions.first_error);
+  CHECK(error.seen == Approx(positions.differences[0] + positions.differences[1]).epsilon(1e-12));
   // the plain difference of the first two is 3/4 of an error of second order
   const double halved = field_difference(runs[0], runs[1], asked.mass());
   CHECK(error.value > halved);
@@ -77,17 +79,35 @@ TEST_CASE("runs that converge kept are not made again for a scene's own error") 
               time_level(plan, k, k > 0 ? first.step_ends : std::vector<double>()), "p")) == 1);
 }
 
-TEST_CASE("a scene's own error of its mesh is the difference to the next mesh of its ladder") {
+TEST_CASE("of two meshes a scene's own error is their difference, and a spread as its bar") {
   Asked asked;
-  const ErrorPart error = error_of_mesh(asked.source, asked.by());
+  const ErrorPart error = error_of_mesh(asked.source, 2, asked.by());
   const SpaceLadder ladder = space_ladder(asked.source, 2, ObjectsToo::no);
   const LevelRun finer = asked.run(space_level(ladder, 1, {}));
   const LevelRun own = asked.run(space_level(ladder, 0, finer.step_ends));
   CHECK(own.step_ends == finer.step_ends);
   CHECK(error.unknown.empty());
-  CHECK(error.value == field_difference(own, finer, asked.mass()));
-  CHECK(error.value > 0);
+  CHECK(error.seen == field_difference(own, finer, asked.mass()));
+  CHECK(error.seen > 0);
+  CHECK(error.value == Approx(4 * error.seen).epsilon(1e-12));
   CHECK(asked.store.starts(key_of(space_level(ladder, 1, {}), "p")) == 1);
+}
+
+TEST_CASE("of three meshes a scene's own error is what their ladder says of the case as it is") {
+  Asked asked;
+  const ErrorPart error = error_of_mesh(asked.source, 3, asked.by());
+  const SpaceLadder ladder = space_ladder(asked.source, 3, ObjectsToo::no);
+  std::vector<LevelRun> runs(3);
+  runs[2] = asked.run(space_level(ladder, 2, {}));
+  for (const int k : {0, 1}) runs[size_t(k)] = asked.run(space_level(ladder, k, runs[2].step_ends));
+  const LevelRun halved = asked.run(step_check_level(ladder, runs[2].step_ends));
+  const QuantityOverLevels positions = space_answer(ladder, runs, halved).quantities.front();
+  CHECK(error.value == positions.first_error);
+  CHECK(error.seen == Approx(positions.differences[0] + positions.differences[1]).epsilon(1e-12));
+  for (int k = 0; k < 3; ++k) {
+    const std::vector<double> ends = k < 2 ? runs[2].step_ends : std::vector<double>();
+    CHECK(asked.store.starts(key_of(space_level(ladder, k, ends), "p")) == 1);
+  }
 }
 
 TEST_CASE("a coarser mesh is run by its own steps, and compared with the case as it is") {
@@ -100,17 +120,19 @@ TEST_CASE("a coarser mesh is run by its own steps, and compared with the case as
   const auto first = [](const CaseSource& source) {
     return time_level({case_of(source), 3, measurements_of(case_of(source))}, 0, {});
   };
-  CHECK(error.value == error_from_coarser(asked.run(first(asked.source)),
-                                          case_of(asked.source).scene.mesh, asked.run(first(other)),
-                                          case_of(other).scene.mesh));
-  CHECK(error.value > 0);
+  const double first_order =
+      error_from_coarser(asked.run(first(asked.source)), case_of(asked.source).scene.mesh,
+                         asked.run(first(other)), case_of(other).scene.mesh);
+  CHECK(first_order > 0);
+  CHECK(error.seen == Approx(first_order / 3).epsilon(1e-12));  // of order 2: 2^2 - 1
+  CHECK(error.value == Approx(3 * first_order).epsilon(1e-12));
 }
 
 TEST_CASE("an error whose runs come to no end is not known, and says why") {
   Asked asked;
   asked.source.overrides = {"time.max_steps=3"};
   for (const ErrorPart& error :
-       {error_of_steps(asked.source, asked.by()), error_of_mesh(asked.source, asked.by()),
+       {error_of_steps(asked.source, asked.by()), error_of_mesh(asked.source, 2, asked.by()),
         error_from_coarser_mesh(asked.source, {"cloth.columns=1", "cloth.rows=1"}, asked.by())}) {
     CHECK(std::isnan(error.value));
     CHECK_THAT(error.unknown, Contains("cap on the number of steps"));

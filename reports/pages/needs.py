@@ -14,13 +14,14 @@ from data.unreadable import reading
 
 NO_EFFECT = "no effect if added"
 OLD_NEEDS = {"not missed here": NO_EFFECT}   # of version 0.1.0
+CANNOT_TELL = "cannot tell"
 NEEDS = ("needed", "kept for a reason", "left out for a reason", "not needed here", "missing here",
-         NO_EFFECT)
+         NO_EFFECT, CANNOT_TELL)
 # if the case gives one
 REASONED = {"not needed here": "kept for a reason", "missing here": "left out for a reason"}
 MARKS = {
     "needed": "\u25cf", "kept for a reason": "\u25d0", "left out for a reason": "\u25cb",
-    NO_EFFECT: "\u00b7"
+    NO_EFFECT: "\u00b7", CANNOT_TELL: "?"
 }
 WRONG = "\u2715"                # not needed, or missing, without a reason; or a reason for nothing
 KINDS = (
@@ -51,10 +52,11 @@ class PartNeed:
     """A part of a scene, run without it if it is there, else with it."""
     name: str
     present: bool
-    need: str                  # needed, not needed here, missing here or NO_EFFECT
+    need: str                  # needed, not needed here, missing here, NO_EFFECT or CANNOT_TELL
     because: str
     declared: str              # why the case has it, or leaves it out, all the same; or ""
-    # as the program says: needed, or of no effect if added, or a reason is given, and only then
+    # as the program says: needed, or of no effect if added, or a reason is given, and only then;
+    # or it cannot tell
     fits: bool
     moved: float               # by how much positions differ [m]
     energy: float              # by how much the energy differs [J]
@@ -93,8 +95,9 @@ class CaseNeeds:
     wrong: str                 # why nothing can be said of it; or ""
     steps: str                 # what the steps' own error comes from, in words
     mesh: str                  # what the mesh's own error comes from, in words
-    own_error: float           # m
-    time_error: float          # m; NaN: not known
+    own_error: float           # with its error bar [m]
+    without_bar: float         # m; NaN: of an earlier record
+    time_error: float          # with its error bar [m]; NaN: not known
     mesh_error: float          # m; NaN: not known
     unknown: str               # why one of them is not known
     seconds: float
@@ -144,7 +147,8 @@ class Needs:
             "left out for a reason": "missing, and left out for a reason that the case gives",
             "not needed here": "not needed, without a reason",
             "missing here": "missing, without a reason",
-            NO_EFFECT: "absent, and of no effect if added"
+            NO_EFFECT: "absent, and of no effect if added",
+            CANNOT_TELL: "undecided: the change is within the error bar"
         }
         counts = {standing: self.count(standing) for standing in NEEDS}
         return " ".join(
@@ -213,7 +217,8 @@ def _case(
     )
     return CaseNeeds(
         row["case"], row.get("overrides", []), part_of_time, row["wrong"], steps, mesh,
-        _number(own["value"]), _number(own["time"]), _number(own["mesh"]), unknown,
+        _number(own["value"]), _number(own.get("without_bar")), _number(own["time"]),
+        _number(own["mesh"]), unknown,
         scene["seconds"], _number(scene["crossings"]), _number(scene["deepest"]),
         [_part(part, scene) for part in row["parts"]], program["commit"],
         program.get("tree") == "dirty", recorded, changed

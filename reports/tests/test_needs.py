@@ -144,6 +144,25 @@ class NeedsShown(unittest.TestCase):
         self.put(told("bag", "abcdef0123456789"))
         self.assertIn("Not known which of its parts it needs", self.made())
 
+    def test_a_part_within_the_error_bar_is_undecided(self) -> None:
+        put_run(self.root)
+        outcomes = told("fold", "abcdef0123456789")
+        row = outcomes["cases"][0]
+        row["own_error"] |= {"without_bar": 2e-5, "value": 8e-5}
+        row["parts"] = [
+            row["parts"][0] | {"need": "cannot tell", "as_it_should_be": True, "declared": reason}
+            for reason in ("", "for show")
+        ]
+        self.put(outcomes)
+        text = self.made()
+        self.assertIn("2 parts are undecided: the change is within the error bar.", text)
+        self.assertIn("fold: 2 cannot tell", text)
+        self.assertIn("with its error bar (", text)
+        section = re.search(r'<section id="needs">.*?</section>', text, re.DOTALL)[0]
+        self.assertEqual(
+            re.findall(r'aria-label="([a-z ]+)">(.)</span>', section), [("cannot tell", "?")] * 2
+        )
+
     def test_what_is_recorded_is_shown_where_the_run_did_not_ask(self) -> None:
         put_run(self.root)
         self.record("fold", "fedcba9876543210")

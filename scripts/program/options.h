@@ -36,6 +36,7 @@ struct Options {
   int subdivisions = 0;             // of project
   int smooth_levels = 1;            // of smooth
   int levels = 4;                   // of converge: runs
+  int mesh_levels = 2;              // of ablate: meshes
   double hours = 0;                 // of converge: of the clock, for all runs; 0: no limit
   std::string frames, times;        // of compare, judge: a folder, a file of times
   double rate = 0, first_time = 0;  // of compare, judge: frames a second, time of the first one [s]

@@ -74,12 +74,31 @@ class AblateTest(FileTest):
         done = self.ablate(disc, "--set", 'ablation.coarser_mesh=""')
         finer = self.read_answer()[0]["own_error"]
         self.assertEqual((coarser["coarser_mesh"], finer["coarser_mesh"]), (["cloth.rings=4"], []))
-        self.assertRegex(done.stdout, r"its steps \d.*its mesh \d.*one finer mesh")
+        self.assertRegex(
+            done.stdout, r"own error \d.*\n  its steps: \d.*\n  its mesh: \d.*2 meshes"
+        )
         self.assertEqual(coarser["time"], finer["time"])
-        # of an error e of second order halving shows 3 e / 4 and 2.5 times the size 3.5 e, of one
-        # of first order e / 2 and e
-        self.assertGreater(coarser["mesh"], finer["mesh"])
-        self.assertLess(coarser["mesh"], 6 * finer["mesh"])
+        # both hold an error e: of second order halving shows 3 e / 4 and 2.5 times the size e, of
+        # first order e / 2 and e / 3.5
+        for one, other in ((coarser, finer), (finer, coarser)):
+            self.assertGreater(one["mesh"], other["mesh_without_bar"])
+
+    def test_its_own_error_of_three_meshes_is_that_of_converge(self) -> None:
+        disc = self.write("disc.toml", DISC.replace("rings = 10", "rings = 3"))
+        finer = ("--set", 'ablation.coarser_mesh=""')
+        told = json.loads(
+            run(
+                "converge", disc, *finer, "--in", "space", "--levels", "3", "--json",
+                "--out", str(self.path / "out")
+            ).stdout
+        )
+        self.ablate(disc, *finer, "--mesh-levels", "3")
+        own = self.read_answer()[0]["own_error"]
+        self.assertEqual(own["mesh"], told["quantities"][0]["error_as_it_is"])
+        self.ablate(disc, *finer)
+        two = self.read_answer()[0]["own_error"]
+        self.assertEqual((two["mesh_levels"], own["mesh_levels"]), (2, 3))
+        self.assertAlmostEqual(two["mesh"], 4 * two["mesh_without_bar"])
 
     def test_its_own_error_in_time_is_that_of_converge(self) -> None:
         disc = self.write("disc.toml", DISC)

@@ -38,6 +38,7 @@ struct Ablation {
   LevelSetProvider level_sets;  // of all its runs; each is made once
   std::vector<ScenePart> parts;
   ObservedRun scene;
+  int mesh_levels;
   ErrorPart of_steps, of_mesh;
   std::vector<ObservedRun> toggled;  // one a part
   size_t runs_left = 0;
@@ -55,6 +56,7 @@ Ablation plan_ablation(const std::string& file, const Options& options,
                        const LevelSetProvider& level_sets) {
   Ablation plan;
   plan.source = {file, options.overrides, "", 0};
+  plan.mesh_levels = options.mesh_levels;
   plan.input_case = case_of(plan.source);
   plan.level_sets = level_sets;
   const Case& input_case = plan.input_case;
@@ -112,15 +114,18 @@ Job run_job(Ablation& one, double length, std::function<Scene(Scene)> change, Ob
   return job_of(one, length, act, into.stopped, after);
 }
 
-/// A finer mesh takes some ten times as long as the case: four times the particles, and smaller
-/// steps, which the case's own mesh takes once, too.
+/// How long the runs of that many meshes take, in runs of the case: each finer mesh has four times
+/// the particles and half the steps, which all coarser ones take, too.
+double length_of_meshes(int levels) { return 1.5 * std::pow(8, levels - 1); }
+
 Job mesh_job(Ablation& one, const KeptRuns& by, const AfterRun& after) {
   const std::vector<std::string>& coarser = one.input_case.coarser_mesh;
   const auto act = [&one, &coarser, &by] {
-    one.of_mesh = coarser.empty() ? error_of_mesh(one.source, by)
+    one.of_mesh = coarser.empty() ? error_of_mesh(one.source, one.mesh_levels, by)
                                   : error_from_coarser_mesh(one.source, coarser, by);
   };
-  return job_of(one, coarser.empty() ? 12 : 0.2, act, one.of_mesh.unknown, after);
+  const double length = coarser.empty() ? length_of_meshes(one.mesh_levels) : 0.2;
+  return job_of(one, length, act, one.of_mesh.unknown, after);
 }
 
 /// Case by case, so that what is cut off has whole cases.
@@ -150,7 +155,7 @@ void forget_positions(Ablation& one) {
 void judge(Ablation& one) {
   const TriangleMesh& mesh = one.input_case.scene.mesh;
   const PerParticle mass = lumped_masses(mesh, one.input_case.scene.density);
-  one.error = {one.of_steps.value, one.of_mesh.value, 1e-6 * longest_side(mesh.rest)};
+  one.error = {one.of_steps, one.of_mesh, 1e-6 * longest_side(mesh.rest)};
   for (size_t k = 0; k < one.parts.size(); ++k) {
     one.judged_parts.push_back(
         judge_part(one.parts[k], one.scene, std::move(one.toggled[k]), one.error, mass));
@@ -204,10 +209,14 @@ nlohmann::json to_json(const Ablation& one, const std::vector<std::string>& over
           {"size", longest_side(one.input_case.scene.mesh.rest)},
           {"own_error",
            {{"levels", levels_of_own_error},
-            {"time", one.error.time},
-            {"mesh", one.error.mesh},
+            {"mesh_levels", one.mesh_levels},
+            {"time", one.error.time.value},
+            {"time_without_bar", one.error.time.seen},
+            {"mesh", one.error.mesh.value},
+            {"mesh_without_bar", one.error.mesh.seen},
             {"floor", one.error.floor},
             {"value", one.error.value()},
+            {"without_bar", one.error.seen()},
             {"without_time", one.of_steps.unknown},
             {"without_mesh", one.of_mesh.unknown},
             {"coarser_mesh", one.input_case.coarser_mesh}}},
@@ -239,17 +248,17 @@ nlohmann::json with_others_of(const std::string& path, nlohmann::json found) {
   return found;
 }
 
-/// what: that it is, unlike other errors of the same cause.
-std::string error_text(double error, const std::string& what, const std::string& why_unknown) {
-  return std::isnan(error) ? "not known: " + why_unknown : fmt::format("{:.2g}, {}", error, what);
+/// from: the runs that it was read from.
+std::string error_text(const ErrorPart& error, const std::string& from) {
+  if (std::isnan(error.value)) return "not known: " + error.unknown;
+  return fmt::format("{:.2g} m, {:.2g} m with its error bar ({})", error.seen, error.value, from);
 }
 
 std::string mesh_error_text(const Ablation& one) {
   const std::vector<std::string>& coarser = one.input_case.coarser_mesh;
-  const std::string what = coarser.empty()
-                               ? "the difference to one finer mesh"
-                               : fmt::format("from a coarser mesh, {}", fmt::join(coarser, ", "));
-  return error_text(one.error.mesh, what + ", without an error bar", one.of_mesh.unknown);
+  return error_text(one.error.mesh,
+                    coarser.empty() ? fmt::format("{} meshes", one.mesh_levels)
+                                    : fmt::format("a coarser mesh, {}", fmt::join(coarser, ", ")));
 }
 
 void print(const Ablation& one) {
@@ -257,9 +266,10 @@ void print(const Ablation& one) {
                expected_keys = ablation_end(one.input_case);
   const std::string first =
       expected_keys < whole ? fmt::format(" (its first {:g} s of {:g})", expected_keys, whole) : "";
-  fmt::print("{}{}: {:.2f} s; own error {:.2g} m (its steps {}; its mesh {})\n",
-             one.input_case.scene.name, first, one.scene.seconds, one.error.value(),
-             error_text(one.error.time, "error bar included", one.of_steps.unknown),
+  fmt::print("{}{}: {:.2f} s; own error {:.2g} m, {:.2g} m with its error bar\n",
+             one.input_case.scene.name, first, one.scene.seconds, one.error.seen(),
+             one.error.value());
+  fmt::print("  its steps: {}\n  its mesh: {}\n", error_text(one.error.time, "steps halved twice"),
              mesh_error_text(one));
   if (const std::string wrong = wrong_by_itself(one); !wrong.empty()) fmt::print("! {}\n", wrong);
   for (const JudgedPart& part : one.judged_parts) {

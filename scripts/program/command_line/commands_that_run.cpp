@@ -139,6 +139,12 @@ void add_ablate(CLI::App& app, Options& options) {
       ->add_option("CASE", options.names,
                    "Case files, or names of shipped cases (default: all of the tier)")
       ->check(some_text("a case file"));
+  ablate
+      ->add_option("--mesh-levels", options.mesh_levels,
+                   "Meshes that measure the mesh's error, 2 to 5; each takes about ten times as "
+                   "long as the one before")
+      ->check(CLI::Range(2, 5))
+      ->capture_default_str();
   add_tier(ablate, options);
   add_overrides(ablate, options);
   add_threads(ablate, options);

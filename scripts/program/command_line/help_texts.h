@@ -232,18 +232,18 @@ Exit codes:
   2    bad input, or a file that cannot be written)";
 
 constexpr const char* ablate =
-    R"(Finds the scene's own error first: that of its steps as converge says it, from steps halved twice;
-and that of its mesh, the distance by which edges half as long move its particles (one difference,
-without the error bar that converge --in space adds). OUT/store keeps these runs, and takes those
+    R"(Finds the scene's own error first, as converge says it: that of its steps, from steps halved twice,
+and that of its mesh, from edges halved once (--mesh-levels 3: twice, for ten times the time). The
+error bar of two meshes is three times their difference. OUT/store keeps these runs, and takes those
 that converge left there. Then it removes one part at a time, and adds, one at a time, the missing
 parts that need no parameters: self-collision, strain limits, points between particles. A part is
 needed, or missing, if one of these happens without it:
-- particles move by more than the scene's own error;
+- particles move by more than the scene's own error, error bar included;
 - the run does not reach its end, or an expectation of the case fails or loses its meaning;
 - the cloth crosses itself, or lies deeper in an object by more than the scene's own error.
-The table [ablation] of a case file can justify a part that is not needed, or the lack of one that
-is. It can name a coarser mesh where a finer one would take hours, and limit ablate to the beginning
-of a long run.
+Where a change exceeds the error, but not with its bar, ablate says "cannot tell". The table
+[ablation] of a case file can justify a part that is not needed, or the lack of one that is. It can
+name a coarser mesh where a finer one would take hours, and limit ablate to the beginning of a run.
 
 Examples:
   foldproof ablate hinge
