@@ -93,18 +93,21 @@ NamedFinding held_finding(const Table& particles, const Table& faces) {
 /// A thin upright pin under the middle of a cell.
 NamedFinding spike_finding(const Subject& subject) {
   Scene scene = level_sheet(8, 0.3, {0.3 / 24, 0.03, 0.3 / 48});
-  scene.objects.push_back(solid_object("pin", Capsule{0.003, 0.6}, 0));
+  const Capsule pin{0.003, 0.6};
+  scene.objects.push_back(solid_object("pin", pin, 0));
   auto& body = std::get<RigidObject>(scene.objects[0].object.body);
   body.place = {oracles::rotation_between(Vector3::UnitZ(), Vector3::UnitY()), {0, -0.6, 0}};
   const State end = run_to_end(subject, scene, usual_step(scene), 0.25, [](const State&) {});
   const double height = end.x.row(1).mean();
-  return {"pointwise-contact.a-thin-pin-passes-through",
-          "A pin thinner than an edge passes between the particles of a falling sheet.",
-          {{height, -0.2, 0, "m",
-            "in a quarter of a second it falls by 0.3 m, from 0.03 m above the pin's tip: had the "
-            "pin held it, it would hang there"},
-           {},
-           "measured is the sheet's mean height over the pin's tip"}};
+  return {
+      "pointwise-contact.a-thin-pin-passes-through",
+      "A pin thinner than an edge passes between the particles of a falling sheet.",
+      {{height, -0.2, 0, "m",
+        "in a quarter of a second it falls by 0.3 m, from 0.03 m above the pin's tip: had the pin "
+        "held it, it would hang there"},
+       Table{{"radius of the pin", "m"}, {"edge of the cloth", "m"}, {"mean height", "m"}}.with_row(
+           pin.radius, scene.mesh.rest.col(1).x() - scene.mesh.rest.col(0).x(), height),
+       "measured is the sheet's mean height over the pin's tip"}};
 }
 
 StudyResult run_pointwise_contact(const Subject& subject, Tier tier, const Progress& progress) {

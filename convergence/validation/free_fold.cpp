@@ -143,9 +143,9 @@ NamedFinding order_of(const Table& levels, double floor, const oracles::FreeFold
   return {
       "free-fold.is-second-order",
       "The height and the lifted length of a free fold tend to the elastica's with second order.",
-      judge_worst(std::move(orders), same_order,
-                  "orders closer than this are taken for the same; a lift-off at a row, not in the "
-                  "middle of a panel, would make the length's order 1")};
+      judge_worst(std::move(orders), 0.1,
+                  "another order is off by 1: a lift-off at a row, not in the middle of a panel, "
+                  "makes the length's order 1")};
 }
 
 NamedFinding floor_only_pushes(const Table& levels, double floor) {
@@ -164,8 +164,7 @@ NamedFinding comes_down(const Table& levels, double floor) {
   return {"free-fold.comes-down-on-the-floor",
           "A free fold that lifts off without a moment, and ends flat without one, ends on the "
           "floor, to second order.",
-          {{deviation.value, same_order, deviation.uncertainty, "1",
-            "orders closer than this are taken for the same"},
+          {{deviation.value, 0.1, deviation.uncertainty, "1", "another order is off by 1"},
            levels,
            "its end's height is none of the conditions that the simulated strip is given"}};
 }
