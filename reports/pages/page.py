@@ -19,7 +19,7 @@ from data.fault_record import commits_of
 from data.formulas import GREEK, formula_html
 from data.results import Case, CaseEntry, Column, Fault, Finding, Run, Study
 from pages import ledger
-from pages.answers import cheapest_of
+from pages.answers import cheapest_of, lasting_steps
 from pages.compare import Comparison
 from pages.conclusions import Results
 from pages.figure_words import figure_keys, figure_notes, order_table
@@ -192,6 +192,7 @@ def render(page: Page, since: list[Piece] | None = None, cuts: Cuts | None = Non
         sections=ledger.by_section,
         papers=ledger.by_paper,
         cheapest=cheapest_of(view.study for view in page.studies),
+        lasting=lasting_steps(view.study for view in page.studies),
         sketch_of=sketch_of,
         known_faults={fault.name: fault for fault in page.faults},
         caught=CaughtCount(page.faults),

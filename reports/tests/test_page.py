@@ -16,7 +16,7 @@ import numpy as np
 
 from data.results import Claim, Column, Study, Table
 from make_report import make_report
-from pages.answers import Choice, cheapest_of
+from pages.answers import Choice, LastingStep, cheapest_of, lasting_steps
 from pages.chromium import Browser, NoBrowser, find_browser
 from pages.ledger import by_paper, claim_views
 from tests.made_up_run import NAMES, put_run
@@ -205,6 +205,52 @@ class Answers(unittest.TestCase):
             tied.rows[0][1], [Choice("RK4", [("C", 3.0)], ["A", "B"]), Choice("C", [("B", 2.0)])]
         )
         self.assertIsNone(cheapest_of([Study("none", "", "", "", 0.0, [], [])]))
+
+    def test_small_scenes_are_priced_beside_the_others(self) -> None:
+        def column(name: str, values: list[object], unit: str = "") -> Column:
+            return Column(name, unit, np.array(values, dtype=object if unit == "" else float))
+
+        work = Table("cheapest", [
+            column("scene", ["a"]), column("by", ["work"]), column("cheapest method", ["A"]),
+            column("error wanted", [0.1], "%")
+        ])
+        prices = Table("prices", [
+            column("scene", ["in-contact"] * 5), column("error wanted", [0.001] * 5, "1"),
+            column("method", ["RK2", "A", "B", "C", "BDF2"]),
+            column("over the cheapest", [1.0, 1.1, 2.0, 3.0, np.nan], "1"),
+            column("tied with it", ["no", "yes", "no", "no", "no"])
+        ])
+        found = cheapest_of([
+            Study("other", "", "", "", 0.0, [], [work]),
+            Study("kinds", "", "", "", 0.0, [], [prices])
+        ])
+        self.assertEqual(found.kinds_of, "kinds")
+        self.assertEqual(
+            found.kinds, [("in contact", [Choice("RK2", [("B", 2.0), ("C", 3.0)], ["A"])])]
+        )
+        for values in prices.columns:
+            if values.name == "over the cheapest":
+                values.values[:] = np.nan
+        self.assertEqual(
+            cheapest_of([Study("w", "", "", "", 0.0, [], [work, prices])]).kinds,
+            [("in contact", [None])]
+        )
+
+    def test_the_longest_steps_are_those_of_the_table(self) -> None:
+        columns = [
+            Column(name, "", np.array(values, dtype=object))
+            for name, values in {
+                "method": ["A", "B"], "longest step that lasts": [0.002, 0.0],
+                "over the elastic limit": [1.0, 0.0],
+                "the next step, twice as long": ["gains energy", "diverges"],
+                "over those of C": [1.5, np.nan]
+            }.items()
+        ]
+        found = lasting_steps([Study("long", "", "", "", 0.0, [], [Table("steps", columns)])])
+        self.assertEqual(found[0], "long")
+        self.assertEqual(found[1][0], LastingStep("A", 0.002, 1.0, "gains energy", 1.5))
+        self.assertEqual((found[1][1].step, found[1][1].beyond), (0.0, "diverges"))
+        self.assertIsNone(lasting_steps([Study("none", "", "", "", 0.0, [], [])]))
 
 
 class Contrast(unittest.TestCase):
