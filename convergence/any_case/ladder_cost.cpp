@@ -40,12 +40,25 @@ double clock_seconds(const std::vector<LevelCost>& costs, size_t first, size_t l
   return std::max(longest, sum / threads);
 }
 
-Affordable affordable_levels(const std::vector<LevelCost>& costs, size_t measured, double spent,
-                             const LadderLimits& limits, int threads) {
+std::vector<double> parts_of_finest(int finest) {
+  std::vector<double> parts = {0.5};
+  for (int k = 0; k < finest; ++k) parts.push_back(std::pow(4, k - finest));
+  return parts;
+}
+
+double mesh_clock_seconds(double seconds, int finest, int threads) {
+  std::vector<LevelCost> others;
+  for (const double part : parts_of_finest(finest)) others.push_back({0, part * seconds, 0});
+  return seconds + clock_seconds(others, 0, others.size() - 1, threads);
+}
+
+Affordable affordable_levels(const std::vector<LevelCost>& costs, size_t measured,
+                             const std::function<double(size_t)>& clock,
+                             const LadderLimits& limits) {
   double bytes = 0;
   for (size_t k = 0; k < measured; ++k) bytes += costs[k].bytes;
   for (size_t k = measured; k < costs.size(); ++k) {
-    const double seconds = spent + clock_seconds(costs, measured, k, threads);
+    const double seconds = clock(k);
     bytes += costs[k].bytes;
     const std::string level = fmt::format("level {} of {}", k + 1, costs.size());
     if (seconds > limits.seconds)

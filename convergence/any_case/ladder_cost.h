@@ -1,6 +1,7 @@
 // Costs of a ladder's levels: measured of those that ran, forecast of the others.
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -31,6 +32,15 @@ struct LadderLimits {
 /// Seconds of the clock for levels first .. last, side by side on `threads` cores.
 double clock_seconds(const std::vector<LevelCost>& costs, size_t first, size_t last, int threads);
 
+/// What the runs after that of the finest mesh take, over its seconds: the check of the steps, with
+/// twice as many and a quarter of the particles, and all coarser meshes, coarse to fine, with the
+/// finest one's steps. finest: its level.
+std::vector<double> parts_of_finest(int finest);
+
+/// Seconds of the clock for a ladder in space whose finest mesh is level `finest` and takes so many
+/// seconds of the processor: it runs alone, since all others take its steps.
+double mesh_clock_seconds(double seconds, int finest, int threads);
+
 /// How many levels are run, and why the next one is not, with the numbers; "" if all are.
 struct Affordable {
   int levels;
@@ -38,9 +48,10 @@ struct Affordable {
 };
 
 /// The levels that ran, and those to come that fit the limits with all before them. costs: of all
-/// levels; no seconds where a result is there already. spent: of the clock so far [s].
-Affordable affordable_levels(const std::vector<LevelCost>& costs, size_t measured, double spent,
-                             const LadderLimits& limits, int threads);
+/// levels. clock: seconds of the clock for the whole ladder if its last level is the given one.
+Affordable affordable_levels(const std::vector<LevelCost>& costs, size_t measured,
+                             const std::function<double(size_t)>& clock,
+                             const LadderLimits& limits);
 
 /// "40 s", "12 min", "5.2 h".
 std::string duration_text(double seconds);

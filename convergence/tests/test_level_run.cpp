@@ -229,6 +229,12 @@ TEST_CASE("what levels will cost grows as it did from one to the next") {
   CHECK(clock_seconds(costs, 2, 3, 2) == Approx(18));
 }
 
+TEST_CASE("a ladder in space takes the finest mesh, then all others with its steps") {
+  // the check of its steps half as long; the meshes below a quarter and a sixteenth
+  CHECK(mesh_clock_seconds(80, 2, 1) == Approx(80 * (1 + 0.5 + 0.25 + 0.0625)));
+  CHECK(mesh_clock_seconds(80, 2, 2) == Approx(80 * 1.5));  // side by side
+}
+
 TEST_CASE("the cost of a level is its work on all particles and what it keeps") {
   Level level = time_level(trial(), 0, {});
   LevelRun run;
@@ -245,15 +251,18 @@ TEST_CASE("the cost of a level is its work on all particles and what it keeps") 
 
 TEST_CASE("levels that do not fit are refused with the numbers") {
   const std::vector<LevelCost> costs = {{1, 10, 1e9}, {2, 20, 1e9}, {4, 40, 2e9}, {8, 80, 2e9}};
-  CHECK(affordable_levels(costs, 2, 30, {1e9, 1e12}, 1).levels == 4);
-  CHECK(affordable_levels(costs, 2, 30, {1e9, 1e12}, 1).refusal.empty());
-  const Affordable slow = affordable_levels(costs, 2, 30, {149, 1e12}, 1);
+  const auto clock = [&](int threads) {
+    return [&costs, threads](size_t last) { return 30 + clock_seconds(costs, 2, last, threads); };
+  };
+  CHECK(affordable_levels(costs, 2, clock(1), {1e9, 1e12}).levels == 4);
+  CHECK(affordable_levels(costs, 2, clock(1), {1e9, 1e12}).refusal.empty());
+  const Affordable slow = affordable_levels(costs, 2, clock(1), {149, 1e12});
   CHECK(slow.levels == 3);
   CHECK_THAT(slow.refusal, Contains("level 4 of 4 would take 80 s, the ladder up to it 2.5 min") &&
                                Contains("--hours"));
-  CHECK(affordable_levels(costs, 2, 30, {149, 1e12}, 2).levels == 4);  // side by side
-  CHECK(affordable_levels(costs, 2, 30, {69, 1e12}, 1).levels == 2);
-  const Affordable large = affordable_levels(costs, 2, 30, {1e9, 5.9e9}, 1);
+  CHECK(affordable_levels(costs, 2, clock(2), {149, 1e12}).levels == 4);  // side by side
+  CHECK(affordable_levels(costs, 2, clock(1), {69, 1e12}).levels == 2);
+  const Affordable large = affordable_levels(costs, 2, clock(1), {1e9, 5.9e9});
   CHECK(large.levels == 3);
   CHECK_THAT(large.refusal,
              Contains("level 4 of 4 would keep 2 GB, the ladder up to it 6 GB; 5.9 GB"));

@@ -119,22 +119,14 @@ std::vector<LevelCost> probed_costs(const SpaceLadder& ladder, LadderRunner& run
   return foreseen_costs(runner.costs, int(ladder.levels.size()));
 }
 
-/// What the runs after that of the finest mesh take, over its seconds: the check of the steps, with
-/// twice as many and a quarter of the particles, and all coarser meshes, coarse to fine.
-std::vector<double> parts_of_finest(int finest) {
-  std::vector<double> parts = {0.5};
-  for (int k = 0; k < finest; ++k) parts.push_back(std::pow(4, k - finest));
-  return parts;
-}
-
-/// Leaves the runs of the finest mesh, of the check of its steps, and of the other meshes, coarse
-/// to fine. forecast: seconds of the processor for the finest mesh; later: of the clock for the
-/// others, over it.
+/// Leaves the runs of the finest mesh, of the check of its steps, and of the other meshes,
+/// coarse to fine. forecast: seconds of the processor for the finest mesh; later: of the clock
+/// for the others.
 void run_with_finest_steps(const SpaceLadder& ladder, LadderRunner& runner, ProgressLine& line,
                            double forecast, double later) {
   const int finest = int(ladder.levels.size()) - 1;
   const Level first = space_level(ladder, finest, {});
-  runner.run_for({first}, {runner.is_stored(first) ? 0 : forecast}, later * forecast, line);
+  runner.run_for({first}, {runner.is_stored(first) ? 0 : forecast}, later, line);
   if (!runner.runs[0].stopped.empty())
     throw InputError("the finest mesh comes to no end: " + runner.runs[0].stopped);
   const std::vector<double>& ends = runner.runs[0].step_ends;
@@ -168,8 +160,11 @@ LadderRuns run_ladder(const LadderOfLevels& ladder, const LevelSetProvider& leve
     later.push_back(ladder.level(k, runner.runs));
     if (runner.is_stored(later.back())) costs[size_t(k)].seconds = 0;
   }
-  const Affordable affordable =
-      affordable_levels(costs, 2, line.seconds(), limits, threads_of(running));
+  const double spent = line.seconds();
+  const auto clock = [&](size_t last) {
+    return spent + clock_seconds(costs, 2, last, threads_of(running));
+  };
+  const Affordable affordable = affordable_levels(costs, 2, clock, limits);
   if (affordable.levels < 3)
     throw InputError("an error bar needs three levels, and " + affordable.refusal);
   later.resize(size_t(affordable.levels) - 2, later.front());
@@ -185,18 +180,21 @@ SpaceRuns run_meshes(SpaceLadder ladder, const LevelSetProvider& level_sets, Res
   const double whole = 2 * std::pow(8, ladder.levels.size());  // if each takes 8 times as long
   LadderRunner probes(level_sets, store, running);
   const std::vector<LevelCost> costs = probed_costs(ladder, probes, line, whole);
-  const Affordable affordable =
-      affordable_levels(costs, 2, line.seconds(), limits, threads_of(running));
+  const double spent = line.seconds();
+  const auto clock = [&](size_t last) {
+    return spent + mesh_clock_seconds(costs[last].seconds, int(last), threads_of(running));
+  };
+  const Affordable affordable = affordable_levels(costs, 2, clock, limits);
   if (affordable.levels < 3)
     throw InputError("an error bar needs three levels, and " + affordable.refusal);
   ladder.levels.resize(size_t(affordable.levels));
   const size_t finest = ladder.levels.size() - 1;
   const double forecast = costs[finest].seconds,
-               later = side_by_side(parts_of_finest(int(finest)), threads_of(running));
-  announce(costs, ladder.levels.size(), (1 + later) * forecast);
+               whole_ladder = mesh_clock_seconds(forecast, int(finest), threads_of(running));
+  announce(costs, ladder.levels.size(), whole_ladder);
 
   LadderRunner runner(level_sets, store, running);
-  run_with_finest_steps(ladder, runner, line, forecast, later);
+  run_with_finest_steps(ladder, runner, line, forecast, whole_ladder - forecast);
   std::vector<LevelRun> runs(runner.runs.begin() + 2, runner.runs.end());
   runs.push_back(std::move(runner.runs[0]));
   return {
