@@ -238,6 +238,15 @@ class StiffensWithSmallSteps(ToySolver):
         self.k = given
 
 
+class StiffensALittleInSingle(Single):
+    """Its changes grow fourfold, and are less than a bound on rounding in single precision."""
+
+    def advance(self, dt: float, steps: int) -> None:
+        given, self.k = self.k, self.k * np.float32(0.99 + 0.01 * (0.002 / dt) ** 2)
+        super().advance(dt, steps)
+        self.k = given
+
+
 class SubstepsInSingle(Single):
     """Right, as position based engines are: five substeps a step, velocities from positions of
     single precision, so that short steps are mostly rounding."""
@@ -312,6 +321,7 @@ KINDS = {
     "knows_its_axes": KnowsItsAxes,
     "depends_on_numbers": DependsOnNumbers,
     "stiffens_with_small_steps": StiffensWithSmallSteps,
+    "stiffens_a_little_single": StiffensALittleInSingle,
     "substeps_in_single": SubstepsInSingle,
     "sleeps": Sleeps,
     "held_sheets_weigh_twice": HeldSheetsWeighTwice,
