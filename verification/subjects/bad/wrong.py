@@ -4,8 +4,8 @@ physics or one claim: wrong.py KIND
 
 The portable suite must find each by the laws that it breaks. "none" is the unspoiled toy;
 "backward_euler" and "trapezoidal" are other correct schemes, which must raise no alarm, at f8;
-"single" and "backward_euler_single" are some at f4; "substeps_in_single" must meet the law of
-limits, and "sleeps" is right but slow.
+"single", "backward_euler_single" and "substeps_in_single" are some at f4,
+and "sleeps" is right but slow.
 """
 from __future__ import annotations
 
@@ -76,6 +76,10 @@ class SingleForDouble(ToySolver):
 
 
 class FirstOrderAsSecond(ToySolver):
+    scheme, order = "symplectic Euler, said to be Verlet", 2
+
+
+class FirstOrderAsSecondInSingle(Single):
     scheme, order = "symplectic Euler, said to be Verlet", 2
 
 
@@ -300,6 +304,7 @@ KINDS = {
     "momentum_dropped": MomentumDropped,
     "single_for_double": SingleForDouble,
     "first_order_as_second": FirstOrderAsSecond,
+    "first_order_as_second_single": FirstOrderAsSecondInSingle,
     "hidden_damping": HiddenDamping,
     "state_not_restored": StateNotRestored,
     "scene_leaves_traces": SceneLeavesTraces,
