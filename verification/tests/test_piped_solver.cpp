@@ -225,6 +225,17 @@ TEST_CASE("subject: parameters that mean something else are found") {
         std::set<std::string>{"calibration.bending-rigidity-is-the-scene-s"});
 }
 
+TEST_CASE("subject: a strip without bending hangs limp, and the law says so in numbers") {
+  const SolverCommand command = python("bad/wrong.py bends_not_at_all");
+  const Record record = judge_solver(command, laws_of({"cantilever"}), ignore).records.at(0);
+  INFO(record.finding.note);
+  CHECK(record.outcome == Outcome::fails);
+  CHECK(record.finding.verdict.measured > 0.2);
+  CHECK(record.finding.verdict.measured < 1);
+  CHECK(record.finding.note.find("It does not resist bending") == 0);
+  CHECK(record.finding.note.find("limp, 1.00 of its length low") != std::string::npos);
+}
+
 TEST_CASE("subject: wrong contact is found") {
   const std::string rests = "contact.sheet-rests-on-a-plane",
                     still = "contact.resting-sheet-is-still",

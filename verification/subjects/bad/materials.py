@@ -80,6 +80,12 @@ class BendsFourfold(Bends):
     rigidity = 4.0
 
 
+class BendsNotAtAll(Bends):
+    """Takes a bending rigidity, and ignores it."""
+
+    rigidity = 0.0
+
+
 class BendsUprightOnly(Bends):
     """The theory of small deflections: bending resists height alone, whatever the slope. Turned
     sheets are bent the wrong way, and steep ones too little."""

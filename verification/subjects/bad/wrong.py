@@ -294,6 +294,7 @@ KINDS = {
     "damped": materials.Damped,
     "damping_halved": materials.DampingHalved,
     "damped_unasked": materials.DampedUnasked,
+    "bends_not_at_all": materials.BendsNotAtAll,
     "bends_fourfold": materials.BendsFourfold,
     "on_boxes": contact.OnBoxes,
     "on_boxes_now_and_then": contact.OnBoxesNowAndThen,
