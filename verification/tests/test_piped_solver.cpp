@@ -251,6 +251,13 @@ TEST_CASE("subject: wrong contact is found") {
   CHECK(failing_laws("friction_halved", laws) == std::set<std::string>{slides});
 }
 
+TEST_CASE("subject: a sheet that stands still has passed no test of collisions") {
+  require_law_fails("starts_from_rest", "inertia.free-sheet-keeps-its-velocity");
+  for (const char* law : {"tunnelling.thin-box-stops-a-slow-sheet",
+                          "self-collision.folded-sheet-never-passes-through-itself"})
+    CHECK(outcome_of_law("starts_from_rest", law) == Outcome::not_applicable);
+}
+
 TEST_CASE("subject: lost momentum and hidden damping are found") {
   require_law_fails("momentum_dropped", "momentum.linear-is-conserved");
   require_law_fails("hidden_damping", "inertia.free-sheet-keeps-its-velocity");

@@ -116,6 +116,17 @@ class OnBoxesNowAndThen(OnBoxes):
     checked_each = 4
 
 
+class StartsFromRest(OnBoxes):
+    """Ignores the start's velocity, so that nothing it throws or folds meets anything."""
+
+    capabilities = (*OnBoxes.capabilities, "self_collision")
+
+    def prepare(self, scene: Scene) -> dict[str, str]:
+        mapping = super().prepare(scene)
+        self.v = np.zeros_like(self.x)
+        return mapping
+
+
 class ParticlesRepelAlone(ToySolver):
     """Against itself: particles nearer than the thickness part, edges and triangles are nothing."""
 

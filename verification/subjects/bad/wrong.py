@@ -299,6 +299,7 @@ KINDS = {
     "on_boxes": contact.OnBoxes,
     "on_boxes_now_and_then": contact.OnBoxesNowAndThen,
     "particles_repel_alone": contact.ParticlesRepelAlone,
+    "starts_from_rest": contact.StartsFromRest,
     "sinks_in": contact.SinksIn,
     "jitters": contact.Jitters,
     "friction_beyond_the_cone": contact.FrictionBeyondTheCone,

@@ -1,5 +1,7 @@
 #include "verification/subjects/suite/scenes.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <string>
 #include <utility>
@@ -111,6 +113,17 @@ PortableScene hanging_sheet() {
 }
 
 double size_of(const PerParticle3& x) { return x.colwise().norm().maxCoeff(); }
+
+void require_start_velocity(const PortableScene& scene, const PerParticle3& x, long steps) {
+  const double time = double(steps) * scene.dt;
+  const double came = (scene.v.cwiseProduct(x - scene.x) * scene.mass).sum(),
+               free = (scene.v.colwise().squaredNorm() * scene.mass)[0] * time;
+  if (!(came >= free / 2))
+    throw NotOffered{
+        fmt::format("the start's velocity: before any contact the sheet comes {:.2g} of the way "
+                    "that it would come freely, so it meets nothing",
+                    came / free)};
+}
 
 double squared_phase(const PortableScene& scene, long steps) {
   const Eigen::VectorXd stiffness = edge_stiffness(scene);

@@ -35,6 +35,10 @@ PortableScene hanging_sheet();
 /// Largest extent of the positions, or distance from the origin [m].
 double size_of(const PerParticle3& x);
 
+/// Throws NotOffered unless the sheet, before any contact, has come half the way of its start's
+/// velocities at least, as weighted by momentum. A sheet that stands still meets nothing.
+void require_start_velocity(const PortableScene& scene, const PerParticle3& x, long steps);
+
 /// (time of the motion)^2 times a bound on the squared elastic frequencies [1]: twice the stiffness
 /// of all springs at a particle, over its mass.
 double squared_phase(const PortableScene& scene, long steps);
