@@ -112,7 +112,11 @@ class CaseNeeds:
     def tally(self) -> str:
         """How many parts are needed, in words."""
         counts = Counter(part.standing for part in self.parts)
-        return ", ".join(f"{counts[standing]} {standing}" for standing in NEEDS if counts[standing])
+        return ", ".join(
+            f"{counts[standing]} {'undecided' if standing == CANNOT_TELL else standing}"
+            for standing in NEEDS
+            if counts[standing]
+        )
 
 
 @dataclass

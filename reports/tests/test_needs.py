@@ -156,7 +156,7 @@ class NeedsShown(unittest.TestCase):
         self.put(outcomes)
         text = self.made()
         self.assertIn("2 parts are undecided: the change is within the error bar.", text)
-        self.assertIn("fold: 2 cannot tell", text)
+        self.assertIn("fold: 2 undecided", text)
         self.assertIn("with its error bar (", text)
         section = re.search(r'<section id="needs">.*?</section>', text, re.DOTALL)[0]
         self.assertEqual(

@@ -4,8 +4,8 @@ physics or one claim: wrong.py KIND
 
 The portable suite must find each by the laws that it breaks. "none" is the unspoiled toy;
 "backward_euler" and "trapezoidal" are other correct schemes, which must raise no alarm, at f8;
-"single" and "backward_euler_single" are some at f4; "substeps_in_single" must meet the law of
-limits, and "sleeps" is right but slow.
+"single", "backward_euler_single" and "substeps_in_single" are some at f4,
+and "sleeps" is right but slow.
 """
 from __future__ import annotations
 
@@ -76,6 +76,10 @@ class SingleForDouble(ToySolver):
 
 
 class FirstOrderAsSecond(ToySolver):
+    scheme, order = "symplectic Euler, said to be Verlet", 2
+
+
+class FirstOrderAsSecondInSingle(Single):
     scheme, order = "symplectic Euler, said to be Verlet", 2
 
 
@@ -234,6 +238,15 @@ class StiffensWithSmallSteps(ToySolver):
         self.k = given
 
 
+class StiffensALittleInSingle(Single):
+    """Its changes grow fourfold, and are less than a bound on rounding in single precision."""
+
+    def advance(self, dt: float, steps: int) -> None:
+        given, self.k = self.k, self.k * np.float32(0.99 + 0.01 * (0.002 / dt) ** 2)
+        super().advance(dt, steps)
+        self.k = given
+
+
 class SubstepsInSingle(Single):
     """Right, as position based engines are: five substeps a step, velocities from positions of
     single precision, so that short steps are mostly rounding."""
@@ -300,6 +313,7 @@ KINDS = {
     "momentum_dropped": MomentumDropped,
     "single_for_double": SingleForDouble,
     "first_order_as_second": FirstOrderAsSecond,
+    "first_order_as_second_single": FirstOrderAsSecondInSingle,
     "hidden_damping": HiddenDamping,
     "state_not_restored": StateNotRestored,
     "scene_leaves_traces": SceneLeavesTraces,
@@ -307,6 +321,7 @@ KINDS = {
     "knows_its_axes": KnowsItsAxes,
     "depends_on_numbers": DependsOnNumbers,
     "stiffens_with_small_steps": StiffensWithSmallSteps,
+    "stiffens_a_little_single": StiffensALittleInSingle,
     "substeps_in_single": SubstepsInSingle,
     "sleeps": Sleeps,
     "held_sheets_weigh_twice": HeldSheetsWeighTwice,
