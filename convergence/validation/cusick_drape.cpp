@@ -131,13 +131,13 @@ Starts from_starts(Drapes& drapes, Tier tier) {
 
 NamedFinding fold_number_follows_the_start(const Starts& starts) {
   return {"cusick-drape.fold-number-follows-the-start",
-          "The same wool rests, stably, with at least three numbers of folds, by how it starts.",
+          "The same wool has stable rests with three or more numbers of folds, by its start.",
           {{3.0 / double(starts.drapes.size()), 1, 0, "1",
             "repeated tests of one fabric give several numbers of folds, by its initial state "
             "(Jeong 1998, part I)"},
            starts.table,
-           "three over the stable numbers of folds; stable: the energy's Hessian has no pivot that "
-           "is not positive"}};
+           "three over the stable numbers of folds; stable: every pivot of the energy's Hessian is "
+           "positive"}};
 }
 
 NamedFinding folds_change_the_coefficient(const Starts& starts, double error) {
@@ -175,7 +175,7 @@ NamedFinding coefficient_grows(const Table& table, double error) {
   return {"cusick-drape.coefficient-grows-with-bending-length",
           "The drape coefficient grows with the bending length.",
           {{least > 0 ? error / least : nan, 1, 0, "1",
-            "stiffer or lighter cloth drapes less; by less than the error it would not be seen"},
+            "stiffer or lighter cloth drapes less; growth below the error would not show"},
            table,
            "the mesh's error over the least growth between neighbours; no coefficient where the "
            "drape is not stable"}};
@@ -216,17 +216,17 @@ NamedFinding is_at_rest(const Drapes& drapes) {
     ++stable;
   }
   return {"cusick-drape.is-at-rest",
-          "Every stable drape is at rest, but for a millionth of a particle's weight.",
+          "Every stable drape is at rest, to a millionth of a particle's weight.",
           {{stable > 0 ? worst.value() : nan, 1e-6, 0, "1", "the search ends at a hundredth of it"},
            drapes.table,
-           "drapes that are not stable count nowhere"}};
+           "drapes that are not stable are left out"}};
 }
 
 NamedFinding never_crosses_itself(const Table& drapes) {
   return {"cusick-drape.never-crosses-itself",
-          "No drape crosses itself, though nothing keeps it from it.",
+          "No drape crosses itself, though nothing prevents it.",
           judge_worst(drapes, "crossings", 0,
-                      "counted exactly; contact of folds would have to be simulated otherwise")};
+                      "counted exactly; if folds met, their contact would have to be simulated")};
 }
 
 /// Outlines from above, and how far they reach in each direction.
@@ -311,8 +311,8 @@ StudyResult run_cusick_drape(const Subject& subject, Tier tier, const Progress& 
 
 Study cusick_drape_study() {
   return {"cusick-drape",
-          "In the drape test the coefficient grows with the bending length; one fabric rests with "
-          "several numbers of folds, by how it starts, and they change the coefficient.",
+          "In the drape test the coefficient grows with the bending length. One fabric rests with "
+          "several numbers of folds, depending on its start, and they change the coefficient.",
           "Cusick 1965; BS 5058; ISO 9073-9",
           "A disc of 30 cm is held between two plates of 18 cm, and its ring hangs. The drape "
           "coefficient is the area of the ring's shadow over that of the level ring. S is for the "

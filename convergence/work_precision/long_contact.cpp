@@ -170,8 +170,8 @@ NamedFinding limit_is_sharp(const LongContact& measured, const std::string& sche
 NamedFinding costs_more(const LongContact& measured) {
   const LongestStep &one = measured.of(one_solve), &c = measured.of("C");
   return {"long-contact.longer-steps-cost-more.linear-backward-euler",
-          "There, one linear solve a step allows longer steps than C, and a second of motion takes "
-          "more work with it than with C, each at its longest step.",
+          "There, linearised backward Euler allows longer steps than C, but takes more work for a "
+          "second of motion, each at its longest step.",
           {{std::max(c.applications / one.applications, measured.steps(c) / measured.steps(one)), 1,
             0, "1", "at 1 both take the same steps, or the same work"},
            steps_and_work(measured),
@@ -202,15 +202,15 @@ StudyResult run_long_contact(const Subject& subject, Tier tier, const Progress& 
 Study long_contact_study() {
   return {
       "long-contact",
-      "On cloth that falls on a ball and hangs from it, A, B and C last at the elastic limit; A "
-      "and B do not at twice it. One linear solve a step allows longer steps than C, and takes "
-      "more work.",
+      "On cloth that falls on a ball and hangs from it, steps of the elastic limit last with A, B "
+      "and C; twice that does not last with A and B. Linearised backward Euler allows longer steps "
+      "than C, but takes more work.",
       "BMF03 section 3",
       "A square of cloth falls on a ball that lies on a floor, slides with friction, folds and "
       "hangs from the ball: 100 particles (2,025 in the full tier) over 1.5 s. Each method runs "
       "with the elastic limit as its step, then with twice that, until a run diverges or has more "
       "than twice the kinetic energy of the run with half its step. Work is counted. How accurate "
-      "these steps are is not asked here: in contact they need not be (filtered-order).",
+      "these steps are is not measured: in contact they need not be (filtered-order).",
       run_long_contact};
 }
 

@@ -137,7 +137,7 @@ def _integrator(results: Results) -> Conclusion | None:
     picks = [
         [
             *in_words([[Quoted(method, source, is_name=True)] for method in winner]),
-            " alike on " if len(winner) > 1 else " on ",
+            " tied on " if len(winner) > 1 else " on ",
             *in_words(
                 [
                     [Quoted(scene, source)]

@@ -125,14 +125,14 @@ class NeedsShown(unittest.TestCase):
             "gravity &lt;b&gt;", "it moves &lt;nothing&gt;", "for &lt;show&gt;",
             "coarser mesh: too many triangles",
             "With <code>--set time.end=1 --set cloth.fit=2</code>: ",
-            "Asked of the first 0.5 of 3 s: ",
-            "1 case was asked beside this run (commit abcdef0123)"
+            "Over the first 0.5 of 3 s: ",
+            "1 case was ablated beside this run (commit abcdef0123)"
         ):
             self.assertIn(shown, text)
         self.assertRegex(
             text, r'Its parts: <a href="#needs-of-fold">1 kept for a reason, 1 not needed here</a>'
         )
-        for absent in ("Not known which", "ecorded, of commit", "needs.json"):
+        for absent in ("Not known which", "ecorded at commit", "needs.json"):
             self.assertNotIn(absent, text)
         section = re.search(r'<section id="needs">.*?</section>', text, re.DOTALL)[0]
         self.assertEqual(section.count("verdict fails"), 2)
@@ -169,15 +169,15 @@ class NeedsShown(unittest.TestCase):
         text = self.made()
         self.assertIn(
             (
-                "Of 1 case the answers are those recorded in <code>cases/needs.json</code>, found"
-                " by earlier programs (commit fedcba9876)"
+                "For 1 case the results are those recorded in <code>cases/needs.json</code>,"
+                " found by earlier versions of the program (commit fedcba9876)"
             ),
             text,
         )
-        self.assertIn("Recorded, of commit fedcba9876", text)
+        self.assertIn("Recorded at commit fedcba9876", text)
         self.assertIn(
             (
-                "</a>, asked with <code>--set time.end=1 --set cloth.fit=2</code>, asked of its"
+                "</a>, found with <code>--set time.end=1 --set cloth.fit=2</code>, over its"
                 " first 0.5 of 3 s, as recorded."
             ),
             text,
@@ -186,7 +186,7 @@ class NeedsShown(unittest.TestCase):
         (self.shipped / "m.obj").write_bytes(b"v 0 0 1")
         text = self.made()
         self.assertIn("the case has changed since", text)
-        self.assertIn("Recorded of an earlier form of the case: fold.", text)
+        self.assertIn("Recorded for an earlier form of the case: fold.", text)
         self.assertIn("of an earlier form of the case</span>", text)
 
     def test_what_was_asked_beside_the_run_goes_before_what_is_recorded(self) -> None:

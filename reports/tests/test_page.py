@@ -98,7 +98,7 @@ class Order(MadeUpPage):
     def test_the_first_screen_counts_and_answers(self) -> None:
         opening = self.text[:self.text.index("<main")]
         for word in (
-            "Claims", "Checks", "Studies", "Cases", "What of the paper holds?",
+            "Claims", "Checks", "Studies", "Cases", "Which claims of the paper hold?",
             "Which integrator should I use?"
         ):
             self.assertIn(word, opening)

@@ -123,7 +123,7 @@ class OnePage(unittest.TestCase):
             )
         page, markdown = self.made()
         for text in (page, markdown):
-            self.assertRegex(text, r"RK4\W+and \W*A\W+alike on")
+            self.assertRegex(text, r"RK4\W+and \W*A\W+tied on")
             self.assertNotIn("No integrator is cheapest everywhere", text)
 
     def test_words_between_the_numbers_hold_no_digit(self) -> None:

@@ -232,18 +232,19 @@ Exit codes:
   2    bad input, or a file that cannot be written)";
 
 constexpr const char* ablate =
-    R"(Finds the scene's own error first, as converge says it: that of its steps, from steps halved twice,
-and that of its mesh, from edges halved once (--mesh-levels 3: twice, for ten times the time). The
-error bar of two meshes is three times their difference. OUT/store keeps these runs, and takes those
-that converge left there. Then it removes one part at a time, and adds, one at a time, the missing
-parts that need no parameters: self-collision, strain limits, points between particles. A part is
-needed, or missing, if one of these happens without it:
+    R"(First finds the scene's own error, as converge does: that of its steps, from steps halved twice,
+and that of its mesh, from edges halved once (--mesh-levels 3: twice, in ten times the time). With
+two meshes, the error bar is three times their difference. OUT/store keeps these runs; those that
+converge left there are not repeated. Then ablate removes one part at a time, and adds, one at a
+time, the missing parts that need no parameters: self-collision, strain limits, points between
+particles. A part is needed, or missing, if one of these happens without it:
 - particles move by more than the scene's own error, error bar included;
 - the run does not reach its end, or an expectation of the case fails or loses its meaning;
 - the cloth crosses itself, or lies deeper in an object by more than the scene's own error.
-Where a change exceeds the error, but not with its bar, ablate says "cannot tell". The table
-[ablation] of a case file can justify a part that is not needed, or the lack of one that is. It can
-name a coarser mesh where a finer one would take hours, and limit ablate to the beginning of a run.
+Where a change exceeds the error, but not the error with its bar, ablate says "cannot tell". The
+table [ablation] of a case file can justify a part that is not needed, or the lack of one that is.
+It can name a coarser mesh where a finer one would take hours, and limit ablate to the beginning of
+a run.
 
 Examples:
   foldproof ablate hinge
@@ -251,8 +252,8 @@ Examples:
 
 Exit codes:
   0    every part is needed, none is missing
-  1    a part (marked !) is not needed, or is missing, and the case does not say why; or it says why
-       without need; or the unchanged scene does not reach its end, or fails an expectation
+  1    a part (marked !) is not needed, or is missing, and the case gives no reason; or it gives one
+       that is not called for; or the unchanged scene stops early, or fails an expectation
   2    bad input, or a file that cannot be written)";
 
 constexpr const char* converge =

@@ -202,7 +202,7 @@ Finding hangs_as_the_elastica(Trial& trial) {
 std::vector<Law> cantilever_laws() {
   return {
       {"cantilever.heavy-strip-hangs-as-the-elastica",
-       "A strip that hangs over its middle has the shape of the elastica with its own rigidity.",
+       "A strip that hangs from its middle row takes the elastica's shape for its own rigidity.",
        "heavy elastica", hangs_as_the_elastica},
   };
 }

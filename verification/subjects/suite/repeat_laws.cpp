@@ -229,7 +229,7 @@ std::vector<Law> repeat_laws() {
   return {
       {"repeat.fresh-process-gives-the-same-bits", "The same scene gives the same bits again.",
        "determinism", same_in_a_fresh_process},
-      {"repeat.second-scene-starts-afresh", "A scene after another one gives the same bits.",
+      {"repeat.second-scene-starts-afresh", "A scene gives the same bits after another one.",
        "determinism", second_scene_starts_afresh},
       {"repeat.step-depends-on-its-state-alone", "A state that is set again gives the same step.",
        "determinism", step_depends_on_its_state_alone},

@@ -68,7 +68,7 @@ Finding small_steps_gain_no_energy(Trial& trial) {
 std::vector<Law> stability_laws() {
   return {
       {"stability.small-steps-gain-no-energy",
-       "A hanging sheet never moves faster than its fall allows where steps are short.",
+       "With short steps, a hanging sheet never moves faster than its fall allows.",
        "conservation of energy", small_steps_gain_no_energy},
   };
 }

@@ -128,16 +128,16 @@ Finding same_when_renumbered(Trial& trial) {
 
 std::vector<Law> symmetry_laws() {
   return {
-      {"symmetry.translation", "A sheet elsewhere moves alike.", "homogeneity of space",
-       same_elsewhere},
-      {"symmetry.rotation", "A sheet that is turned, with gravity, moves alike.",
+      {"symmetry.translation", "A sheet placed elsewhere moves the same way.",
+       "homogeneity of space", same_elsewhere},
+      {"symmetry.rotation", "A sheet turned together with gravity moves the same way.",
        "isotropy of space", same_when_turned},
       {"symmetry.mirror", "A mirrored sheet moves as the mirror image.", "mirror symmetry of space",
        same_in_the_mirror},
-      {"symmetry.units", "In other units of length, mass and time a sheet moves alike.",
+      {"symmetry.units", "A sheet moves the same way in other units of length, mass and time.",
        "dimensions of the equations", same_in_other_units},
-      {"symmetry.renumbering", "Other numbers of particles and triangles change rounding only.",
-       "numbers are not physical", same_when_renumbered},
+      {"symmetry.renumbering", "Renumbering particles and triangles changes only rounding.",
+       "numbering is not physical", same_when_renumbered},
   };
 }
 

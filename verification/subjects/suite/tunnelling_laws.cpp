@@ -67,7 +67,7 @@ Finding nothing_passes(Trial& trial) {
 std::vector<Law> tunnelling_laws() {
   return {
       {"tunnelling.thin-box-stops-a-slow-sheet",
-       "Nothing passes a thin box where a step moves less than half its thickness.",
+       "Nothing passes through a thin box where a step moves less than half its thickness.",
        "impenetrability", nothing_passes},
   };
 }
