@@ -143,7 +143,8 @@ void add_ablate(CLI::App& app, Options& options) {
       ->add_option("--mesh-levels", options.mesh_levels,
                    "Meshes that measure the mesh's error, 2 to 5; each takes about ten times as "
                    "long as the one before")
-      ->check(CLI::Range(2, 5))
+      ->type_name("N")
+      ->check(whole_number(2, 5))
       ->capture_default_str();
   add_tier(ablate, options);
   add_overrides(ablate, options);
