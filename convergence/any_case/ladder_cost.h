@@ -32,9 +32,9 @@ struct LadderLimits {
 /// Seconds of the clock for levels first .. last, side by side on `threads` cores.
 double clock_seconds(const std::vector<LevelCost>& costs, size_t first, size_t last, int threads);
 
-/// What the runs after that of the finest mesh take, over its seconds: the check of the steps, with
-/// twice as many and a quarter of the particles, and all coarser meshes, coarse to fine, with the
-/// finest one's steps. finest: its level.
+/// The other runs of a ladder in space, each as a share of the finest mesh's seconds. The first is
+/// the check of the steps, with twice as many steps and a quarter of the particles; then come the
+/// coarser meshes, coarse to fine, with the finest one's steps. finest: that mesh's level.
 std::vector<double> parts_of_finest(int finest);
 
 /// Seconds of the clock for a ladder in space whose finest mesh is level `finest` and takes so many

@@ -34,7 +34,7 @@ LadderPlan plan_of(const CaseSource& source) {
   return plan;
 }
 
-/// Of the levels before the last, which stopped.
+/// The error from the levels before the last one, which stopped.
 ErrorPart error_without_finest(const Scene& scene, const std::vector<LevelRun>& runs) {
   const std::string& why = runs.back().stopped;
   if (runs.size() < size_t(levels_of_own_error)) return not_known(why);

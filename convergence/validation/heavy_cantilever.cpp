@@ -63,8 +63,8 @@ NamedFinding tip_agrees(const Weight& weight, const StripLadder& levels) {
                             "S at the finest mesh; D by shooting from the tip")};
 }
 
-/// The tip of a limp thread has no reach: the heaviest strips are told from it by a
-/// tenth of theirs.
+/// A limp thread hangs straight down from its clamp. The heaviest strips are near to that, so their
+/// shape must be closer to the elastica than to the thread: a tenth of the tip's reach.
 double resolution_of_shape(const StripLadder& levels) {
   return std::min(resolution(levels), levels.reach.value / 10);
 }

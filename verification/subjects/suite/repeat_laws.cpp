@@ -70,7 +70,8 @@ PerParticle3 positions_after(Trial& trial, long count) {
 /// that. The run is repeated some metres away, where positions are rounded at least four times as
 /// coarsely. The two runs differ by rounding alone, mostly that of the one far away. This includes
 /// substeps, and velocities from differences of positions, which no bound on the steps covers.
-/// Solves may add their tolerance a step.
+/// Solves may add their tolerance a step. A solver that depends on the place looks rounded here,
+/// and fails symmetry.translation.
 double rounding_of(Trial& trial, long count, const PerParticle3& x) {
   const Vector3 shift(2.3, -2.9, 2.7);  // m; no coordinate of the sheet is beyond 0.7 m
   PortableScene scene = moving_sheet_in(count);
@@ -81,7 +82,7 @@ double rounding_of(Trial& trial, long count, const PerParticle3& x) {
   return ((trial.after(scene, count).x.colwise() - shift) - x).norm() + unfinished;
 }
 
-/// What halving the step changed [m], as a norm, and the rounding in it.
+/// The difference that halving the step makes, and the rounding in that difference: norms [m].
 struct Change {
   double size, rounding;
 };
@@ -178,7 +179,7 @@ Table errors_and_costs(const std::vector<Run>& runs, const Declaration& declared
   return table;
 }
 
-/// Whether a change has shrunk, or grown, from the one before, whatever rounding did to both.
+/// True if rounding cannot decide whether a change is smaller or larger than the one before.
 bool is_clear(const Change& before, const Change& now) {
   return now.size + now.rounding < before.size - before.rounding ||
          now.size - now.rounding > before.size + before.rounding;

@@ -35,8 +35,9 @@ PortableScene hanging_sheet();
 /// Largest extent of the positions, or distance from the origin [m].
 double size_of(const PerParticle3& x);
 
-/// Throws NotOffered unless the sheet, before any contact, has come half the way of its start's
-/// velocities at least, as weighted by momentum. A sheet that stands still meets nothing.
+/// Throws NotOffered unless the sheet, before any contact, has moved at least half as far as
+/// its start's velocities would carry it (a mean weighted by momentum). A sheet that stands
+/// still meets nothing.
 void require_start_velocity(const PortableScene& scene, const PerParticle3& x, long steps);
 
 /// (time of the motion)^2 times a bound on the squared elastic frequencies [1]: twice the stiffness
