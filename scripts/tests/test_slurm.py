@@ -5,6 +5,7 @@ where it is not installed.
 scripts/tests/test_slurm.py [SlurmTest.test_...]
 """
 
+import contextlib
 import json
 import os
 import shutil
@@ -166,6 +167,32 @@ class SlurmTest(unittest.TestCase):
         self.finish(running)
         self.assert_same_as_local(file, 60)
 
+    def processes_of_node(self, name: str) -> list[int]:
+        """All that Slurm started on a virtual node: the jobs' processes, and what watches them."""
+        found, above = [], set()
+        for path in Path("/proc").glob("[0-9]*/environ"):
+            try:
+                words = path.read_bytes().split(b"\0")
+                parent = int((path.parent / "stat").read_text().rpartition(")")[2].split()[1])
+            except OSError:
+                continue
+            conf = f"SLURM_CONF={self.slurm}/slurm.conf".encode()
+            if f"SLURMD_NODENAME={name}".encode() in words and conf in words:
+                found.append(int(path.parent.name))
+                above.add(parent)
+        return [pid for pid in above if pid > 1 and pid not in found] + found
+
+    def test_a_node_that_dies_whole_and_stays_dead_costs_nothing(self) -> None:
+        file = self.write(60, 1)
+        running = self.start(file, "--slice", "10")
+        self.wait_for_results(5)
+        victims = self.processes_of_node("n1")
+        self.assertGreaterEqual(len(victims), 2, "n1 runs nothing")
+        for pid in [self.pid("slurmd.n1"), *victims]:
+            os.kill(pid, signal.SIGKILL)
+        self.finish(running)
+        self.assert_same_as_local(file, 60)
+
     def test_a_restarted_controller_costs_nothing(self) -> None:
         file = self.write(60, 1)
         running = self.start(file, "--slice", "10")
@@ -209,6 +236,25 @@ class SlurmTest(unittest.TestCase):
         os.kill(above, signal.SIGSTOP)  # Slurm still says that it runs
         self.finish(running)
         self.assert_same_as_local(file, 24)
+
+    def test_a_disk_that_was_full_for_a_while_costs_nothing(self) -> None:
+        file, out = self.write(60, 1), self.path / "out"
+        out.mkdir()
+        subprocess.run(["mount", "-t", "tmpfs", "-o", "size=4m", "tmpfs", out], check=True)
+        self.addCleanup(subprocess.run, ["umount", "--lazy", out], check=True)
+        running = self.start(file, "--slice", "10")
+        self.wait_for_results(5)
+        ballast = out / "ballast"
+        with contextlib.suppress(OSError), ballast.open("wb", buffering=0) as full:
+            while full.write(bytes(256)):
+                pass
+        said = running.communicate(timeout=900)[1]
+        self.assertEqual(running.returncode, 2, said)
+        self.assertIn("disk is full", said)
+        self.assertLess(len(self.results()), 60)
+        ballast.unlink()
+        self.finish(self.start(file, "--slice", "10"))
+        self.assert_same_as_local(file, 60)
 
     def test_two_campaigns_at_once_on_one_store(self) -> None:
         one, two = self.write(30, 1, "one"), self.write(59, 1, "two")

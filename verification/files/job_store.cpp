@@ -258,7 +258,7 @@ long JobIndex::merge() {
     for (const auto& [path, name] : shards) added += merge_shard(path, name);
     database_->run("commit");
   } catch (...) {
-    database_->run("rollback");
+    database_->roll_back();
     throw;
   }
   return added;

@@ -86,6 +86,11 @@ void SqliteFile::run(const std::string& sql) {
     fail(path_, database_.get());
 }
 
+void SqliteFile::roll_back() {
+  const bool is_open = sqlite3_get_autocommit(database_.get()) == 0;
+  if (is_open) run("rollback");
+}
+
 SqliteQuery SqliteFile::query(const std::string& sql) { return {database_.get(), path_, sql}; }
 
 long SqliteFile::changes() const { return sqlite3_changes(database_.get()); }

@@ -49,6 +49,10 @@ class SqliteFile {
   /// Runs statements without results.
   void run(const std::string& sql);
 
+  /// Ends a transaction without its changes. SQLite does so itself where the disk is full, and then
+  /// this does nothing.
+  void roll_back();
+
   SqliteQuery query(const std::string& sql);
 
   /// Rows that the last statement inserted, changed or deleted.

@@ -170,6 +170,19 @@ TEST_CASE("job store: an index that is damaged, or of another layout, is made an
   CHECK(index.contains("k1"));
 }
 
+TEST_CASE("job store: an index that the disk cannot take says so, and is whole afterwards") {
+  const ScratchFolder scratch;
+  const std::string store = scratch.file("store");
+  JobShard shard(shard_path(scratch, "a"));
+  for (int k = 0; k < 400; ++k) shard.end("k" + std::to_string(k), job_specimen(), {});
+  JobIndex index(store);
+  {
+    const SmallFiles limit(fs::file_size(store + "/index.sqlite") + 8192);
+    CHECK_THROWS_WITH(index.merge(), Catch::Contains("disk"));
+  }
+  CHECK(index.merge() == 400);
+}
+
 TEST_CASE("job store: two programs may merge at a time") {
   const ScratchFolder scratch;
   for (int k = 0; k < 20; ++k) {
