@@ -355,7 +355,10 @@ def _draw_points(drawing: Drawing) -> None:
     for which, levels in (("x", layout.x), ("y", layout.y)):
         scale_axis(axes, which, levels.scale, levels.numbers)
     values = np.array([median_of(drawing.values[jobs]) for jobs in drawing.panel.jobs.values()])
-    axes.scatter(x, y, 14, values, cmap=COLOURS_OF_VALUES, norm=drawing.norm, linewidths=0)
+    known = np.isfinite(values)
+    if known.any():
+        colours = {"cmap": COLOURS_OF_VALUES, "norm": drawing.norm}
+        axes.scatter(x[known], y[known], 14, values[known], linewidths=0, **colours)
     for k, jobs in enumerate(drawing.panel.jobs.values()):
         for mark, face in marks_of(drawing, jobs):
             axes.plot(x[k], y[k], mark, markersize=5, markeredgecolor=INK, markerfacecolor=face)

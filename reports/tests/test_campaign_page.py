@@ -190,8 +190,9 @@ class CampaignPageTest(unittest.TestCase):
 
     def test_samples_are_points(self) -> None:
         many = 30
+        settings = [[f"{0.1 + k}", f"{(7 * k) % many}"] for k in range(many)]
         self.put(
-            settings=[[f"{0.1 + k}", f"{(7 * k) % many}"] for k in range(many)],
+            settings=settings,
             values=[[float(k), 1] for k in range(many)],
             outcomes=["holds"] * many,
             reasons=[""] * many,
@@ -200,7 +201,11 @@ class CampaignPageTest(unittest.TestCase):
         table = load_campaign(self.path)
         over = ("time.step", "time.integrator")
         self.assertTrue(is_sparse(layout_of(table, CampaignFigure("height", over, "", False))))
-        self.assertIn("figure-1-map", self.page("--quantity", "height", "--over", *over, "--log"))
+        asked = ("--quantity", "height", "--over", *over, "--log")
+        self.assertIn("figure-1-map", self.page(*asked))
+        none = {"outcomes": ["missing"] * many, "seconds": [None] * many}
+        self.put(settings=settings, values=[[None, None]] * many, reasons=[""] * many, **none)
+        self.assertIn("figure-1-map", self.page(*asked))
 
     def test_the_page_escapes_and_counts(self) -> None:
         finding = {"claim": "100 % <of> the runs", "outcome": "fails", "measured": None}
