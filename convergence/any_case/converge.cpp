@@ -91,16 +91,21 @@ Level time_level(const LadderPlan& plan, int k, const std::vector<double>& step_
   return level;
 }
 
-LadderAnswer time_answer(const LadderPlan& plan, const std::vector<LevelRun>& runs) {
+LadderAnswer answer_in_time(const LadderPlan& plan, const std::vector<LevelRun>& runs,
+                            double formal_order) {
   const Scene& scene = plan.input_case.scene;
-  const double order = integrator_named(scene.integrator).order;
   LadderAnswer answer = answer_about(scene, "time", runs);
+  answer.formal_order = formal_order;
   for (const LevelRun& run : runs) answer.sizes.push_back(mean_step_of(run));
   answer.particles.assign(runs.size(), scene.mesh.particles());
-  answer.quantities.push_back(positions_over_levels(scene, runs, order));
+  answer.quantities.push_back(positions_over_levels(scene, runs, formal_order));
   for (size_t m = 0; m < plan.measurements.size(); ++m)
-    answer.quantities.push_back(value_over_levels(plan.measurements[m], m, runs, order));
+    answer.quantities.push_back(value_over_levels(plan.measurements[m], m, runs, formal_order));
   return answer;
+}
+
+LadderAnswer time_answer(const LadderPlan& plan, const std::vector<LevelRun>& runs) {
+  return answer_in_time(plan, runs, integrator_named(plan.input_case.scene.integrator).order);
 }
 
 }  // namespace foldproof

@@ -64,6 +64,9 @@ struct LadderAnswer {
   // overrides that make each level, of a ladder in space
   std::vector<std::vector<std::string>> overrides = {};
   std::vector<std::string> warnings = {};  // a sentence each
+  // of the method, or of the mesh; NaN: none is claimed
+  double formal_order = std::numeric_limits<double>::quiet_NaN();
+  std::string work_name = "operator applications", seconds_name = "processor time";
 
   /// Visits of all forces to all particles, of level k: what its run costs.
   double cost(size_t k) const { return work[k] * particles[k]; }
@@ -73,7 +76,11 @@ struct LadderAnswer {
 LadderAnswer answer_about(const Scene& scene, const std::string& in,
                           const std::vector<LevelRun>& runs);
 
-/// Reads all levels, coarse to fine.
+/// Reads all levels, coarse to fine, of a method of this order.
+LadderAnswer answer_in_time(const LadderPlan& plan, const std::vector<LevelRun>& runs,
+                            double formal_order);
+
+/// The same, of the case's own method.
 LadderAnswer time_answer(const LadderPlan& plan, const std::vector<LevelRun>& runs);
 
 }  // namespace foldproof

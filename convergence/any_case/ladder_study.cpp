@@ -6,15 +6,9 @@
 #include <cctype>
 #include <cmath>
 
-#include "reference/dynamics/integrator.h"
-
 namespace foldproof {
 
 namespace {
-
-double formal_order(const LadderAnswer& answer) {
-  return answer.in == "time" ? integrator_named(answer.method).order : order_in_space;
-}
 
 /// "step" or "mesh": what is refined.
 std::string refined(const LadderAnswer& answer) { return answer.in == "time" ? "step" : "mesh"; }
@@ -42,7 +36,7 @@ Figure positions_figure(const LadderAnswer& answer) {
           "Positions: difference between levels",
           size_axis(answer),
           {"largest root mean square difference", "m", Scale::log},
-          formal_order(answer),
+          answer.formal_order,
           caption,
           {curve_over_levels(answer, answer.quantities.front(), 1)}};
 }
@@ -64,7 +58,7 @@ Figure values_figure(const LadderAnswer& answer) {
                 "Quantities: relative difference between levels",
                 size_axis(answer),
                 {"difference over the largest value", "1", Scale::log},
-                formal_order(answer),
+                answer.formal_order,
                 caption,
                 {}};
   for (size_t k = 1; k < answer.quantities.size(); ++k)
@@ -98,8 +92,8 @@ Table levels_table(const LadderAnswer& answer) {
   Table table{{"level", "1"},
               {answer.in == "time" ? "mean step" : "size", answer.in == "time" ? "s" : "m"},
               {"particles", "1"},
-              {"operator applications", "1"},
-              {"processor time", "s"},
+              {answer.work_name, "1"},
+              {answer.seconds_name, "s"},
               {"stopped", ""}};
   for (size_t k = 0; k < answer.sizes.size(); ++k)
     table.row(k + 1, answer.sizes[k], answer.particles[k], answer.work[k], answer.seconds[k],
@@ -111,6 +105,18 @@ Table levels_table(const LadderAnswer& answer) {
 std::string as_sentence(std::string words) {
   words[0] = char(std::toupper(words[0]));
   return words + ".";
+}
+
+/// Letters, digits and hyphens, as names of studies have them.
+std::string as_name(const std::string& words) {
+  std::string name;
+  for (const char letter : words)
+    if (std::isalnum(static_cast<unsigned char>(letter)))
+      name += letter;
+    else if (!name.empty() && name.back() != '-')
+      name += '-';
+  while (name.ends_with('-')) name.pop_back();
+  return name;
 }
 
 /// Steps, or edges, become shorter from level to level.
@@ -184,7 +190,7 @@ std::vector<Mark> range_marks(const QuantityOverLevels& quantity) {
 
 StudyRecord study_of(const LadderAnswer& answer, const std::string& predictable) {
   StudyRecord study;
-  study.name = fmt::format("converge.{}.{}.in-{}", answer.scene, answer.method, answer.in);
+  study.name = fmt::format("converge.{}.{}.in-{}", answer.scene, as_name(answer.method), answer.in);
   study.claim = in_words(answer) + " " + how_to_halve(answer);
   study.source = "Roache 1994; Celik et al. 2008";
   study.about = fmt::format(

@@ -377,6 +377,7 @@ LadderAnswer space_answer(const SpaceLadder& ladder, const std::vector<LevelRun>
                           const LevelRun& halved) {
   const Scene& scene = ladder.levels.front().input_case.scene;
   LadderAnswer answer = answer_about(scene, "space", runs);
+  answer.formal_order = order_in_space;
   for (const SpaceLevel& level : ladder.levels) {
     answer.sizes.push_back(level.edge);
     answer.particles.push_back(level.input_case.scene.mesh.particles());

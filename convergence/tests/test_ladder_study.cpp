@@ -15,15 +15,17 @@ QuantityOverLevels quantity_of(const std::string& name, const std::vector<double
 
 LadderAnswer answer_of(std::vector<QuantityOverLevels> quantities) {
   const std::vector<double> sizes = {0.08, 0.04, 0.02, 0.01};
-  return {"strip",
-          "C",
-          "time",
-          sizes,
-          {1, 2, 4, 8},
-          {3, 6, 12, 24},
-          {"", "", "", "fell"},
-          std::move(quantities),
-          {4, 4, 4, 4}};
+  LadderAnswer answer{"strip",
+                      "C",
+                      "time",
+                      sizes,
+                      {1, 2, 4, 8},
+                      {3, 6, 12, 24},
+                      {"", "", "", "fell"},
+                      std::move(quantities),
+                      {4, 4, 4, 4}};
+  answer.formal_order = 2;
+  return answer;
 }
 
 }  // namespace

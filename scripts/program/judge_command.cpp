@@ -11,6 +11,7 @@
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
 #include "scripts/program/run_all.h"
+#include "scripts/program/solver_command.h"
 #include "scripts/program/trial_output.h"
 #include "verification/files/baseline_file.h"
 #include "verification/subjects/served/reference_server.h"
@@ -22,20 +23,6 @@ namespace foldproof {
 namespace {
 
 constexpr std::string_view law_of_cost = "order.halved-steps-approach-a-limit";
-
-SolverCommand solver_command(const Options& options) {
-  SolverCommand command;
-  command.command = options.solver;
-  command.limits.seconds = options.patience;
-  for (const std::string& setting : options.overrides) {
-    const size_t equals = setting.find('=');
-    if (equals == std::string::npos || equals == 0)
-      throw InputError(
-          fmt::format("--settings {}: write KEY=VALUE, such as iterations=20", setting));
-    command.settings.emplace_back(setting.substr(0, equals), setting.substr(equals + 1));
-  }
-  return command;
-}
 
 /// The heading of the table: the solver's own words, the settings, and the mapping.
 std::string heading(const Judgement& judgement, const SolverCommand& command) {

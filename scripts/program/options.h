@@ -49,10 +49,11 @@ struct Options {
   double until = 0;
   std::vector<std::string> errors = {"1e-2", "1e-3"};  // of precision: wanted, as typed [1]
   double effort = 1;         // of precision: largest work of a run over the usual budget [1]
-  std::string solver, name;  // of judge, subject: command; of judge: name in the report
-  std::string baseline;      // of judge: a kept verdicts.json, or empty
-  double patience = 60;      // of judge, subject: limit of silence [s]
-  std::string integrator = "C", precision = "f8";         // of serve
+  std::string solver, name;  // of judge, subject, converge: command; of judge: name in the report
+  std::vector<std::string> settings;               // of a solver, KEY=VALUE
+  std::string baseline;                            // of judge: a kept verdicts.json, or empty
+  double patience = 60;                            // of judge, subject: limit of silence [s]
+  std::string integrator = "C", precision = "f8";  // of serve
   std::string engine = "local", engine_options, scratch;  // of campaign
   int slice = 0;  // of campaign: jobs a slice, 0: as the engine likes; of work: number of the slice
   bool json = false, quick = false, no_report = false, no_bench = false, resumes = false,

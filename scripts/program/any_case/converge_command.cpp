@@ -20,9 +20,11 @@
 #include "scripts/program/json_text.h"
 #include "scripts/program/any_case/ladder_runs.h"
 #include "scripts/program/any_case/predictability_runs.h"
+#include "scripts/program/any_case/solver_runs.h"
 #include "scripts/program/program_json.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/run_case.h"
+#include "scripts/program/solver_command.h"
 #include "verification/files/atomic_file.h"
 
 namespace foldproof {
@@ -30,11 +32,14 @@ namespace foldproof {
 namespace {
 
 /// A ladder; of one in time how long its positions are predictable; of one in space, beside a
-/// ladder in time, the map over both.
+/// ladder in time, the map over both; of another solver, how far it ends from the reference.
 struct Told {
   LadderAnswer ladder;
   std::optional<PredictabilityAnswer> twins;
   std::optional<MapAnswer> map;
+  std::optional<SolverGap> gap;
+  LevelRun finest = {};                                           // of a ladder in time
+  std::vector<std::pair<std::string, std::string>> mapping = {};  // of another solver
 };
 
 /// How the questions of one call are answered.
@@ -61,7 +66,25 @@ Told told_in_time(const LadderPlan& plan, const Answering& by) {
   if (!done.refused.empty()) log_line(done.refused);
   PredictabilityAnswer twins = run_twins(plan, done.runs, by.level_sets, by.store, by.options);
   LadderAnswer ladder = answer_before_horizon(plan, done.runs, twins);
-  return {std::move(ladder), std::move(twins), {}};
+  return {std::move(ladder), std::move(twins), {}, {}, done.runs.back()};
+}
+
+/// Of another solver, asked before the reference's horizon only.
+Told told_of_solver(const LadderPlan& plan, const Told& reference, const Answering& by) {
+  Trial solver(solver_command(by.options));
+  SolverLadder ladder(plan, solver, by.level_sets);
+  std::vector<LevelRun> runs = run_solver(ladder, by.options.levels);
+  const double horizon = reference.twins->of.horizon;
+  LevelRun finest = reference.finest;
+  if (horizon < reference.twins->of.end) {
+    runs = frames_until(std::move(runs), horizon);
+    finest = frames_until({finest}, horizon).front();
+  }
+  Told told{ladder.answer(runs), {}, {}, {}, {}, solver.mapping()};
+  const Scene& scene = plan.input_case.scene;
+  told.gap = solver_gap(runs.back(), told.ladder, finest, reference.ladder,
+                        lumped_masses(scene.mesh, scene.density));
+  return told;
 }
 
 Told told_in_space(const CaseSource& source, const Answering& by) {
@@ -69,7 +92,7 @@ Told told_in_space(const CaseSource& source, const Answering& by) {
   const SpaceRuns done = run_meshes(space_ladder(source, by.options.levels, objects), by.level_sets,
                                     by.store, by.options.running, limits_of(by.options.hours));
   if (!done.levels.refused.empty()) log_line(done.levels.refused);
-  return {space_answer(done.ladder, done.levels.runs, done.halved), {}, {}};
+  return {space_answer(done.ladder, done.levels.runs, done.halved), {}, {}, {}};
 }
 
 std::vector<Told> told_for(const CaseSource& source, const Answering& by) {
@@ -78,8 +101,9 @@ std::vector<Told> told_for(const CaseSource& source, const Answering& by) {
   require_asked_before_end(plan.measurements, plan.input_case.scene.schedule.end);
   std::vector<Told> all;
   if (by.options.in != "space") all.push_back(told_in_time(plan, by));
+  if (!by.options.solver.empty()) all.push_back(told_of_solver(plan, all[0], by));
   if (by.options.in != "time") all.push_back(told_in_space(source, by));
-  if (all.size() == 2)
+  if (by.options.in == "both")
     all[1].map = map_answer(all[0].ladder, all[1].ladder, all[0].twins->of.motion, by.options);
   return all;
 }
@@ -100,7 +124,20 @@ nlohmann::json to_json(const Told& told) {
   nlohmann::json all = to_json(told.ladder);
   if (told.twins) all["predictability"] = to_json(*told.twins);
   if (told.map) all["map"] = to_json(*told.map);
+  if (told.gap) {
+    all["solver"] = true;
+    all["from_reference"] = told.gap->distance;
+    all["beyond_steps"] = told.gap->is_beyond_steps();
+    all["in_words"] = in_words(*told.gap, told.ladder.method);
+    for (const auto& [key, value] : told.mapping) all["mapping"][key] = value;
+  }
   return all;
+}
+
+void print(const SolverGap& gap, const std::string& solver,
+           const std::vector<std::pair<std::string, std::string>>& mapping) {
+  fmt::print("\n{}\n", in_words(gap, solver));
+  for (const auto& [key, value] : mapping) fmt::print("mapping of {}: {}\n", key, value);
 }
 
 /// One ladder as an object; several as a list, "ladders". Beside them the program, and how the
@@ -129,6 +166,7 @@ int report(const std::vector<Told>& all, const Options& options) {
     print(told.ladder);
     if (told.twins) print(*told.twins);
     if (told.map) print(*told.map);
+    if (told.gap) print(*told.gap, told.ladder.method, told.mapping);
     if (&told != &all.back()) fmt::print("\n");
   }
   if (options.json) fmt::print("{}\n", json_text(to_json(all, options)));
@@ -141,6 +179,8 @@ int converge(const Options& options) {
   const LevelSetProvider level_sets = memoizing_provider(provider_for(options.cache));
   CaseSource source{case_file(options.file), options.overrides, "", options.until};
   const std::vector<std::string> methods = methods_of(options);
+  if (!options.solver.empty() && methods.size() > 1)
+    throw InputError("--solver is held against one method of the reference");
   const Scene scene = case_of(source).scene;
   build(scene, level_sets);  // refuses now what cannot be built
   const OutFolder folder(options.out);
@@ -154,7 +194,10 @@ int converge(const Options& options) {
   for (const std::string& method : methods) {
     source.method = method;
     for (Told& told : told_for(source, {options, level_sets, store})) {
-      studies.push_back(study_of(told.ladder, told.twins ? in_words(told.twins->of) : ""));
+      const std::string further = told.twins ? in_words(told.twins->of)
+                                  : told.gap ? in_words(*told.gap, told.ladder.method)
+                                             : "";
+      studies.push_back(study_of(told.ladder, further));
       if (told.map) studies.push_back(map_study(told.map->map, told.map->pairs));
       all.push_back(std::move(told));
     }

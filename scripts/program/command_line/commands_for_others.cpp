@@ -7,21 +7,6 @@
 namespace foldproof {
 namespace {
 
-/// How long another solver may stay silent, and its settings.
-void add_solver_options(CLI::App* command, Options& options) {
-  command
-      ->add_option("--seconds", options.patience, "Longest time without output during a call [s]")
-      ->type_name("S")
-      ->check(positive_number())
-      ->capture_default_str();
-  command
-      ->add_option("--settings", options.overrides,
-                   "Passed to the solver in every scene; may be given again")
-      ->type_name("KEY=VALUE")
-      ->check(some_text("KEY=VALUE"))
-      ->allow_extra_args(false);
-}
-
 /// Frames instead of a solver.
 void add_judged_frames(CLI::App* judge, CLI::Option* solver, Options& options) {
   CLI::Option* frames =

@@ -154,6 +154,20 @@ void add_ablate(CLI::App& app, Options& options) {
   add_json(ablate, options);
 }
 
+/// Another solver, whose steps are halved beside the reference's.
+void add_ladder_of_solver(CLI::App* converge, Options& options) {
+  converge
+      ->add_option("--solver", options.solver,
+                   "Also halve the steps of another solver, started by this command")
+      ->type_name("CMD")
+      ->check(some_text("a command"))
+      ->excludes("--in")
+      ->excludes("--refine-objects");
+  add_solver_options(converge, options);
+  for (const char* of_solver : {"--seconds", "--settings"})
+    converge->get_option(of_solver)->needs("--solver");
+}
+
 void add_converge(CLI::App& app, Options& options) {
   CLI::App* converge = add_command(
       app, options,
@@ -168,6 +182,7 @@ void add_converge(CLI::App& app, Options& options) {
              "In both: errors to find the cheapest step and mesh for, as shares of the motion "
              "(default: 1e-2,1e-3)");
   add_overrides(converge, options);
+  add_ladder_of_solver(converge, options);
   add_folder(converge, options,
              "Folder whose store/ keeps every run; a second call runs only missing ones")
       ->capture_default_str();

@@ -276,6 +276,11 @@ When they differ from the undisturbed run by --fraction of its motion, positions
 predictable. Orders and error bars use only the time before that. For the time after it, --ensemble
 disturbed runs give means over time of height, energies, contacts and fold angles, and their spread.
 
+--solver CMD also runs another solver (verification/subjects/PROTOCOL.md), with equal steps from
+frame to frame that are halved in the same way. Says how far its finest run is from the reference's,
+and whether both error bars explain that. A case can have what the protocol can say: particles held
+still, planes and boxes at rest, self-collision. The solver's runs are not kept.
+
 The folder keeps every run: an interrupted call resumes; a second call runs only what is missing.
 The two coarsest levels run alone first and show what the others will cost. A level that exceeds the
 memory or --hours is refused; the other levels still give a result. Seconds are processor time of a
@@ -283,6 +288,7 @@ run's own thread. DIR/converge.h5 is for `foldproof report DIR`.
 
 Examples:
   foldproof converge drape_sphere --ensemble 8 --method BDF2,C
+  foldproof converge flat_hanging --solver ./adapter --settings iterations=20
   foldproof converge hanging_sheet --in space --set cloth.columns=6 --set cloth.rows=6 --until 0.3
 
 Exit codes:

@@ -99,6 +99,20 @@ void add_out_if_typed(CLI::App* command, Options& options, const std::string& wh
   });
 }
 
+void add_solver_options(CLI::App* command, Options& options) {
+  command
+      ->add_option("--seconds", options.patience, "Longest time without output during a call [s]")
+      ->type_name("S")
+      ->check(positive_number())
+      ->capture_default_str();
+  command
+      ->add_option("--settings", options.settings,
+                   "Passed to the solver in every scene; may be given again")
+      ->type_name("KEY=VALUE")
+      ->check(some_text("KEY=VALUE"))
+      ->allow_extra_args(false);
+}
+
 CLI::Option* add_length(CLI::App* command, const std::string& name, double& value,
                         const std::string& what) {
   return command->add_option(name, value, what)->type_name("LENGTH")->check(finite_number());

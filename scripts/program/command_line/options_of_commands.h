@@ -57,6 +57,9 @@ void add_running(CLI::App* command, Options& options);
 /// --out that has no value where it was not typed.
 void add_out_if_typed(CLI::App* command, Options& options, const std::string& what);
 
+/// How long another solver may stay silent, and its settings.
+void add_solver_options(CLI::App* command, Options& options);
+
 CLI::Option* add_length(CLI::App* command, const std::string& name, double& value,
                         const std::string& what);
 
