@@ -8,7 +8,7 @@
 #include "convergence/validation/comparison.h"
 #include "convergence/validation/studies.h"
 #include "convergence/validation/wrinkled_sheet.h"
-#include "verification/oracles/stretched_wrinkles.h"
+#include "verification/oracles/sheets/stretched_wrinkles.h"
 
 namespace foldproof {
 

@@ -8,7 +8,7 @@
 #include "verification/oracles/chains_and_ribbons.h"
 #include "verification/oracles/folds.h"
 #include "verification/oracles/homogenised_bending.h"
-#include "verification/oracles/stretched_wrinkles.h"
+#include "verification/oracles/sheets/stretched_wrinkles.h"
 
 namespace foldproof {
 

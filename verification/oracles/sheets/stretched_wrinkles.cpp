@@ -1,4 +1,4 @@
-#include "verification/oracles/stretched_wrinkles.h"
+#include "verification/oracles/sheets/stretched_wrinkles.h"
 
 #include <cmath>
 #include <limits>
