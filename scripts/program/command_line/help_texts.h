@@ -287,7 +287,6 @@ memory or --hours is refused; the other levels still give a result. Seconds are 
 run's own thread. DIR/converge.h5 is for `foldproof report DIR`.
 
 Examples:
-  foldproof converge drape_sphere --ensemble 8 --method BDF2,C
   foldproof converge flat_hanging --solver ./adapter --settings iterations=20
   foldproof converge hanging_sheet --in space --set cloth.columns=6 --set cloth.rows=6 --until 0.3
 
