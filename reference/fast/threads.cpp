@@ -1,0 +1,120 @@
+#include "reference/fast/threads.h"
+
+#include <atomic>
+#include <exception>
+#include <thread>
+
+namespace foldproof {
+
+namespace {
+
+// A thread that waits looks so often before it sleeps: some tens of microseconds, the time between
+// two loops of a step. Where other programs need the core, it goes to them at once.
+constexpr int looks_before_sleep = 100;
+
+/// Waits until the value is no longer `old`; returns it.
+int next_value(const std::atomic<int>& value, int old) {
+  for (int k = 0; k < looks_before_sleep && value == old; ++k) std::this_thread::yield();
+  value.wait(old);
+  return value;
+}
+
+/// The threads beside the one that calls: each takes part k of every round, in which they sleep.
+class Team {
+ public:
+  explicit Team(int parts) {
+    for (int k = 1; k < parts; ++k) others_.emplace_back([this, k] { work(k); });
+  }
+  ~Team() {
+    act_ = nullptr;
+    start_round();
+  }
+  int parts() const { return int(others_.size()) + 1; }
+
+  /// act must not throw.
+  void run(const std::function<void(int)>& act) {
+    act_ = &act;
+    unfinished_ = int(others_.size());
+    start_round();
+    act(0);
+    for (int left = unfinished_; left > 0;) left = next_value(unfinished_, left);
+  }
+
+ private:
+  void start_round() {
+    ++round_;
+    round_.notify_all();
+  }
+  void work(int k) {
+    for (int seen = 0;;) {
+      seen = next_value(round_, seen);
+      if (!act_) return;
+      (*act_)(k);
+      --unfinished_;
+      unfinished_.notify_one();
+    }
+  }
+
+  const std::function<void(int)>* act_ = nullptr;  // of this round; null: go home
+  std::atomic<int> round_ = 0, unfinished_ = 0;
+  std::vector<std::jthread> others_;  // the last member: it ends first
+};
+
+/// Of the calling thread, which keeps it for its next loop.
+Team& team_of(int parts) {
+  thread_local std::unique_ptr<Team> team;
+  if (!team || team->parts() != parts) {
+    team.reset();
+    team = std::make_unique<Team>(parts);
+  }
+  return *team;
+}
+
+}  // namespace
+
+void in_parallel(int parts, const std::function<void(int)>& act) {
+  std::vector<std::exception_ptr> thrown(static_cast<size_t>(parts));
+  team_of(parts).run([&](int k) {
+    try {
+      act(k);
+    } catch (...) {
+      thrown[size_t(k)] = std::current_exception();
+    }
+  });
+  for (const std::exception_ptr& one : thrown)
+    if (one) std::rethrow_exception(one);
+}
+
+namespace {
+
+/// The runs of elements that touch the share's particles.
+std::vector<ElementRun> runs_of(const Share& share,
+                                const std::vector<std::array<int, 4>>& elements) {
+  std::vector<ElementRun> runs;
+  for (size_t e = 0; e < elements.size(); ++e) {
+    const auto own = std::ranges::count_if(elements[e], [&](int i) { return share.has(i); });
+    if (own == 0) continue;
+    const bool is_inside = size_t(own) == elements[e].size();
+    if (!runs.empty() && runs.back().end == e && runs.back().is_inside == is_inside)
+      ++runs.back().end;
+    else
+      runs.push_back({e, e + 1, is_inside});
+  }
+  return runs;
+}
+
+}  // namespace
+
+Sharing share_out(int threads, Eigen::Index particles,
+                  const std::vector<std::array<int, 4>>& elements) {
+  if (threads <= 1) return {};
+  SharedOut result{elements.size(), {}};
+  for (int k = 0; k < threads; ++k) {
+    Share share{int(particles * k / threads), int(particles * (k + 1) / threads), {}};
+    share.runs = runs_of(share, elements);
+    result.shares.push_back(std::move(share));
+  }
+  return std::make_shared<const SharedOut>(std::move(result));
+}
+
+}  // namespace foldproof
