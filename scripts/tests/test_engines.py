@@ -97,7 +97,7 @@ class Npm(unittest.TestCase):
     """Engines that npm has, in the version that scripts/engines pins."""
 
     name, version = "jolt", "1.1.0"
-    applicable = 27  # laws
+    applicable = 28  # laws
     failing = {"": set()}  # what fails, by setting
 
     @classmethod
@@ -128,7 +128,7 @@ class Jolt(Npm):
 
 
 class MuJoCo(Npm):
-    name, version, applicable = "mujoco", "3.14.0", 31
+    name, version, applicable = "mujoco", "3.14.0", 32
     failing = {
         "": {MODULUS},
         "integrator=RK4": {MODULUS},

@@ -310,6 +310,35 @@ TEST_CASE("subject: the clock of a law is that of its solver, and errors fall as
   for (size_t k = 1; k < errors.size(); ++k) CHECK(std::abs(errors[k] / errors[k - 1] - 0.5) < 0.1);
 }
 
+TEST_CASE("subject: a cost that grows as the square is found, by processor or by the clock") {
+  const std::string growth = "cost.growth-is-below-quadratic";
+  const auto is_found = [&](const char* kind) {  // a busy machine may hide it once
+    int tries = 3;
+    while (tries > 0 && outcome_of_law(kind, growth) != Outcome::fails) --tries;
+    return tries > 0;
+  };
+  CHECK(is_found("asks_all_pairs"));
+  CHECK(is_found("waits_for_all_pairs"));
+  CHECK(outcome_of_law("sleeps", growth) == Outcome::holds);
+}
+
+TEST_CASE("subject: processor time is that of the solver and its children") {
+  for (const char* shell : {"exec ", "cd . ; "}) {  // itself, and a child of the shell
+    const std::string python = "/usr/bin/python3 " SUBJECTS_FOLDER "/";
+    PipedSolver idle({shell + python + "bad/wrong.py sleeps", {}, {}});
+    PipedSolver busy({shell + python + "bad/wrong.py asks_all_pairs", {}, {}});
+    const auto spent = [](PipedSolver& solver) {
+      const PortableScene scene = suite::moving_sheet();
+      solver.prepare(scene);
+      const double before = solver.processor_time().computing;
+      solver.advance(scene.dt, 1000);
+      return solver.processor_time().computing - before;
+    };
+    CHECK(spent(busy) > 1000 * 52 * 52 * 3e-9);  // a few ns a pair at least
+    CHECK(spent(idle) < 0.5);                    // it sleeps for 1 s
+  }
+}
+
 TEST_CASE("subject: states that are not restored are found") {
   CHECK(failing_laws("state_not_restored") ==
         std::set<std::string>{"repeat.step-depends-on-its-state-alone"});

@@ -278,6 +278,24 @@ class HeldSheetsWeighTwice(ToySolver):
         return mapping
 
 
+class AsksAllPairs(ToySolver):
+    """Right, and slow on large sheets: it measures the distance of each particle to each other."""
+
+    def advance(self, dt: float, steps: int) -> None:
+        for _ in range(steps):
+            super().advance(dt, 1)
+            for some in np.array_split(self.x, 1 + len(self.x) // 64):
+                np.linalg.norm(some[:, None] - self.x, axis=2)
+
+
+class WaitsForAllPairs(ToySolver):
+    """Likewise, somewhere else: it waits 20 ns for each pair, as for a computer that it asks."""
+
+    def advance(self, dt: float, steps: int) -> None:
+        super().advance(dt, steps)
+        time.sleep(2e-8 * steps * len(self.x) ** 2)
+
+
 KINDS = {
     "bends": materials.Bends,
     "on_planes": contact.OnPlanes,
@@ -326,6 +344,8 @@ KINDS = {
     "stiffens_a_little_single": StiffensALittleInSingle,
     "substeps_in_single": SubstepsInSingle,
     "sleeps": Sleeps,
+    "asks_all_pairs": AsksAllPairs,
+    "waits_for_all_pairs": WaitsForAllPairs,
     "held_sheets_weigh_twice": HeldSheetsWeighTwice,
     "held_loosely": HeldLoosely,
     "energy_halved": EnergyHalved,

@@ -154,6 +154,8 @@ void ChildProcess::end() {
   std::filesystem::remove_all(folder_, ignored);
 }
 
+ProcessorTime ChildProcess::processor_time() const { return processor_time_of_group(process_); }
+
 void ChildProcess::keep_words() {
   std::array<char, 4096> part;
   for (ssize_t got; (got = recv(words_, part.data(), part.size(), MSG_DONTWAIT)) > 0;) {

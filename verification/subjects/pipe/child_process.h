@@ -6,6 +6,8 @@
 #include <string_view>
 #include <sys/types.h>
 
+#include "verification/subjects/pipe/processor_time.h"
+
 namespace foldproof {
 
 /// Resources that a solver may use before it is ended.
@@ -51,6 +53,9 @@ class ChildProcess {
 
   /// The end of what the child printed, at most 300 bytes, in one line.
   std::string last_words();
+
+  /// Of the child and its own children.
+  ProcessorTime processor_time() const;
 
   /// Bytes of an answer read so far; a child that ends in the middle left it truncated.
   void begin_answer() { read_of_answer_ = 0; }

@@ -260,6 +260,8 @@ std::vector<Snapshot> PipedSolver::run(const PortableScene& scene,
   return states;
 }
 
+ProcessorTime PipedSolver::processor_time() const { return impl_->child.processor_time(); }
+
 bool PipedSolver::has_failed() const { return impl_->failed.has_value(); }
 
 bool PipedSolver::declines_unknown_operation() {

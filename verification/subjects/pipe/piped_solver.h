@@ -69,6 +69,9 @@ class PipedSolver {
   /// The states after these numbers of steps of scene.dt, ascending.
   std::vector<Snapshot> run(const PortableScene& scene, const std::vector<long>& frames);
 
+  /// Of the solver's processes.
+  ProcessorTime processor_time() const;
+
   /// Whether a call went wrong: the process has then ended.
   bool has_failed() const;
 

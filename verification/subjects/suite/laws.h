@@ -27,6 +27,7 @@ std::vector<Law> force_laws();           // level 2: sums, weight, energy
 std::vector<Law> calibration_laws();     // effective moduli
 std::vector<Law> vibration_laws();       // period and decay
 std::vector<Law> stability_laws();       // the largest step
+std::vector<Law> cost_laws();            // growth with the number of particles
 std::vector<Law> cantilever_laws();      // a heavy strip at rest
 std::vector<Law> contact_laws();         // capability "planes": resting, friction
 std::vector<Law> self_collision_laws();  // capability "self_collision"
