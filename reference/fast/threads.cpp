@@ -19,24 +19,26 @@ int next_value(const std::atomic<int>& value, int old) {
   return value;
 }
 
-/// The threads beside the one that calls: each takes part k of every round, in which they sleep.
+/// The threads beside the one that calls. Whoever is free takes the next part: where other programs
+/// need the cores, the caller waits for nobody who has not begun.
 class Team {
  public:
-  explicit Team(int parts) {
-    for (int k = 1; k < parts; ++k) others_.emplace_back([this, k] { work(k); });
+  explicit Team(int threads) : threads_(threads) {
+    for (int k = 1; k < threads; ++k) others_.emplace_back([this] { work(); });
   }
   ~Team() {
-    act_ = nullptr;
+    ends_ = true;
     start_round();
   }
-  int parts() const { return int(others_.size()) + 1; }
+  int threads() const { return threads_; }
 
-  /// act must not throw.
+  /// As many parts as threads; act must not throw.
   void run(const std::function<void(int)>& act) {
     act_ = &act;
-    unfinished_ = int(others_.size());
+    unfinished_ = threads_;
+    next_part_ = 0;
     start_round();
-    act(0);
+    take_parts();
     for (int left = unfinished_; left > 0;) left = next_value(unfinished_, left);
   }
 
@@ -45,27 +47,33 @@ class Team {
     ++round_;
     round_.notify_all();
   }
-  void work(int k) {
+  void take_parts() {
+    for (int k = next_part_++; k < threads_; k = next_part_++) {
+      (*act_)(k);
+      if (--unfinished_ == 0) unfinished_.notify_one();
+    }
+  }
+  void work() {
     for (int seen = 0;;) {
       seen = next_value(round_, seen);
-      if (!act_) return;
-      (*act_)(k);
-      --unfinished_;
-      unfinished_.notify_one();
+      if (ends_) return;
+      take_parts();
     }
   }
 
-  const std::function<void(int)>* act_ = nullptr;  // of this round; null: go home
-  std::atomic<int> round_ = 0, unfinished_ = 0;
+  const int threads_;
+  const std::function<void(int)>* act_ = nullptr;  // of the round, while a part is unfinished
+  std::atomic<bool> ends_ = false;
+  std::atomic<int> round_ = 0, unfinished_ = 0, next_part_ = 0;
   std::vector<std::jthread> others_;  // the last member: it ends first
 };
 
 /// Of the calling thread, which keeps it for its next loop.
-Team& team_of(int parts) {
+Team& team_of(int threads) {
   thread_local std::unique_ptr<Team> team;
-  if (!team || team->parts() != parts) {
+  if (!team || team->threads() != threads) {
     team.reset();
-    team = std::make_unique<Team>(parts);
+    team = std::make_unique<Team>(threads);
   }
   return *team;
 }

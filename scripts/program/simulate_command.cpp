@@ -22,7 +22,7 @@ namespace foldproof {
 namespace {
 
 // A thread with fewer costs more in waking up and waiting than it saves.
-constexpr Eigen::Index least_particles_per_thread = 2000;
+constexpr Eigen::Index least_particles_per_thread = 1000;
 
 std::string reached_text(const KeptRun& kept) {
   return fmt::format("frame {}, t = {:.6g} s", kept.frame, kept.time);

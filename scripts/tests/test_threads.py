@@ -62,7 +62,8 @@ class ThreadsTest(ProgramCase):
 
     def test_threads_are_a_whole_number(self) -> None:
         for wrong in ("0", "1.5", "many", "-2"):
-            self.assertIn("--threads", self.assert_rejected("simulate", "hinge", f"--threads={wrong}"))
+            message = self.assert_rejected("simulate", "hinge", f"--threads={wrong}")
+            self.assertIn("--threads", message)
 
 
 if __name__ == "__main__":
