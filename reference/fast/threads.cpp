@@ -20,7 +20,8 @@ int next_value(const std::atomic<int>& value, int old) {
 }
 
 /// The threads beside the one that calls. Whoever is free takes the next part: where other programs
-/// need the cores, the caller waits for nobody who has not begun.
+/// need the cores, the caller waits for nobody who has not begun. The last part comes first, so
+/// that results that depend on the order differ from those of one thread even on one core.
 class Team {
  public:
   explicit Team(int threads) : threads_(threads) {
@@ -36,7 +37,7 @@ class Team {
   void run(const std::function<void(int)>& act) {
     act_ = &act;
     unfinished_ = threads_;
-    next_part_ = 0;
+    next_part_ = threads_;
     start_round();
     take_parts();
     for (int left = unfinished_; left > 0;) left = next_value(unfinished_, left);
@@ -48,7 +49,7 @@ class Team {
     round_.notify_all();
   }
   void take_parts() {
-    for (int k = next_part_++; k < threads_; k = next_part_++) {
+    for (int k = --next_part_; k >= 0; k = --next_part_) {
       (*act_)(k);
       if (--unfinished_ == 0) unfinished_.notify_one();
     }

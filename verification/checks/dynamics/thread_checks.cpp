@@ -9,6 +9,7 @@
 #include "verification/evidence.h"
 #include "verification/specimens/contact_scenes.h"
 #include "verification/specimens/followed_runs.h"
+#include "verification/specimens/layered_cloth.h"
 
 namespace foldproof {
 
@@ -66,21 +67,36 @@ NamedRun stepped(const std::string& name, Scene scene, int steps) {
   return {name, "C", std::move(scene)};
 }
 
-/// Sums of many blocks; points on a ball, in two blocks of queries.
-std::vector<NamedRun> large_runs() {
-  Scene dropped = waved(plain_mesh(99));
+/// A sheet of 100 x 100 particles on a large ball: contacts in several blocks of queries.
+Scene on_a_ball(PointKind points) {
+  Scene scene = waved(plain_mesh(99));
   Pose below;
-  below.translation = Vector3(0.63, 0.52, -0.31);
-  SceneObject ball = object_at("ball", Sphere{0.31}, below);
+  below.translation = Vector3(0.63, 0.52, -400);
+  SceneObject ball = object_at("ball", Sphere{400}, below);
   ball.object.friction = 0.3;
-  dropped.objects.push_back(ball);
-  Scene edges = waved(plain_mesh(15));
-  edges.objects = dropped.objects;
-  edges.collision.points = PointKind::edges;
+  scene.objects.push_back(ball);
+  scene.collision.points = points;
+  return scene;
+}
+
+/// Sheets thrown through each other, were it not for many impulses in a step.
+NamedRun thrown_layers() {
+  LayeredSheets layers;
+  layers.sheets = 6;
+  layers.speed = 23;
+  layers.settings = {0.004, 3.0, 0.3, 8, true};
+  Scene scene = layered_scene(layers);
+  scene.stretch = StretchMaterial{20, 0.01, 1};
+  scene.schedule = {0.006, 0.001, {0.001, 0.5, 0.1}, 100000};
+  return {"layers thrown at each other", "C", std::move(scene)};
+}
+
+/// Sums and searches of many parts.
+std::vector<NamedRun> larger_runs() {
   return {stepped("316 x 316 particles", waved(plain_mesh(315)), 1),
           stepped("particles numbered at random", waved(shuffled_mesh(11)), 9),
-          stepped("100 x 100 particles on a ball", std::move(dropped), 3),
-          stepped("edges on a ball", std::move(edges), 9)};
+          stepped("particles on a ball", on_a_ball(PointKind::particles), 3),
+          stepped("edges on a ball", on_a_ball(PointKind::edges), 3), thrown_layers()};
 }
 
 /// Many triangles without area: the same stop, for the same particle.
@@ -96,7 +112,7 @@ NamedRun degenerate_run() {
 
 Finding threads_finding(const Subject&) {
   std::vector<NamedRun> runs = runs_of_all_parts();
-  for (NamedRun& large : large_runs()) runs.push_back(std::move(large));
+  for (NamedRun& larger : larger_runs()) runs.push_back(std::move(larger));
   runs.push_back(degenerate_run());
   Table measured{{"case", ""}, {"threads", "1"}, {"numbers", "1"}, {"numbers that differ", "1"}};
   for (const NamedRun& run : runs) {
