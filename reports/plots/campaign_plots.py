@@ -49,6 +49,7 @@ NO_VALUE = "not set"  # of a parameter that only some parts of a campaign vary
 MOST_PANELS, MOST_CURVES, MOST_NAMED = 12, 11, 8
 NUMBER = re.compile(r"(?<![\w.])([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)(?![\w.])")
 LETTER = 0.075  # width [inch], with the space around a tick's name shared out
+ABOVE_PANELS = 0.2  # for the name of the colour bar [inch]
 SPARSE = 4  # places for each run beyond which a map becomes points
 
 
@@ -188,7 +189,7 @@ def _draw_panels(layout: Layout, table: CampaignTable, values: np.ndarray, draw)
     rows = -(-count // columns)
     wide, high = (5.2, 3.4) if count == 1 else (2.5, 2.1)
     across, up, right, below = wide + 0.75, high + 0.95, 1.2, 0.55
-    canvas = new_figure(columns * across + right, rows * up + below)
+    canvas = new_figure(columns * across + right, rows * up + below + ABOVE_PANELS)
     width, height = canvas.get_size_inches()
     norm = _norm(values, layout.figure.is_logarithmic)
     for k, panel in enumerate(layout.panels):
@@ -223,7 +224,7 @@ def _norm(values: np.ndarray, is_logarithmic: bool) -> Normalize:
 
 def _draw_colour_bar(canvas: Figure, layout: Layout, norm: Normalize, left: float) -> None:
     height = canvas.get_size_inches()[1]
-    axes = canvas.add_axes((left, 1.05 / height, 0.018, 1 - 1.5 / height))
+    axes = canvas.add_axes((left, 1.05 / height, 0.018, 1 - (1.5 + ABOVE_PANELS) / height))
     bar = Colorbar(axes, ScalarMappable(norm, COLOURS_OF_VALUES), ticklocation="right")
     bar.outline.set_visible(False)
     bar.solids.set_rasterized(True)

@@ -98,7 +98,14 @@ class CampaignTest(unittest.TestCase):
 
     def test_a_grid_becomes_a_table(self) -> None:
         file = self.write(GRID)
-        self.assertIn("6 jobs, 6 missing", self.campaign("plan", file).stdout)
+        said = self.campaign("plan", file).stdout
+        self.assertIn("6 jobs, 6 missing", said)
+        sampled = [float(s) for s in re.findall(r"holds, ([-\de.]+) s\n", said)]
+        forecast = re.search(r"forecast: (\S+) s of one core, .*, (\S+) s on 100 nodes", said)
+        self.assertIsNotNone(forecast, said)
+        one_core, many = (float(seconds) for seconds in forecast.groups())
+        self.assertAlmostEqual(one_core, 6 * sum(sampled) / len(sampled), delta=0.05 * one_core)
+        self.assertAlmostEqual(many, max(sampled), delta=0.05 * many)
         self.assertEqual(self.campaign("run", file).returncode, 0)
         self.assertEqual(self.campaign("table", file).returncode, 0)
         rows = self.rows()

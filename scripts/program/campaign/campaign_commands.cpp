@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <thread>
 
+#include "convergence/any_case/ladder_cost.h"
 #include "scripts/program/campaign/campaign_table.h"
 #include "scripts/program/campaign/engine.h"
 #include "scripts/program/campaign/run_job.h"
@@ -25,6 +27,7 @@ namespace fs = std::filesystem;
 
 struct Forecast {
   double seconds = 0, bytes = 0;  // a job
+  double longest = 0;             // of the sampled jobs [s]
   std::string sampled;            // what was run, for the reader
 };
 
@@ -39,6 +42,7 @@ Forecast sample_three(OpenCampaign& of) {
     const BatchJob job = batch_job(of, i);
     const JobResult result = run_job(terms, job, level_sets, [](double) {}).result;
     forecast.seconds += result.seconds / double(chosen.size());
+    forecast.longest = std::max(forecast.longest, result.seconds);
     forecast.bytes += double(JobShard::line_of(job.key, result).size()) / double(chosen.size());
     forecast.sampled +=
         fmt::format("  {}: {}, {:.3g} s\n", job.label, name_of(result.end), result.seconds);
@@ -47,12 +51,15 @@ Forecast sample_three(OpenCampaign& of) {
 }
 
 std::string forecast_text(const Forecast& forecast, size_t jobs) {
-  const double hours = forecast.seconds * double(jobs) / 3600;
-  const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
+  const double all = forecast.seconds * double(jobs);
+  const unsigned here = std::max(1u, std::thread::hardware_concurrency());
+  const auto on = [&](unsigned cores) {  // no sooner than the longest job
+    return duration_text(std::max(all / cores, forecast.longest));
+  };
   return fmt::format(
-      "sample:\n{}forecast: {:.3g} core hours, {:.3g} h on the {} cores here, {:.3g} h on 100 "
-      "nodes of 32; {:.3g} MB of results, without files that are kept\n",
-      forecast.sampled, hours, hours / cores, cores, hours / 3200,
+      "sample:\n{}forecast: {} of one core, {} on the {} here, {} on 100 nodes of 32 without the "
+      "queue; {:.3g} MB of results, without files that are kept\n",
+      forecast.sampled, duration_text(all), on(here), here, on(3200),
       forecast.bytes * double(jobs) / 1e6);
 }
 
