@@ -16,11 +16,12 @@ import shlex
 import subprocess
 import threading
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 ROOT = Path(__file__).resolve().parent.parent
 BUILD = ROOT / "build"
 PROGRAM = BUILD / "foldproof"
+LISTED = BUILD / "faults/listed.json"  # what the program names
 TESTS = BUILD / "tests"
 # test class: its file; each takes --program FILE
 PYTHON_TESTS = {
@@ -279,6 +280,21 @@ def ask(program: Path, arguments: list[str], key: str, clock: float | None = Non
         raise Unusable(
             f"`foldproof {arguments[0]}`: exit code {ran.returncode}, no {key}: {said}"
         ) from error
+
+
+@functools.cache
+def listed() -> dict[str, Any]:
+    """All that `foldproof list --json` says. It reads every case, so the answer is kept for as long
+    as the program and the cases are the same."""
+    digest = hashlib.sha256(PROGRAM.read_bytes())
+    for case in sorted((ROOT / "cases").rglob("*.toml")):
+        digest.update(case.read_bytes())
+    key = digest.hexdigest()
+    kept = json.loads(LISTED.read_text(encoding="utf-8")) if LISTED.is_file() else {}
+    if kept.get("key") != key:
+        kept = {"key": key, "listed": json.loads(run([PROGRAM, "list", "--json"], ROOT, None).stdout)}
+        write_at_once(LISTED, json.dumps(kept))
+    return kept["listed"]
 
 
 def findings(
