@@ -292,7 +292,8 @@ def listed() -> dict[str, Any]:
     key = digest.hexdigest()
     kept = json.loads(LISTED.read_text(encoding="utf-8")) if LISTED.is_file() else {}
     if kept.get("key") != key:
-        kept = {"key": key, "listed": json.loads(run([PROGRAM, "list", "--json"], ROOT, None).stdout)}
+        said = run([PROGRAM, "list", "--json"], ROOT, None).stdout
+        kept = {"key": key, "listed": json.loads(said)}
         write_at_once(LISTED, json.dumps(kept))
     return kept["listed"]
 
