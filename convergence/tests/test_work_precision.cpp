@@ -34,24 +34,24 @@ Table cheapest_of(const PrecisionScene& scene) {
 
 }  // namespace
 
-TEST_CASE("methods nearer in cost than two tried steps are alike", "[work-precision]") {
+TEST_CASE("methods nearer in cost than two tried steps are tied", "[work-precision]") {
   const Table tied =
       cheapest_of(scene_of({costing("A", 310), costing("B", 140), costing("C", 100)}));
   CHECK(tied.texts("cheapest method").front() == "C");
-  CHECK(tied.texts("alike").front() == "B");
+  CHECK(tied.texts("tied").front() == "B");
 
   const Table won =
       cheapest_of(scene_of({costing("A", 310), costing("B", 170), costing("C", 100)}));
   CHECK(won.texts("cheapest method").front() == "C");
-  CHECK(won.texts("alike").front().empty());
+  CHECK(won.texts("tied").front().empty());
 }
 
-TEST_CASE("the next best method is the cheapest of those that are not alike", "[work-precision]") {
+TEST_CASE("the next best method is the cheapest of those that are not tied", "[work-precision]") {
   const PrecisionScene scene =
       scene_of({costing("C", 400), costing("RK4", 300), costing("B", 105), costing("A", 100)});
   const Table table = cheapest_of(scene);
   CHECK(table.texts("cheapest method").front() == "A");
-  CHECK(table.texts("alike").front() == "B");
+  CHECK(table.texts("tied").front() == "B");
   CHECK(table.texts("next best").front() == "RK4");
   CHECK(table.numbers("it costs this many times as much").front() == Approx(3));
 }

@@ -66,7 +66,7 @@ Study work_precision_study() {
       "motion, in which an instability has no time to grow. So the steps of the cheapest methods "
       "must also last a run three times as long: the kinetic energy of the added time may be at "
       "most twice that with half the step. A step that does not last has no price, and the next "
-      "shorter one is asked in its place. Dearer methods are not asked.",
+      "shorter one is tried in its place. Dearer methods are not tried.",
       run_work_precision};
 }
 

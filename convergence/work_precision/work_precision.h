@@ -98,8 +98,8 @@ struct Currency {
 const std::array<Currency, 2> currencies = {
     {{"work", &Price::applications}, {"seconds", &Price::seconds}}};
 
-/// The cheapest method of a scene at a wanted error; the next one, which is the cheapest of
-/// those that are not alike (they cost more than it does times the ratio of two steps that were
+/// The cheapest method of a scene at a wanted error; the next one, which is the cheapest of those
+/// that are not tied with it (they cost more than it does times the ratio of two steps that were
 /// tried); and scheme C.
 struct Podium {
   std::string first = "none", second = "none";

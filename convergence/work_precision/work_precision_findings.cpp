@@ -222,8 +222,8 @@ NamedFinding cheapest_steps_last(const std::vector<PrecisionScene>& scenes) {
                     price_at(curve, scene.problem.end, wanted).step, gain);
         }
   return {"work-precision.cheapest-steps-last",
-          "The steps of the cheapest methods, of those alike and of the next are stable in a run "
-          "three times as long, too.",
+          "The steps of the cheapest methods, of those tied with them and of the next are stable "
+          "in a run three times as long, too.",
           judge_worst(
               std::move(steps), most,
               "an unstable mode grows with every step until it is most of the motion; without one "

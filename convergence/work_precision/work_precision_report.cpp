@@ -69,8 +69,8 @@ std::string short_curves(const PrecisionScene& scene) {
 
 /// The other methods whose cost is within the ratio of two steps that were tried: runs that far
 /// apart do not tell them from the cheapest.
-std::string alike(const PrecisionScene& scene, double wanted, const Currency& currency,
-                  const Podium& podium) {
+std::string tied(const PrecisionScene& scene, double wanted, const Currency& currency,
+                 const Podium& podium) {
   std::string names;
   for (const PrecisionCurve& curve : scene.curves) {
     const std::string name(curve.integrator.name);
@@ -95,7 +95,7 @@ Table cheapest(const std::vector<PrecisionScene>& scenes) {
               {"C costs this many times as much", "1"},
               {"next best", "1"},
               {"it costs this many times as much", "1"},
-              {"alike", "1"}};
+              {"tied", "1"}};
   for (const PrecisionScene& scene : scenes)
     for (double wanted : wanted_errors)
       for (const Currency& currency : currencies) {
@@ -104,10 +104,10 @@ Table cheapest(const std::vector<PrecisionScene>& scenes) {
         table.row(scene.problem.description, percent * wanted, currency.name, at.first, best.step,
                   best.step / scene.truth.elastic_limit, name_of(best.limit), best.applications,
                   best.seconds, at.scheme_C.*currency.cost / best.*currency.cost, at.second,
-                  at.next.*currency.cost / best.*currency.cost, alike(scene, wanted, currency, at));
+                  at.next.*currency.cost / best.*currency.cost, tied(scene, wanted, currency, at));
       }
   return {"cheapest",
-          "The cheapest method for a wanted position error, by counted work and by seconds; alike "
+          "The cheapest method for a wanted position error, by counted work and by seconds; tied "
           "are those that cost more by less than the ratio of two steps that were tried; the next "
           "best is the cheapest of the others",
           table};
@@ -240,11 +240,11 @@ Podium podium(const PrecisionScene& scene, double wanted, const Currency& curren
     podium.best = price;
     podium.first = curve.integrator.name;
   }
-  const double alike = scene.problem.ratio * (podium.best.*currency.cost);
+  const double tied_below = scene.problem.ratio * (podium.best.*currency.cost);
   for (const PrecisionCurve& curve : scene.curves) {
     const Price price = price_at(curve, scene.problem.end, wanted);
     const double cost = price.*currency.cost;
-    if (!(cost > alike) || cost >= podium.next.*currency.cost) continue;
+    if (!(cost > tied_below) || cost >= podium.next.*currency.cost) continue;
     podium.next = price;
     podium.second = curve.integrator.name;
   }

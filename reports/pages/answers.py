@@ -32,7 +32,7 @@ class Choice:
     method: str
     others: list[tuple[str, float]]             # NaN: does not reach that error
     # methods that the tried steps do not tell from it
-    alike: list[str] = field(default_factory=list)
+    tied: list[str] = field(default_factory=list)
     # "B by seconds", where another measure has another winner beyond its ties
     disagrees: str = ""
 
@@ -130,12 +130,12 @@ def _cheapest_row(prices: list[dict[str, object]]) -> Choice | None:
     known = [row for row in prices if not isnan(float(row["over the cheapest"]))]
     if not known:
         return None
-    alike = [str(row["method"]) for row in known[1:] if row["tied with it"] == "yes"]
-    others = [row for row in known[1:] if str(row["method"]) not in alike]
+    tied = [str(row["method"]) for row in known[1:] if row["tied with it"] == "yes"]
+    others = [row for row in known[1:] if str(row["method"]) not in tied]
     named = others[:1] + [row for row in others[1:] if row["method"] == "C"]
     return Choice(
         str(known[0]["method"]),
-        [(str(row["method"]), float(row["over the cheapest"])) for row in named], alike
+        [(str(row["method"]), float(row["over the cheapest"])) for row in named], tied
     )
 
 
@@ -171,21 +171,21 @@ def _place(row: dict[str, object]) -> tuple[str, float]:
 def _compare(choice: Choice, other: dict[str, object]) -> None:
     """Notes another measure's winner where neither is among the other's ties."""
     winner = str(other["cheapest method"])
-    if not {choice.method, *choice.alike} & {winner, *_alike(other)}:
+    if not {choice.method, *choice.tied} & {winner, *_tied(other)}:
         choice.disagrees = f"{winner} by {other['by']}"
 
 
-def _alike(row: dict[str, object]) -> list[str]:
-    return [name for name in str(row.get("alike", "")).split(", ") if name]
+def _tied(row: dict[str, object]) -> list[str]:
+    return [name for name in str(row.get("tied", "")).split(", ") if name]
 
 
 def _choice(row: dict[str, object]) -> Choice:
-    method, alike, others = str(row["cheapest method"]), _alike(row), []
+    method, tied, others = str(row["cheapest method"]), _tied(row), []
     for named, factor in OTHERS:
         other = str(row.get(named, "C")) if named else "C"
         costs = float(row.get(factor, float("nan")))
-        if other not in (method, *alike, *(name for name, _ in others)) and not (
+        if other not in (method, *tied, *(name for name, _ in others)) and not (
             named and isnan(costs)
         ):
             others.append((other, costs))
-    return Choice(method, others, alike)
+    return Choice(method, others, tied)

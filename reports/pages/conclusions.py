@@ -132,7 +132,7 @@ def _integrator(results: Results) -> Conclusion | None:
     known = [factor for factor in factors if isfinite(factor)]
     if not known:
         return None
-    winners = dict.fromkeys((choice.method, *choice.alike) for _, choice in rows)
+    winners = dict.fromkeys((choice.method, *choice.tied) for _, choice in rows)
     is_one_best = bool(set.intersection(*(set(winner) for winner in winners)))
     picks = [
         [
@@ -142,7 +142,7 @@ def _integrator(results: Results) -> Conclusion | None:
                 [
                     [Quoted(scene, source)]
                     for scene, choice in rows
-                    if (choice.method, *choice.alike) == winner
+                    if (choice.method, *choice.tied) == winner
                 ]
             ),
         ]

@@ -18,7 +18,7 @@ DECLINED = "the subject does not offer "  # begins the note of a law that does n
 
 @dataclass(frozen=True)
 class Row:
-    """A law, and the answers in the order of the solvers; None: not asked."""
+    """A law, and the answers in the order of the solvers; None: not run."""
 
     law: Law
     answers: list[Answer | None]
@@ -105,7 +105,7 @@ def measured_tables(said: Trials, what: str) -> list[Measured]:
 
 
 def trials_json(said: Trials) -> str:
-    """The page for other programs; null: no number, or not asked."""
+    """The page for other programs; null: no number, or not run."""
     return (
         json.dumps(
             {

@@ -96,20 +96,20 @@ class ErrorsShown(unittest.TestCase):
         )
         for shown in (
             "it &lt;varies&gt;", "height &lt;b&gt;", "only &lt;statistics&gt;",
-            "level 2 came to no end: it &lt;stops&gt;".capitalize(), "not asked: 4.5 hours",
+            "level 2 came to no end: it &lt;stops&gt;".capitalize(), "not run: 4.5 hours",
             "fold, first 0.5 of 3 s", "(commit fedcba9876)", "(tied: C)", "cheapest for 1 %",
             "cheapest for 0.1 %"
         ):
             self.assertIn(shown, re.sub("<[^>]*>", "", section))
-        self.assertNotIn("earlier form", text)
+        self.assertNotIn("earlier version", text)
 
     def test_a_case_that_has_changed_since_is_named(self) -> None:
         put_run(self.root)
         self.record(answer("fold"))
         (self.shipped / "fold.toml").write_bytes(CASE.replace(b"1", b"2"))
         text = self.made()
-        self.assertIn("Recorded of an earlier form of the case: fold.", text)
-        self.assertIn("of an earlier form of the case</span>", text)
+        self.assertIn("Recorded of an earlier version of the case: fold.", text)
+        self.assertIn("of an earlier version of the case</span>", text)
 
     def test_simulations_of_a_user_show_no_errors_of_shipped_cases(self) -> None:
         self.record(answer("fold"))

@@ -186,8 +186,8 @@ class NeedsShown(unittest.TestCase):
         (self.shipped / "m.obj").write_bytes(b"v 0 0 1")
         text = self.made()
         self.assertIn("the case has changed since", text)
-        self.assertIn("Recorded for an earlier form of the case: fold.", text)
-        self.assertIn("of an earlier form of the case</span>", text)
+        self.assertIn("Recorded for an earlier version of the case: fold.", text)
+        self.assertIn("of an earlier version of the case</span>", text)
 
     def test_what_was_asked_beside_the_run_goes_before_what_is_recorded(self) -> None:
         self.record("fold", "fedcba9876543210")

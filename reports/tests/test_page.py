@@ -199,7 +199,7 @@ class Answers(unittest.TestCase):
                 ("b", [Choice("B", [("C", 4.0)]), None]),
             ],
         )
-        columns.append(Column("alike", "", np.array(["A, B", "", "", ""], dtype=object)))
+        columns.append(Column("tied", "", np.array(["A, B", "", "", ""], dtype=object)))
         tied = cheapest_of([Study("work", "", "", "", 0.0, [], [Table("cheapest", columns)])])
         self.assertEqual(
             tied.rows[0][1], [Choice("RK4", [("C", 3.0)], ["A", "B"]), Choice("C", [("B", 2.0)])]

@@ -112,14 +112,14 @@ class OnePage(unittest.TestCase):
                     for shown in ("7024", "19", "9.8.7"):
                         self.assertIn(shown, text)
 
-    def test_methods_that_are_alike_win_together(self) -> None:
+    def test_methods_that_are_tied_win_together(self) -> None:
         put_run(self.root)
         with h5py.File(self.root / "run.h5", "a") as file:
             put_table(
                 file, "work-precision", scene=["a", "b"], error_wanted=[1.7] * 2, by=["work"] * 2,
                 cheapest_method=["RK4", "A"], next_best=["A", "B"],
                 it_costs_this_many_times_as_much=[1.04, 1.5],
-                C_costs_this_many_times_as_much=[2.5, 3.6], alike=["A", ""]
+                C_costs_this_many_times_as_much=[2.5, 3.6], tied=["A", ""]
             )
         page, markdown = self.made()
         for text in (page, markdown):

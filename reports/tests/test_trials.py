@@ -130,7 +130,7 @@ class JudgedSolvers(unittest.TestCase):
             "3.1",
             "stopped by an error: crashed",
             "order not claimed",
-            "not asked",
+            "not run",
             "calibration.modulus",
             "modulus [N/m]",
             "4.75",

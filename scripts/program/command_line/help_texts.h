@@ -338,7 +338,7 @@ Exit codes:
   2    bad input)";
 
 constexpr const char* campaign_run =
-    R"(Runs every job that has no result in the store: no question is asked twice, not even by two
+    R"(Runs every job that has no result in the store: nothing is run twice, not even by two
 campaigns. Failures are results. A killed job is started again, up to three times. After Ctrl-C the
 same command resumes; a batch in a queue goes on without it.
 
