@@ -4,6 +4,7 @@
 
 #include <bit>
 #include <cmath>
+#include <cstring>
 
 namespace foldproof {
 
@@ -31,14 +32,13 @@ long count_of(const WantedArray& array) {
 }
 
 template <class Number>
-std::vector<double> read_numbers(ChildProcess& child, const WantedArray& wanted,
-                                 ChildProcess::Deadline deadline) {
-  std::vector<Number> numbers(size_t(count_of(wanted)));
-  child.read(reinterpret_cast<char*>(numbers.data()), numbers.size() * sizeof(Number), deadline);
+std::vector<double> finite_numbers(std::string_view bytes, const std::string& name) {
+  std::vector<Number> numbers(bytes.size() / sizeof(Number));
+  std::memcpy(numbers.data(), bytes.data(), numbers.size() * sizeof(Number));
   for (size_t k = 0; k < numbers.size(); ++k)
     if (!std::isfinite(numbers[k]))
-      throw SolverFailure(
-          "nan", fmt::format("sent {} as number {} of array '{}'", numbers[k], k, wanted.name));
+      throw SolverFailure("nan",
+                          fmt::format("sent {} as number {} of array '{}'", numbers[k], k, name));
   return {numbers.begin(), numbers.end()};
 }
 
@@ -111,10 +111,17 @@ std::vector<std::vector<double>> read_arrays(ChildProcess& child,
                                              const std::vector<WantedArray>& wanted, bool is_single,
                                              ChildProcess::Deadline deadline) {
   std::vector<std::vector<double>> arrays;
-  for (const WantedArray& one : wanted)
-    arrays.push_back(is_single ? read_numbers<float>(child, one, deadline)
-                               : read_numbers<double>(child, one, deadline));
+  const size_t wide = is_single ? sizeof(float) : sizeof(double);
+  for (const WantedArray& one : wanted) {
+    std::string bytes(size_t(count_of(one)) * wide, '\0');
+    child.read(bytes.data(), bytes.size(), deadline);
+    arrays.push_back(as_numbers(bytes, is_single, one.name));
+  }
   return arrays;
+}
+
+std::vector<double> as_numbers(std::string_view bytes, bool is_single, const std::string& name) {
+  return is_single ? finite_numbers<float>(bytes, name) : finite_numbers<double>(bytes, name);
 }
 
 PerParticle3 as_particles(const std::vector<double>& values) {

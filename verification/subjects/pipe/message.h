@@ -48,6 +48,9 @@ std::vector<std::vector<double>> read_arrays(ChildProcess& child,
                                              const std::vector<WantedArray>& wanted, bool is_single,
                                              ChildProcess::Deadline deadline);
 
+/// The bytes of array `name` as doubles. Throws "nan" for a number that is not finite.
+std::vector<double> as_numbers(std::string_view bytes, bool is_single, const std::string& name);
+
 /// 3 x N of N x 3 numbers.
 PerParticle3 as_particles(const std::vector<double>& values);
 
