@@ -52,7 +52,7 @@ Comparison compared(const std::string& words, const Ladders& ladders, double Ove
           {1, uncertainty}};
 }
 
-DiscLadder ladders_of(const Subject& subject, double weight, Tier tier, Table& levels) {
+DiscLadder ladders_of(const Subject& subject, double weight, Table& levels) {
   const oracles::HungCone cone = oracles::hung_cone_by_series(2, weight, std::array{0.0, pi / 2});
   DiscLadder result{weight, {}, {}, {}, {}};
   const auto read = [&](int sectors, double stretch) {
@@ -65,8 +65,7 @@ DiscLadder ladders_of(const Subject& subject, double weight, Tier tier, Table& l
     return over;
   };
   Ladders ladders;
-  const std::vector<int> sectors =
-      tier == Tier::quick ? std::vector{16, 24, 36} : std::vector{24, 36, 54};
+  constexpr std::array sectors{16, 24, 36};
   constexpr double stiffest = 3.2e5;
   for (const double part : {16, 4})
     ladders.stretch.push_back(read(sectors.back(), stiffest / part));
@@ -165,7 +164,7 @@ StudyResult run_hung_disc(const Subject& subject, Tier tier, const Progress& pro
                {"stretch over bending", "1"}};
   std::vector<DiscLadder> ladders;
   for (const double weight : tier == Tier::quick ? std::vector{4.0} : std::vector{4.0, 3.0}) {
-    ladders.push_back(ladders_of(subject, weight, tier, levels));
+    ladders.push_back(ladders_of(subject, weight, levels));
     progress(double(ladders.size()) / (tier == Tier::quick ? 2 : 3));
   }
   Figure edges = edge_figure(ladders.front());
@@ -190,11 +189,12 @@ Study hung_disc_study() {
           "its centre while it is level, over 2 pi and over a cone's bending energy per kappa^2/2: "
           "the cone's shape depends on it and on the folds alone. A mesh errs by its sectors and "
           "by the stretch of its springs. S is that of the finest mesh with the stiffest springs, "
-          "with error bars of a ladder of meshes and of a ladder of stiffnesses; D is the cone by "
-          "a series, which a check holds against shooting with GSL. On a lighter disc (weight 2) "
-          "stretch still changes the energy by more than the resolution. At the same weight a cone "
-          "has the more energy the more folds it has. Nothing keeps a disc from crossing itself, "
-          "and heavier discs, which may hang in more folds, would: those are not compared.",
+          "with error bars of a ladder of meshes and of a ladder of stiffnesses (the full tier "
+          "adds a lighter disc); D is the cone by a series, which a check holds against shooting "
+          "with GSL. On a lighter disc (weight 2) stretch still changes the energy by more than "
+          "the resolution. At the same weight a cone has the more energy the more folds it has. "
+          "Nothing keeps a disc from crossing itself, and heavier discs, which may hang in more "
+          "folds, would: those are not compared.",
           run_hung_disc,
           "validation"};
 }
