@@ -31,6 +31,7 @@ PYTHON_TESTS = {
     "ResumeTest": ROOT / "scripts/tests/test_resume.py",
     "CampaignTest": ROOT / "scripts/tests/test_campaign.py",
     "SlicesTest": ROOT / "scripts/tests/test_slices.py",
+    "SolverTest": ROOT / "scripts/tests/test_converge_solver.py",
     "IndependentTest": ROOT / "verification/independent/test_independent.py",
 }
 APART_FOLDER = BUILD / "faults" / "apart"

@@ -15,9 +15,7 @@ from typing import Any
 
 sys.dont_write_bytecode = True
 
-from file_tests import CLOCK, PROGRAM, ROOT, FileTest, run  # noqa: E402
-
-SUBJECTS = ROOT / "verification" / "subjects"
+from file_tests import CLOCK, PROGRAM, FileTest, run  # noqa: E402
 
 SHEET = """
 [cloth]
@@ -46,13 +44,6 @@ what = "lowest"
 name = "swing"
 what = "kinetic_energy"
 when = "maximum"
-"""
-
-SPINNING_PLANE = """
-[[object]]
-shape = "half_space"
-move = [0, 0, -1]
-angular_velocity = [0, 0, 90]
 """
 
 DROOP = """
@@ -257,87 +248,6 @@ class ConvergeTest(FileTest):
         self.assert_rejected(
             self.converge(sheet), "store: results are kept in a folder, and this is none"
         )
-
-
-class SolverTest(FileTest):
-    """`converge --solver`: another solver's steps, beside the reference's."""
-
-    SERVED = f"'{PROGRAM}' serve --integrator"
-    WRONG = f"/usr/bin/python3 '{SUBJECTS / 'bad' / 'wrong.py'}'"
-    SPRINGS = (
-        *("--set", "bending.stiffness=0"),
-        *("--set", "stretch.damping=0"),
-        *("--set", "time.step=5e-4"),
-    )
-
-    def ladders(self, solver: str, *words: str) -> list[dict[str, Any]]:
-        sheet = self.write("sheet.toml", SHEET)
-        done = run(
-            "converge", sheet, "--solver", solver, *words, "--json", "--out", str(self.path / "out")
-        )
-        self.assertIn(done.returncode, (0, 1), done.stderr)
-        return json.loads(done.stdout)["ladders"]
-
-    def test_the_reference_over_the_pipe_is_the_reference(self) -> None:
-        for method, order in (("C", 2), ("backward-euler", 1)):
-            here, there = self.ladders(f"{self.SERVED} {method}", "--set", "time.step=1e-3",
-                                       "--method", method)
-            self.assertTrue(there["method"].startswith("foldproof reference"))
-            self.assertLess(there["from_reference"], 1e-10)
-            self.assertFalse(there["beyond_steps"])
-            self.assertIn("ke = 4 B", there["mapping"]["bending"])
-            self.assertEqual(there["mean_step"], here["mean_step"])
-            for ours, theirs in zip(here["quantities"], there["quantities"], strict=True):
-                self.assertEqual(theirs["reading"], ours["reading"])
-                self.assertAlmostEqual(theirs["error_bar"], ours["error_bar"], delta=1e-9)
-            self.assertAlmostEqual(there["quantities"][0]["order"], order, delta=0.15)
-
-    def test_an_independent_solver_has_its_own_order_and_the_same_limit(self) -> None:
-        for kind in ("none", "backward_euler"):
-            reference, other = self.ladders(f"{self.WRONG} {kind}", *self.SPRINGS)
-            self.assertAlmostEqual(reference["quantities"][0]["order"], 2, delta=0.1)
-            self.assertAlmostEqual(other["quantities"][0]["order"], 1, delta=0.1)
-            self.assertEqual(other["quantities"][0]["reading"], "asymptotic")
-            self.assertFalse(other["beyond_steps"], other["in_words"])
-            self.assertGreater(other["from_reference"], 0)
-
-    def test_another_model_is_told_from_steps(self) -> None:
-        reference, other = self.ladders(f"{self.WRONG} gravity_scaled", *self.SPRINGS)
-        self.assertTrue(other["beyond_steps"])
-        self.assertIn("so the models differ", other["in_words"])
-        # 2 % of what gravity does: the springs hardly leave their linear range
-        motion = reference["predictability"]["motion"]
-        self.assertAlmostEqual(other["from_reference"] / motion, 0.02, delta=0.002)
-
-    def test_the_report_has_both_ladders(self) -> None:
-        self.ladders(f"{self.WRONG} none", *self.SPRINGS)
-        done = run("report", str(self.path / "out"))
-        self.assertEqual(done.returncode, 0, done.stderr)
-        page = (self.path / "out" / "report.html").read_text(encoding="utf-8")
-        self.assertIn("toy springs", page)
-        self.assertIn("m apart", page)
-
-    def test_what_the_protocol_cannot_say_is_refused(self) -> None:
-        sheet, toy = self.write("sheet.toml", SHEET), f"{self.WRONG} none"
-        spins = self.write("spins.toml", SHEET + SPINNING_PLANE)
-        for words, why in (
-            (["drape_sphere", "--solver", toy], "which is neither a plane nor a box"),
-            ([spins, "--solver", toy], "which moves or deforms"),
-            ([sheet, "--solver", toy], "capability 'damping'"),
-            ([sheet, "--solver", toy, "--set", "stretch.damping=0"], "declines: bending"),
-            ([sheet, "--solver", toy, "--set", "strain_limits.extension=0.1"], "cannot say strain"),
-            ([sheet, "--solver", toy, "--until", "0.05"], "try --until 0.04"),
-            ([sheet, "--solver", toy, "--set", "stretch.damping=0", "--set",
-              "self_collision.thickness=0.01"], "capability 'self_collision'"),
-            ([sheet, "--solver", "no_such_program"], "no_such_program"),
-            ([sheet, "--solver", toy, "--method", "A,C"], "one method"),
-            ([sheet, "--solver", toy, "--in", "both"], "--in excludes --solver"),
-            ([sheet, "--settings", "a=1"], "--settings requires --solver"),
-        ):
-            with self.subTest(why=why):
-                done = run("converge", *words, "--out", str(self.path / "out"))
-                self.assertEqual((done.returncode, done.stdout), (2, ""))
-                self.assertIn(why, done.stderr)
 
 
 class OrdersTest(FileTest):
