@@ -67,6 +67,7 @@ std::vector<Study> all_studies() {
           free_fold_study(),
           pressed_strip_study(),
           lateral_buckling_study(),
+          stretched_wrinkles_study(),
           hanging_chain_study(),
           friction_tests_study(),
           cusick_drape_study(),

@@ -281,11 +281,15 @@ def ask(program: Path, arguments: list[str], key: str, clock: float | None = Non
         ) from error
 
 
-def findings(program: Path, names: list[str], clock: float | None = None) -> list[dict]:
+def findings(
+    program: Path, names: list[str], clock: float | None = None, tier: str = "quick"
+) -> list[dict]:
     """Findings of the checks, studies and cases with these names (all checks, if there are none):
     rows with name, outcome, measured, bound, margin, seconds."""
     rows = [
-        row for row in ask(program, ["check", *names], "findings", clock) if row["kind"] != "claim"
+        row
+        for row in ask(program, ["check", *names, "--tier", tier], "findings", clock)
+        if row["kind"] != "claim"
     ]
     keys = ("name", "outcome", "measured", "bound", "seconds")
     return [{key: row[key] for key in keys} | {"margin": margin_of(row)} for row in rows]

@@ -4,9 +4,14 @@
 #include <cmath>
 #include <functional>
 
+#include "reference/fast/threads.h"
+
 namespace foldproof {
 
 namespace {
+
+// Particles in a block of the sums of an iteration.
+constexpr Eigen::Index block_of_products = 512;
 
 /// sum_i |r_i|^2/m_i over free particles, the squared mass-weighted norm of a momentum r.
 double squared_norm(const Eigen::Ref<const PerParticle3>& r,
@@ -14,33 +19,38 @@ double squared_norm(const Eigen::Ref<const PerParticle3>& r,
   return r.colwise().squaredNorm().dot(inverse_mass.transpose());
 }
 
-/// The sum of part(first, count) over blocks of particles, block by block: a long sum
-/// rounds less so.
-template <class Part>
-double sum_of_blocks(Eigen::Index particles, const Part& part) {
-  constexpr Eigen::Index block = 512;
-  double sum = 0;
-  for (Eigen::Index first = 0; first < particles; first += block)
-    sum += part(first, std::min(block, particles - first));
-  return sum;
+/// The same in blocks.
+double squared_norm(int threads, Eigen::Index block, const PerParticle3& r,
+                    const PerParticle& inverse_mass) {
+  return sum_of_blocks(threads, r.cols(), block, [&](Eigen::Index first, Eigen::Index count) {
+    return squared_norm(r.middleCols(first, count), inverse_mass.segment(first, count));
+  });
 }
 
-/// D p at free particles, 0 at prescribed ones.
-void damping_product(const DampingOperator& damping, const PerParticle3& p,
-                     const PerParticle& inverse_mass, PerParticle3& Dp, Work& work) {
-  Dp.setZero();
-  damping.add_product(p, Dp);
-  for (Eigen::Index i = 0; i < inverse_mass.size(); ++i)
-    if (inverse_mass[i] == 0) Dp.col(i).setZero();
-  ++work.damping_products;
+/// s D p at free particles, 0 at prescribed ones.
+PerParticle3 damping_product(int threads, const DampingOperator& damping, const PerParticle3& p,
+                             const PerParticle& inverse_mass, double s) {
+  PerParticle3 q = evaluated(threads, PerParticle3::Zero(3, p.cols()));
+  damping.add_product(p, q);
+  for_each_range(threads, p.cols(), [&](Eigen::Index first, Eigen::Index count) {
+    for (Eigen::Index i = first; i < first + count; ++i)
+      if (inverse_mass[i] == 0)
+        q.col(i).setZero();
+      else
+        q.col(i) *= s;
+  });
+  return q;
 }
 
-double squared_momentum(const PerParticle3& v, const PerParticle& mass,
+double squared_momentum(int threads, const PerParticle3& v, const PerParticle& mass,
                         const PerParticle& inverse_mass) {
-  double sum = 0;
-  for (Eigen::Index i = 0; i < mass.size(); ++i)
-    if (inverse_mass[i] != 0) sum += mass[i] * v.col(i).squaredNorm();
-  return sum;
+  const auto of_block = [&](Eigen::Index first, Eigen::Index count) {
+    double sum = 0;
+    for (Eigen::Index i = first; i < first + count; ++i)
+      if (inverse_mass[i] != 0) sum += mass[i] * v.col(i).squaredNorm();
+    return sum;
+  };
+  return sum_of_blocks(threads, mass.size(), block_of_sums, of_block);
 }
 
 SolveResult record(SolveResult solve, Work& work) {
@@ -60,23 +70,22 @@ using Product = std::function<double(const PerParticle3& p, PerParticle3& q)>;
 /// is compared with [kg^1/2 m/s].
 SolveResult iterate(const Product& A, const PerParticle& inverse_mass,
                     const SolverSettings& settings, double scale, PerParticle3 r, PerParticle3& v) {
+  const int threads = settings.threads;
   PerParticle3 q(3, r.cols());
-  double rr = squared_norm(r, inverse_mass);
+  double rr = squared_norm(threads, block_of_sums, r, inverse_mass);
   double residual = std::sqrt(rr) / scale;
 
-  PerParticle3 p = r * inverse_mass.asDiagonal();
+  PerParticle3 p = evaluated(threads, r * inverse_mass.asDiagonal());
   int iterations = 0;
   while (residual > settings.tolerance && iterations < settings.max_iterations) {
     const double curvature = A(p, q);
     if (curvature <= 0) return {iterations, residual, false, true};
 
     const double alpha = rr / curvature, rr_before = rr;
-    v += alpha * p;
-    r -= alpha * q;
-    rr = sum_of_blocks(r.cols(), [&](Eigen::Index first, Eigen::Index count) {
-      return squared_norm(r.middleCols(first, count), inverse_mass.segment(first, count));
-    });
-    p = r * inverse_mass.asDiagonal() + (rr / rr_before) * p;
+    assign(threads, v, v + alpha * p);
+    assign(threads, r, r - alpha * q);
+    rr = squared_norm(threads, block_of_products, r, inverse_mass);
+    assign(threads, p, r * inverse_mass.asDiagonal() + (rr / rr_before) * p);
     residual = std::sqrt(rr) / scale;
     ++iterations;
   }
@@ -90,25 +99,26 @@ double positive_or_one(double scale) { return scale > 0 ? scale : 1; }
 SolveResult solve_velocity(const DampingOperator& damping, double s, const PerParticle& mass,
                            const PerParticle& inverse_mass, const SolverSettings& settings,
                            PerParticle3& v, Work& work) {
+  const int threads = settings.threads;
   const Product A = [&](const PerParticle3& p, PerParticle3& q) {  // (M - s D) p
-    q.setZero();
+    assign(threads, q, PerParticle3::Zero(3, p.cols()));
     damping.add_product(p, q);
     ++work.damping_products;
-    q = p * mass.asDiagonal() - s * q;
+    assign(threads, q, p * mass.asDiagonal() - s * q);
     for (Eigen::Index i = 0; i < q.cols(); ++i)
       if (inverse_mass[i] == 0) q.col(i).setZero();
-    return sum_of_blocks(p.cols(), [&](Eigen::Index first, Eigen::Index count) {
+    const auto of_block = [&](Eigen::Index first, Eigen::Index count) {
       return p.middleCols(first, count).cwiseProduct(q.middleCols(first, count)).sum();
-    });
+    };
+    return sum_of_blocks(threads, p.cols(), block_of_products, of_block);
   };
 
   // the residual of the explicit guess: b - (M - s D) w0 = s D w0
-  PerParticle3 q(3, v.cols());
-  damping_product(damping, v, inverse_mass, q, work);
-  const PerParticle3 r = s * q;
+  const PerParticle3 r = damping_product(threads, damping, v, inverse_mass, s);
+  ++work.damping_products;
   const double scale_squared = settings.scale == ResidualScale::momentum
-                                   ? squared_momentum(v, mass, inverse_mass)
-                                   : squared_norm(r, inverse_mass);
+                                   ? squared_momentum(threads, v, mass, inverse_mass)
+                                   : squared_norm(threads, block_of_sums, r, inverse_mass);
   const double scale = positive_or_one(std::sqrt(scale_squared));
   return record(iterate(A, inverse_mass, settings, scale, r, v), work);
 }
@@ -120,7 +130,8 @@ SolveResult solve_newton_step(const NewtonMatrix& matrix, const SolverSettings& 
     return p.cwiseProduct(q).sum();
   };
   dw.setZero(3, r.cols());
-  const double scale = positive_or_one(std::sqrt(squared_norm(r, matrix.inverse_mass)));
+  const double scale = positive_or_one(
+      std::sqrt(squared_norm(settings.threads, block_of_sums, r, matrix.inverse_mass)));
   const SolveResult solve = iterate(A, matrix.inverse_mass, settings, scale, r, dw);
   ++work.solves;
   work.cg_iterations += solve.iterations;

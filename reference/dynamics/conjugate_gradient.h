@@ -20,6 +20,7 @@ struct SolverSettings {
   double tolerance = 1e-10;  // relative residual at which a solve stops [1]
   int max_iterations = 1000;
   ResidualScale scale = ResidualScale::momentum;
+  int threads = 1;  // of the loops over particles; changes no bit
 };
 
 struct SolveResult {

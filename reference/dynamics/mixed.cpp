@@ -1,5 +1,7 @@
 #include "reference/dynamics/mixed.h"
 
+#include "reference/fast/threads.h"
+
 namespace foldproof {
 
 namespace {
@@ -18,19 +20,27 @@ Forces forces_at(const System& system, const State& s, Work& work) {
 /// v + h/2 M^{-1} (F_elastic + D v_damped); prescribed particles keep v.
 PerParticle3 explicit_half_step(const System& system, const Forces& at, const PerParticle3& v,
                                 const PerParticle3& v_damped, double h, Work& work) {
-  PerParticle3 force = at.elastic;
+  const int threads = system.solver.threads;
+  PerParticle3 force = evaluated(threads, at.elastic);
   at.damping.add_product(v_damped, force);
   ++work.damping_products;
-  return v + (h / 2) * force * system.inverse_mass.asDiagonal();
+  return evaluated(threads, v + (h / 2) * force * system.inverse_mass.asDiagonal());
 }
 
 /// The w of w = v + h/2 M^{-1} (F_elastic + D w), with the known velocities imposed.
 PerParticle3 implicit_half_step(const System& system, const Forces& at, const PerParticle3& v,
                                 const std::vector<KnownVelocity>& known, double h, Work& work) {
-  PerParticle3 w = v + (h / 2) * at.elastic * system.inverse_mass.asDiagonal();
+  PerParticle3 w =
+      evaluated(system.solver.threads, v + (h / 2) * at.elastic * system.inverse_mass.asDiagonal());
   impose(known, w);
   solve_velocity(at.damping, h / 2, system.mass, system.inverse_mass, system.solver, w, work);
   return w;
+}
+
+/// The state a step of h [s] later, at the places where the velocity v leads.
+State moved(const System& system, const State& now, const PerParticle3& v, double h) {
+  const int threads = system.solver.threads;
+  return {now.time + h, evaluated(threads, now.x + h * v), evaluated(threads, v), now.bonds};
 }
 
 }  // namespace
@@ -43,10 +53,10 @@ State mixed_explicit_implicit(const System& system, std::span<const State> past,
 
   // position: leapfrog with the explicit half-step velocity, once it has been modified
   const PerParticle3 v_half = explicit_half_step(system, here, now.v, now.v, h, work);
-  PerParticle3 v_move = v_half;
+  PerParticle3 v_move = evaluated(system.solver.threads, v_half);
   impose(mean_velocities(system.prescribed, now.x, now.time, h), v_move);
   correct(system.filters, {now.time, end, h}, now, v_move, work);
-  State next{end, now.x + h * v_move, v_move, now.bonds};
+  State next = moved(system, now, v_move, h);
 
   // velocity: trapezoidal rule, continued from the half-step velocity before its modification
   const Forces there = forces_at(system, next, work);
@@ -65,7 +75,7 @@ State central_newmark(const System& system, std::span<const State> past, double 
   PerParticle3 v_half = implicit_half_step(
       system, here, now.v, mean_velocities(system.prescribed, now.x, now.time, h), h, work);
   correct(system.filters, {now.time, end, h}, now, v_half, work);
-  State next{end, now.x + h * v_half, v_half, now.bonds};
+  State next = moved(system, now, v_half, h);
 
   // velocity: the rest of the step, explicit, from the modified half-step velocity
   const Forces there = forces_at(system, next, work);
@@ -84,7 +94,7 @@ State variable_step_newmark(const System& system, std::span<const State> past, d
   PerParticle3 v_move = implicit_half_step(
       system, here, now.v, mean_velocities(system.prescribed, now.x, now.time, h), h, work);
   correct(system.filters, {now.time, end, h}, now, v_move, work);
-  State next{end, now.x + h * v_move, v_move, now.bonds};
+  State next = moved(system, now, v_move, h);
 
   // velocity: trapezoidal rule from v_n, as in scheme A
   const PerParticle3 v_half = explicit_half_step(system, here, now.v, now.v, h, work);

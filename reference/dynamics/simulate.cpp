@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "reference/dynamics/events.h"
+#include "reference/fast/threads.h"
 #include "reference/forces/degenerate.h"
 
 namespace foldproof {
@@ -36,11 +37,19 @@ double step_by_strain_rate(const System& system, const State& s, double fraction
   for (const Force& force : system.forces) {
     const auto* stretch = std::get_if<StretchSprings>(&force);
     if (!stretch) continue;
-    for (const Spring& spring : stretch->springs) {
-      const Vector3 d = s.x.col(spring.b) - s.x.col(spring.a);
-      const double rate = d.dot(s.v.col(spring.b) - s.v.col(spring.a)) / d.norm();
-      fastest = std::max(fastest, std::abs(rate) / spring.rest_length);
-    }
+    const int threads = threads_of(stretch->sharing);
+    const auto n = Eigen::Index(stretch->springs.size());
+    const auto find = [&](Eigen::Index first, Eigen::Index count, std::vector<double>& found) {
+      found = {0};
+      for (const Spring& spring :
+           std::span(stretch->springs).subspan(size_t(first), size_t(count))) {
+        const Vector3 d = s.x.col(spring.b) - s.x.col(spring.a);
+        const double rate = d.dot(s.v.col(spring.b) - s.v.col(spring.a)) / d.norm();
+        found[0] = std::max(found[0], std::abs(rate) / spring.rest_length);
+      }
+    };
+    for (const double rate : found_in_order<double>(threads, n, find))
+      fastest = std::max(fastest, rate);
   }
   return fraction / fastest;
 }

@@ -18,6 +18,17 @@ System make_system(PerParticle mass) {
   return system;
 }
 
+void use_threads(System& system, int threads) {
+  if (threads < 1) throw InputError("a system needs at least one thread");
+  system.solver.threads = threads;
+  const auto use = [&](auto& part) {
+    if constexpr (requires { part.use_threads(threads, system.mass.size()); })
+      part.use_threads(threads, system.mass.size());
+  };
+  for (Force& force : system.forces) std::visit(use, force);
+  for (Filter& filter : system.filters) std::visit(use, filter);
+}
+
 void prescribe(System& system, const PrescribedParticle& particle) {
   const int i = particle.particle;
   if (!(i >= 0 && i < system.mass.size()))

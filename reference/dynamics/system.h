@@ -24,6 +24,10 @@ struct System {
 /// without forces.
 System make_system(PerParticle mass);
 
+/// Lets the system's loops run on so many threads, by which no bit of a result changes. Call it
+/// when all forces and filters are there.
+void use_threads(System& system, int threads);
+
 /// Prescribes the motion of a particle. Throws InputError if it is prescribed already or
 /// does not exist.
 void prescribe(System& system, const PrescribedParticle& particle);

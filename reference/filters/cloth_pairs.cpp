@@ -1,7 +1,9 @@
 #include "reference/filters/cloth_pairs.h"
 
 #include <algorithm>
+#include <atomic>
 
+#include "reference/fast/threads.h"
 #include "reference/filters/pair_search.h"
 
 namespace foldproof {
@@ -9,6 +11,7 @@ namespace foldproof {
 namespace {
 
 constexpr int triangles_per_leaf = 4;
+constexpr int levels_of_tasks = 7;  // of the tree, opened to share out a search among threads
 
 /// A vertex or an edge: one or two particles.
 struct VertexOrEdge {
@@ -21,12 +24,15 @@ bool share_a_particle(const VertexOrEdge& f, const Triangle& t) {
 }
 
 /// Of each particle, the box over its straight way, widened by margin/2 on all sides.
-std::vector<Bounds> particle_boxes(const PerParticle3& x, const PerParticle3& end, double margin) {
+std::vector<Bounds> particle_boxes(const PerParticle3& x, const PerParticle3& end, double margin,
+                                   int threads) {
   const Vector3 wider = Vector3::Constant(margin / 2);
   std::vector<Bounds> boxes(static_cast<size_t>(x.cols()));
-  for (Eigen::Index i = 0; i < x.cols(); ++i)
-    boxes[size_t(i)] = {x.col(i).cwiseMin(end.col(i)) - wider,
-                        x.col(i).cwiseMax(end.col(i)) + wider};
+  for_each_range(threads, x.cols(), [&](Eigen::Index first, Eigen::Index count) {
+    for (Eigen::Index i = first; i < first + count; ++i)
+      boxes[size_t(i)] = {x.col(i).cwiseMin(end.col(i)) - wider,
+                          x.col(i).cwiseMax(end.col(i)) + wider};
+  });
   return boxes;
 }
 
@@ -58,27 +64,30 @@ bool overlap(const FeaturePair& pair, const std::vector<Bounds>& particles) {
   return true;
 }
 
-/// moved: N, or empty, which asks about all pairs.
-bool has_moved_particle(const FeaturePair& pair, const std::vector<char>& moved) {
-  return moved.empty() || std::any_of(pair.particles.begin(), pair.particles.end(),
-                                      [&](int i) { return moved[size_t(i)] != 0; });
-}
-
-/// The search: boxes of this motion, and the pairs found.
-struct Search {
+/// The boxes of this motion.
+struct Boxes {
   const ClothTree& cloth;
   const std::vector<char>& moved;
   std::vector<Bounds> particles, triangles, nodes;
   std::vector<char> triangle_moved, node_moved;  // empty: all are asked about
-  std::vector<FeaturePair> found;
-  long box_tests = 0;
 
-  Search(const ClothTree& of, std::vector<Bounds> particle_boxes, const std::vector<char>& which);
+  Boxes(const ClothTree& of, std::vector<Bounds> particle_boxes, const std::vector<char>& which);
 
   bool skips(int node_a, int node_b) const {
     return (!moved.empty() && !node_moved[size_t(node_a)] && !node_moved[size_t(node_b)]) ||
            !nodes[size_t(node_a)].intersects(nodes[size_t(node_b)]);
   }
+};
+
+/// A search of these boxes, and the pairs found.
+struct Search {
+  const Boxes& boxes;
+  std::vector<FeaturePair>& found;
+  long box_tests = 0;
+  const ClothTree& cloth = boxes.cloth;
+  const std::vector<char>& moved = boxes.moved;
+  const std::vector<Bounds>&particles = boxes.particles, &triangles = boxes.triangles;
+
   void within(int node);
   void between(int a, int b);
   void between_leaves(const BoxNode& a, const BoxNode& b);
@@ -87,16 +96,20 @@ struct Search {
   void add_edges(const VertexOrEdge& e, const VertexOrEdge& f);
 };
 
-Search::Search(const ClothTree& of, std::vector<Bounds> particle_boxes,
-               const std::vector<char>& which)
+Boxes::Boxes(const ClothTree& of, std::vector<Bounds> particle_boxes,
+             const std::vector<char>& which)
     : cloth(of), moved(which), particles(std::move(particle_boxes)) {
   triangles.resize(cloth.triangles.size());
   triangle_moved.assign(moved.empty() ? 0 : triangles.size(), 0);
-  for (size_t t = 0; t < triangles.size(); ++t)
-    for (const int corner : cloth.triangles[t]) {
-      triangles[t].extend(particles[size_t(corner)]);
-      if (!moved.empty() && moved[size_t(corner)]) triangle_moved[t] = 1;
+  for_each_range(cloth.threads, cloth.triangles, [&](std::span<const Triangle> part, size_t t) {
+    for (const Triangle& triangle : part) {
+      for (const int corner : triangle) {
+        triangles[t].extend(particles[size_t(corner)]);
+        if (!moved.empty() && moved[size_t(corner)]) triangle_moved[t] = 1;
+      }
+      ++t;
     }
+  });
   // nodes are depth first: both children come after their parent
   const BoxTree& tree = cloth.tree;
   nodes.resize(tree.nodes.size());
@@ -122,7 +135,7 @@ Search::Search(const ClothTree& of, std::vector<Bounds> particle_boxes,
 /// Pairs of triangles below one node.
 void Search::within(int node) {
   const BoxNode& here = cloth.tree.nodes[size_t(node)];
-  if (!moved.empty() && !node_moved[size_t(node)]) return;
+  if (!moved.empty() && !boxes.node_moved[size_t(node)]) return;
   if (here.right < 0) {
     for (int i = here.first; i < here.first + here.count; ++i)
       for (int j = i + 1; j < here.first + here.count; ++j)
@@ -137,7 +150,7 @@ void Search::within(int node) {
 /// Pairs of a triangle below one node and one below another; the larger node is opened first.
 void Search::between(int a, int b) {
   ++box_tests;
-  if (skips(a, b)) return;
+  if (boxes.skips(a, b)) return;
   const BoxNode &at_a = cloth.tree.nodes[size_t(a)], &at_b = cloth.tree.nodes[size_t(b)];
   if (at_a.right < 0 && at_b.right < 0) {
     between_leaves(at_a, at_b);
@@ -158,7 +171,8 @@ void Search::between_leaves(const BoxNode& a, const BoxNode& b) {
 
 /// The features that the triangles s and t answer for, against each other.
 void Search::compare(int s, int t) {
-  if (!moved.empty() && !triangle_moved[size_t(s)] && !triangle_moved[size_t(t)]) return;
+  if (!moved.empty() && !boxes.triangle_moved[size_t(s)] && !boxes.triangle_moved[size_t(t)])
+    return;
   ++box_tests;
   if (!triangles[size_t(s)].intersects(triangles[size_t(t)])) return;
   const Triangle &at_s = cloth.triangles[size_t(s)], &at_t = cloth.triangles[size_t(t)];
@@ -188,6 +202,16 @@ void Search::add_edges(const VertexOrEdge& e, const VertexOrEdge& f) {
   if (overlap(pair, particles) && has_moved_particle(pair, moved)) found.push_back(pair);
 }
 
+/// The nodes that within(node) compares, a few levels down, in its order: a node with
+/// itself or two nodes.
+void add_tasks(const BoxTree& tree, int node, int levels, std::vector<std::pair<int, int>>& tasks) {
+  const int right = tree.nodes[size_t(node)].right;
+  if (levels == 0 || right < 0) return tasks.emplace_back(node, node), void();
+  add_tasks(tree, node + 1, levels - 1, tasks);
+  add_tasks(tree, right, levels - 1, tasks);
+  tasks.emplace_back(node + 1, right);
+}
+
 }  // namespace
 
 ClothTree make_cloth_tree(const TriangleMesh& mesh) {
@@ -213,6 +237,11 @@ ClothTree make_cloth_tree(const TriangleMesh& mesh) {
   return cloth;
 }
 
+bool has_moved_particle(const FeaturePair& pair, const std::vector<char>& moved) {
+  return moved.empty() || std::any_of(pair.particles.begin(), pair.particles.end(),
+                                      [&](int i) { return moved[size_t(i)] != 0; });
+}
+
 std::vector<FeaturePair> near_pairs(const ClothTree& cloth, const PerParticle3& x,
                                     const PerParticle3& end, double margin,
                                     const std::vector<char>& moved) {
@@ -222,17 +251,29 @@ std::vector<FeaturePair> near_pairs(const ClothTree& cloth, const PerParticle3& 
 PairSearch counted_near_pairs(const ClothTree& cloth, const PerParticle3& x,
                               const PerParticle3& end, double margin,
                               const std::vector<char>& moved) {
-  Search search(cloth, particle_boxes(x, end, margin), moved);
-  search.within(0);
-  return {std::move(search.found), search.box_tests};
+  const Boxes boxes(cloth, particle_boxes(x, end, margin, cloth.threads), moved);
+  std::vector<std::pair<int, int>> tasks;
+  add_tasks(cloth.tree, 0, cloth.threads > 1 ? levels_of_tasks : 0, tasks);
+  std::atomic<long> box_tests = 0;  // a sum of whole numbers, in any order
+  const auto find = [&](Eigen::Index first, Eigen::Index count, std::vector<FeaturePair>& found) {
+    Search search{boxes, found};
+    for (const auto& [a, b] : std::span(tasks).subspan(size_t(first), size_t(count)))
+      a == b ? search.within(a) : search.between(a, b);
+    box_tests += search.box_tests;
+  };
+  PairSearch done;
+  done.pairs = found_in_order<FeaturePair>(cloth.threads, Eigen::Index(tasks.size()), find);
+  done.box_tests = box_tests;
+  return done;
 }
 
 PairCache make_pair_cache(const ClothTree& cloth, const PerParticle3& x, double margin) {
-  return {particle_boxes(x, x, margin), near_pairs(cloth, x, x, margin)};
+  return {particle_boxes(x, x, margin, cloth.threads), near_pairs(cloth, x, x, margin),
+          cloth.threads};
 }
 
 bool cache_is_valid(const PairCache& cache, const PerParticle3& x, double margin) {
-  return lie_within(particle_boxes(x, x, margin), cache.boxes);
+  return lie_within(particle_boxes(x, x, margin, cache.threads), cache.boxes);
 }
 
 std::optional<std::vector<FeaturePair>> pairs_from_cache(const PairCache& cache,
@@ -241,12 +282,13 @@ std::optional<std::vector<FeaturePair>> pairs_from_cache(const PairCache& cache,
                                                          const std::vector<char>& moved) {
   // features whose boxes overlap now overlapped in the larger boxes, too; which pair comes first
   // the tree alone decides
-  const std::vector<Bounds> boxes = particle_boxes(x, end, margin);
+  const std::vector<Bounds> boxes = particle_boxes(x, end, margin, cache.threads);
   if (!lie_within(boxes, cache.boxes)) return {};
-  std::vector<FeaturePair> chosen;
-  for (const FeaturePair& pair : cache.pairs)
-    if (overlap(pair, boxes) && has_moved_particle(pair, moved)) chosen.push_back(pair);
-  return chosen;
+  const auto find = [&](Eigen::Index first, Eigen::Index count, std::vector<FeaturePair>& found) {
+    for (const FeaturePair& pair : std::span(cache.pairs).subspan(size_t(first), size_t(count)))
+      if (overlap(pair, boxes) && has_moved_particle(pair, moved)) found.push_back(pair);
+  };
+  return found_in_order<FeaturePair>(cache.threads, Eigen::Index(cache.pairs.size()), find);
 }
 
 }  // namespace foldproof

@@ -24,6 +24,7 @@ struct ClothTree {
   std::vector<OwnedFeatures> own;   // M
   BoxTree tree;                     // over the triangles
   double mean_edge;                 // at rest [m]
+  int threads = 1;                  // of a search
 };
 
 ClothTree make_cloth_tree(const TriangleMesh& mesh);
@@ -41,7 +42,12 @@ std::vector<FeaturePair> near_pairs(const ClothTree& cloth, const PerParticle3& 
 struct PairCache {
   std::vector<Bounds> boxes;       // N: one per particle, widened by half that margin
   std::vector<FeaturePair> pairs;  // near_pairs of them
+  int threads = 1;                 // of a selection
 };
+
+/// Is a particle of the pair marked?
+///   moved   N, or empty: all are
+bool has_moved_particle(const FeaturePair& pair, const std::vector<char>& moved);
 
 PairCache make_pair_cache(const ClothTree& cloth, const PerParticle3& x, double margin);
 

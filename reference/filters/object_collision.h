@@ -16,6 +16,10 @@ struct ObjectCollision {
   std::vector<CollisionPoint> points;
   Response response = responses().front();
   double forecast_time = 0;  // tau [s]; 0: the step
+  int threads = 1;
+
+  /// Points that share particles are corrected one after the other, on one thread.
+  void use_threads(int count, Eigen::Index particles);
 
   void correct(const Span& span, const State& s, PerParticle3& v, Work& work) const;
 };

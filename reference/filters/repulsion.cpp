@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "reference/fast/threads.h"
+
 namespace foldproof {
 
 namespace {
@@ -51,17 +53,22 @@ bool inside_both(const Eigen::Vector4d& weights) { return (weights.array() != 0)
 /// counts over a triangle, and at a triangle's rim only if it is no nearer to another triangle, as
 /// over a fold or at the cloth's border.
 std::vector<ClosePair> load_bearing_pairs(const std::vector<FeaturePair>& pairs,
-                                          const PerParticle3& x, double thickness) {
-  std::vector<ClosePair> close;
+                                          const PerParticle3& x, double thickness, int threads) {
+  const auto find = [&](Eigen::Index first, Eigen::Index count, std::vector<ClosePair>& found) {
+    for (const FeaturePair& pair : std::span(pairs).subspan(size_t(first), size_t(count))) {
+      const Nearness at = nearness(pair.kind, corners_of(pair, x));
+      if (!(at.distance < thickness) || !(at.distance > 0)) continue;
+      if (pair.kind == PairKind::edge_edge && !inside_both(at.weights)) continue;
+      found.push_back({pair, at});
+    }
+  };
+  std::vector<ClosePair> close =
+      found_in_order<ClosePair>(threads, Eigen::Index(pairs.size()), find);
   // of each vertex to a triangle [m]
   PerParticle nearest = PerParticle::Constant(x.cols(), thickness);
-  for (const FeaturePair& pair : pairs) {
-    const Nearness at = nearness(pair.kind, corners_of(pair, x));
-    if (!(at.distance < thickness) || !(at.distance > 0)) continue;
-    if (pair.kind == PairKind::edge_edge && !inside_both(at.weights)) continue;
-    close.push_back({pair, at});
-    double& least = nearest[pair.particles[0]];
-    if (pair.kind == PairKind::vertex_triangle) least = std::min(least, at.distance);
+  for (const ClosePair& one : close) {
+    double& least = nearest[one.pair.particles[0]];
+    if (one.pair.kind == PairKind::vertex_triangle) least = std::min(least, one.at.distance);
   }
   std::erase_if(close, [&](const ClosePair& one) {
     return one.pair.kind == PairKind::vertex_triangle && !inside_both(one.at.weights) &&
@@ -74,9 +81,9 @@ std::vector<ClosePair> load_bearing_pairs(const std::vector<FeaturePair>& pairs,
 
 long repel(const std::vector<FeaturePair>& pairs, const PerParticle3& x,
            const SelfCollisionSettings& settings, double h, const PerParticle& inverse_mass,
-           PerParticle3& v) {
+           PerParticle3& v, int threads) {
   long answered = 0;
-  for (const auto& [pair, at] : load_bearing_pairs(pairs, x, settings.thickness)) {
+  for (const auto& [pair, at] : load_bearing_pairs(pairs, x, settings.thickness, threads)) {
     const double overlap = settings.thickness - at.distance;                    // d [m]
     const double pair_compliance = compliance(pair, at.weights, inverse_mass);  // 1/kg
     const Vector3 relative = corners_of(pair, v) * at.weights;

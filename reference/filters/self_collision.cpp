@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "reference/fast/threads.h"
 #include "reference/filters/approach.h"
 #include "reference/filters/impact_zones.h"
 #include "reference/forces/degenerate.h"
@@ -30,7 +31,8 @@ struct Step {
 
   double min_distance() const { return min_distance_share * filter.settings.thickness; }  // m
   std::vector<FeaturePair> pairs() const;
-  std::optional<Approach> approach(const FeaturePair& pair);
+  std::optional<Approach> approach(const FeaturePair& pair) const;
+  std::vector<char> clear_pairs(const std::vector<FeaturePair>& pairs) const;
   long resolve_all(int round);
   void resolve(const FeaturePair& pair, const Approach& contact, int round);
   bool join_approaching_pairs(ImpactZones& zones, std::vector<char>& is_off_its_path);
@@ -52,17 +54,31 @@ std::vector<FeaturePair> Step::pairs() const {
   return found;
 }
 
-std::optional<Approach> Step::approach(const FeaturePair& pair) {
-  ++work.crossing_queries;
+std::optional<Approach> Step::approach(const FeaturePair& pair) const {
   return first_approach(pair.kind, corners_of(pair, s.x), h * corners_of(pair, v), min_distance());
+}
+
+/// Marks the pairs that stay apart as v is now. Empty on one thread, which asks about each pair
+/// when its turn comes.
+std::vector<char> Step::clear_pairs(const std::vector<FeaturePair>& pairs) const {
+  if (filter.cloth.threads <= 1) return {};
+  std::vector<char> clear(pairs.size());
+  for_each_range(filter.cloth.threads, pairs, [&](std::span<const FeaturePair> part, size_t first) {
+    for (const FeaturePair& pair : part) clear[first++] = !approach(pair);
+  });
+  return clear;
 }
 
 /// Each pair that would come together, one after the other as v then is. Returns their number.
 long Step::resolve_all(int round) {
   const std::vector<FeaturePair> pairs_to_test = pairs();
+  const std::vector<char> clear = clear_pairs(pairs_to_test);
   moved.assign(size_t(v.cols()), 0);
+  work.crossing_queries += long(pairs_to_test.size());
   long resolved = 0;
-  for (const FeaturePair& pair : pairs_to_test) {
+  for (size_t k = 0; k < pairs_to_test.size(); ++k) {
+    const FeaturePair& pair = pairs_to_test[k];
+    if (!clear.empty() && clear[k] && !has_moved_particle(pair, moved)) continue;
     const std::optional<Approach> contact = approach(pair);
     if (!contact) continue;
     resolve(pair, *contact, round);
@@ -98,7 +114,9 @@ bool Step::join_approaching_pairs(ImpactZones& zones, std::vector<char>& is_off_
     const bool prescribed = std::any_of(pair.particles.begin(), pair.particles.end(),
                                         [&](int i) { return is_off_its_path[size_t(i)]; });
     const bool are_joined = zones.are_joined(pair);
-    if ((are_joined && !prescribed) || !approach(pair)) continue;
+    if (are_joined && !prescribed) continue;
+    ++work.crossing_queries;
+    if (!approach(pair)) continue;
     if (are_joined)
       throw DegenerateElement("prescribed motion takes the cloth through itself",
                               {pair.particles.begin(), pair.particles.end()});
@@ -142,7 +160,7 @@ void SelfCollision::correct(const Span& span, const State& s, PerParticle3& v, W
     push_out_of_tangle(crossing, cloth.triangles, s.x, settings.thickness / untangling_time,
                        inverse_mass, v);
   }
-  work.close_pairs += repel(close, s.x, settings, h, inverse_mass, v);
+  work.close_pairs += repel(close, s.x, settings, h, inverse_mass, v, cloth.threads);
   if (!(span.end > span.start)) return;
 
   Step step{*this, s, v, h, work, tangled};

@@ -32,6 +32,9 @@ struct SelfCollision {
   CrossingTriangles at_start = {};  // pairs that cross before the first step
   std::shared_ptr<LatestPairCache> cache = std::make_shared<LatestPairCache>();
 
+  /// Of searches and queries; impulses are given one after the other.
+  void use_threads(int count, Eigen::Index) { cloth.threads = count; }
+
   /// Rebuilds the cache if it is not valid at s, with a margin for the next steps. It saves most
   /// searches without changing a bit: correct() searches where the cache is not valid.
   void update_pair_cache(const State& s) const;

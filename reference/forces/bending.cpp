@@ -14,14 +14,15 @@ namespace {
 // rounding has eaten the normal.
 constexpr double smallest_height_squared = 1e-20;
 
+template <class Own>
 void add_forces(const std::array<int, 4>& particles, const HingeShape& shape, double magnitude,
-                PerParticle3& f) {
+                const Own& own, PerParticle3& f) {
   const Vector3 f1 = magnitude * shape.u1, f2 = magnitude * shape.u2;
   const Vector3 f3 = -(shape.b1 * f1 + shape.b2 * f2);
-  f.col(particles[0]) += f1;
-  f.col(particles[1]) += f2;
-  f.col(particles[2]) += f3;
-  f.col(particles[3]) -= f1 + f2 + f3;
+  if (own.has(particles[0])) f.col(particles[0]) += f1;
+  if (own.has(particles[1])) f.col(particles[1]) += f2;
+  if (own.has(particles[2])) f.col(particles[2]) += f3;
+  if (own.has(particles[3])) f.col(particles[3]) -= f1 + f2 + f3;
 }
 
 double sine_magnitude(double theta, double rest_angle) {
@@ -132,43 +133,51 @@ Eigen::Matrix<double, 3, 4> bending_mode(const HingeShape& shape) {
   return u;
 }
 
-// Flattened, here and below: the loop holds hinge_shape itself, whose result would else pass
-// through memory.
-[[gnu::flatten]] void Bending::add_elastic(const State& s, PerParticle3& f) const {
+void Bending::use_threads(int threads, Eigen::Index particles) {
+  std::vector<std::array<int, 4>> corners;
+  for (const BendingHinge& hinge : hinges) corners.push_back(hinge.particles);
+  sharing = share_out(threads, particles, corners);
+}
+
+void Bending::add_elastic(const State& s, PerParticle3& f) const {
   const BendingLaw& law = bending_law(material.law);
   const bool is_sine = law.magnitude == sine_magnitude;  // needs no angle, only its sine
-  for (const BendingHinge& hinge : hinges) {
-    const HingeShape shape = checked_hinge_shape(hinge, s.x);
-    const double magnitude = is_sine ? shape.sin_half - hinge.sin_half_rest
-                                     : law.magnitude(angle_of(hinge, s.x), hinge.rest_angle);
-    add_forces(hinge.particles, shape,
-               material.stiffness * weight_of(hinge, shape, material.weighting) * magnitude, f);
-  }
+  for_each_run(sharing, hinges, [&](auto part, const auto& own) {
+    for (const BendingHinge& hinge : part) {
+      const HingeShape shape = checked_hinge_shape(hinge, s.x);
+      const double magnitude = is_sine ? shape.sin_half - hinge.sin_half_rest
+                                       : law.magnitude(angle_of(hinge, s.x), hinge.rest_angle);
+      add_forces(hinge.particles, shape,
+                 material.stiffness * weight_of(hinge, shape, material.weighting) * magnitude, own,
+                 f);
+    }
+  });
 }
 
 double Bending::energy(const State& s) const {
   const BendingLaw& law = bending_law(material.law);
-  double sum = 0;
-  for (const BendingHinge& hinge : hinges) {
+  const double sum = sum_over(threads_of(sharing), hinges, [&](const BendingHinge& hinge) {
     const HingeShape shape = checked_hinge_shape(hinge, s.x);
-    sum += weight_of(hinge, shape, material.weighting) *
+    return weight_of(hinge, shape, material.weighting) *
            law.potential(angle_of(hinge, s.x), hinge.rest_angle);
-  }
+  });
   return material.stiffness * sum;
 }
 
-[[gnu::flatten]] void Bending::prepare_damping(const State& s, DampingOperator& damping) const {
+void Bending::prepare_damping(const State& s, DampingOperator& damping) const {
   if (material.damping == 0) return;
-  damping.hinges.reserve(damping.hinges.size() + hinges.size());
-  for (const BendingHinge& hinge : hinges) {
-    const HingeShape shape = checked_hinge_shape(hinge, s.x);
-    const double factor = material.damping_factor == DampingFactor::edge
-                              ? shape.edge
-                              : shape.edge * shape.edge / shape.area_sum;
-    const double root = std::sqrt(material.damping * factor);
-    damping.hinges.push_back(
-        {hinge.particles, shape.b1, shape.b2, root * shape.u1, root * shape.u2});
-  }
+  HingeDamper* const dampers = damping.add_hinges(hinges.size(), sharing);
+  for_each_range(threads_of(sharing), hinges, [&](auto part, size_t first) {
+    HingeDamper* to = dampers + first;
+    for (const BendingHinge& hinge : part) {
+      const HingeShape shape = checked_hinge_shape(hinge, s.x);
+      const double factor = material.damping_factor == DampingFactor::edge
+                                ? shape.edge
+                                : shape.edge * shape.edge / shape.area_sum;
+      const double root = std::sqrt(material.damping * factor);
+      *to++ = {hinge.particles, shape.b1, shape.b2, root * shape.u1, root * shape.u2};
+    }
+  });
 }
 
 namespace {
@@ -203,26 +212,29 @@ Eigen::Vector4d mode_gradient_rows(const HingeShape& shape, const std::array<int
 
 }  // namespace
 
-[[gnu::flatten]] void Bending::add_stiffness_bound(const State& s, PerParticle& rows) const {
+void Bending::add_stiffness_bound(const State& s, PerParticle& rows) const {
   // One hinge's stiffness matrix is ke c (magnitude' u u^T - magnitude grad u). A row of the first
   // sums to |u_i| sum |u_j|; the second counts where a hinge is far from its rest angle. With
   // current weighting the change of c itself is left out.
   const BendingLaw& law = bending_law(material.law);
   const bool is_sine = law.magnitude == sine_magnitude;  // needs no angle, only its sine
-  for (const BendingHinge& hinge : hinges) {
-    const HingeShape shape = checked_hinge_shape(hinge, s.x);
-    const double weight = material.stiffness * weight_of(hinge, shape, material.weighting);
-    const double theta = is_sine ? 0 : angle_of(hinge, s.x);
-    const double slope = is_sine
-                             ? 0.5 * std::sqrt(std::max(0.0, 1 - shape.sin_half * shape.sin_half))
-                             : std::abs(law.slope(theta, hinge.rest_angle));
-    const double magnitude = std::abs(is_sine ? shape.sin_half - hinge.sin_half_rest
-                                              : law.magnitude(theta, hinge.rest_angle));
-    const Eigen::Vector4d norms = bending_mode(shape).colwise().norm();
-    const Eigen::Vector4d sums =
-        slope * norms.sum() * norms + magnitude * mode_gradient_rows(shape, hinge.particles, s.x);
-    for (int k = 0; k < 4; ++k) rows[hinge.particles[size_t(k)]] += weight * sums[k];
-  }
+  for_each_run(sharing, hinges, [&](auto part, const auto& own) {
+    for (const BendingHinge& hinge : part) {
+      const HingeShape shape = checked_hinge_shape(hinge, s.x);
+      const double weight = material.stiffness * weight_of(hinge, shape, material.weighting);
+      const double theta = is_sine ? 0 : angle_of(hinge, s.x);
+      const double slope = is_sine
+                               ? 0.5 * std::sqrt(std::max(0.0, 1 - shape.sin_half * shape.sin_half))
+                               : std::abs(law.slope(theta, hinge.rest_angle));
+      const double magnitude = std::abs(is_sine ? shape.sin_half - hinge.sin_half_rest
+                                                : law.magnitude(theta, hinge.rest_angle));
+      const Eigen::Vector4d norms = bending_mode(shape).colwise().norm();
+      const Eigen::Vector4d sums =
+          slope * norms.sum() * norms + magnitude * mode_gradient_rows(shape, hinge.particles, s.x);
+      for (int k = 0; k < 4; ++k)
+        if (const int i = hinge.particles[size_t(k)]; own.has(i)) rows[i] += weight * sums[k];
+    }
+  });
 }
 
 std::vector<double> hinge_angles(const TriangleMesh& mesh, const PerParticle3& x) {

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "reference/fast/threads.h"
 #include "reference/forces/damping.h"
 #include "reference/forces/energies.h"
 #include "reference/forces/force_differential.h"
@@ -110,6 +111,10 @@ struct Bending {
   static constexpr auto energy_term = &Energies::bending;
   BendingMaterial material;
   std::vector<BendingHinge> hinges;
+  Sharing sharing = {};  // of the hinges among threads
+
+  /// Shares out the hinges, whose number must then stay.
+  void use_threads(int threads, Eigen::Index particles);
 
   /// Throws DegenerateElement naming the particles of a hinge one of whose triangles
   /// has lost its area.

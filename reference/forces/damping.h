@@ -10,6 +10,7 @@
 #include <functional>
 #include <vector>
 
+#include "reference/fast/threads.h"
 #include "reference/forces/triangle_frame.h"
 #include "reference/types.h"
 
@@ -41,10 +42,16 @@ struct TargetDamper {
 };
 
 struct DampingOperator {
-  std::vector<PairDamper> pairs;
-  std::vector<HingeDamper> hinges;
+  std::vector<PairDamper, Unfilled<PairDamper>> pairs;
+  std::vector<HingeDamper, Unfilled<HingeDamper>> hinges;
+  Sharing pair_sharing = {}, hinge_sharing = {};  // among threads
   std::vector<TargetDamper> targets;
   std::vector<std::function<void(const PerParticle3& v, PerParticle3& f)>> custom;
+
+  /// Appends so many, to be filled by the caller, and returns the first. They are shared out as
+  /// given if there are no others.
+  PairDamper* add_pairs(size_t count, const Sharing& sharing);
+  HingeDamper* add_hinges(size_t count, const Sharing& sharing);
 
   /// f += D v; both 3 x N, v in m/s, f in N.
   void add_product(const PerParticle3& v, PerParticle3& f) const;

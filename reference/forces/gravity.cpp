@@ -1,9 +1,11 @@
 #include "reference/forces/gravity.h"
 
+#include "reference/fast/threads.h"
+
 namespace foldproof {
 
 void Gravity::add_elastic(const State&, PerParticle3& f) const {
-  f += acceleration * mass.transpose();
+  assign(threads, f, f + acceleration.lazyProduct(mass.transpose()));
 }
 
 double Gravity::energy(const State& s) const { return -acceleration.dot(s.x * mass); }

@@ -11,7 +11,9 @@ struct Gravity {
 
   Vector3 acceleration;  // g [m/s^2]
   PerParticle mass;      // N [kg]
+  int threads = 1;
 
+  void use_threads(int count, Eigen::Index) { threads = count; }
   void add_elastic(const State& s, PerParticle3& f) const;
   double energy(const State& s) const;  // -sum m_i g.x_i [J], zero at the origin
 };

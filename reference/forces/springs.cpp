@@ -15,35 +15,54 @@ double checked_length(const Vector3& d, const Spring& spring) {
   return length;
 }
 
-}  // namespace
-
-void StretchSprings::add_elastic(const State& s, PerParticle3& f) const {
-  for (const Spring& spring : springs) {
-    const Vector3 d = s.x.col(spring.b) - s.x.col(spring.a);
-    const double length = checked_length(d, spring);
-    const Vector3 pull = spring.stiffness * (length - spring.rest_length) / length * d;
-    f.col(spring.a) += pull;
-    f.col(spring.b) -= pull;
-  }
-}
-
-double StretchSprings::energy(const State& s) const {
-  double sum = 0;
-  for (const Spring& spring : springs) {
-    const double extension = (s.x.col(spring.b) - s.x.col(spring.a)).norm() - spring.rest_length;
-    sum += 0.5 * spring.stiffness * extension * extension;
-  }
-  return sum;
-}
-
-void StretchSprings::prepare_damping(const State& s, DampingOperator& damping) const {
-  damping.pairs.reserve(damping.pairs.size() + springs.size());
+/// Writes the dampers of those springs that damp; returns the place after the last.
+PairDamper* add_dampers(std::span<const Spring> springs, const State& s, PairDamper* to) {
   for (const Spring& spring : springs) {
     if (spring.damping == 0) continue;
     const Vector3 d = s.x.col(spring.b) - s.x.col(spring.a);
     const double length = checked_length(d, spring);
-    damping.pairs.push_back({spring.a, spring.b, std::sqrt(spring.damping) / length * d});
+    *to++ = {spring.a, spring.b, std::sqrt(spring.damping) / length * d};
   }
+  return to;
+}
+
+}  // namespace
+
+void StretchSprings::use_threads(int threads, Eigen::Index particles) {
+  std::vector<std::array<int, 4>> ends;
+  for (const Spring& spring : springs) ends.push_back({spring.a, spring.b, spring.a, spring.b});
+  sharing = share_out(threads, particles, ends);
+  const auto damps = [](const Spring& spring) { return spring.damping != 0; };
+  damper_sharing = std::ranges::all_of(springs, damps) ? sharing : Sharing();
+}
+
+void StretchSprings::add_elastic(const State& s, PerParticle3& f) const {
+  for_each_run(sharing, springs, [&](std::span<const Spring> part, const auto& own) {
+    for (const Spring& spring : part) {
+      const Vector3 d = s.x.col(spring.b) - s.x.col(spring.a);
+      const double length = checked_length(d, spring);
+      const Vector3 pull = spring.stiffness * (length - spring.rest_length) / length * d;
+      if (own.has(spring.a)) f.col(spring.a) += pull;
+      if (own.has(spring.b)) f.col(spring.b) -= pull;
+    }
+  });
+}
+
+double StretchSprings::energy(const State& s) const {
+  return sum_over(threads_of(sharing), springs, [&](const Spring& spring) {
+    const double extension = (s.x.col(spring.b) - s.x.col(spring.a)).norm() - spring.rest_length;
+    return 0.5 * spring.stiffness * extension * extension;
+  });
+}
+
+void StretchSprings::prepare_damping(const State& s, DampingOperator& damping) const {
+  PairDamper* to = damping.add_pairs(springs.size(), damper_sharing);
+  if (!damper_sharing)
+    damping.pairs.resize(size_t(add_dampers(springs, s, to) - damping.pairs.data()));
+  else
+    for_each_range(threads_of(sharing), springs, [&](std::span<const Spring> part, size_t first) {
+      add_dampers(part, s, to + first);
+    });
 }
 
 void StretchSprings::add_elastic_differential(const State& s, Definiteness definiteness,
@@ -84,13 +103,15 @@ void StretchSprings::add_force_differential(const State& s, ForceDifferential& d
 void StretchSprings::add_stiffness_bound(const State& s, PerParticle& rows) const {
   // One spring's stiffness matrix is k along d and tension/|d| across it; a row of it sums to at
   // most twice the larger.
-  for (const Spring& spring : springs) {
-    const double length = checked_length(s.x.col(spring.b) - s.x.col(spring.a), spring);
-    const double across = spring.stiffness * std::abs(length - spring.rest_length) / length;
-    const double row = 2 * std::max(spring.stiffness, across);
-    rows[spring.a] += row;
-    rows[spring.b] += row;
-  }
+  for_each_run(sharing, springs, [&](std::span<const Spring> part, const auto& own) {
+    for (const Spring& spring : part) {
+      const double length = checked_length(s.x.col(spring.b) - s.x.col(spring.a), spring);
+      const double across = spring.stiffness * std::abs(length - spring.rest_length) / length;
+      const double row = 2 * std::max(spring.stiffness, across);
+      if (own.has(spring.a)) rows[spring.a] += row;
+      if (own.has(spring.b)) rows[spring.b] += row;
+    }
+  });
 }
 
 StretchSprings make_springs(const TriangleMesh& mesh, const StretchMaterial& material) {

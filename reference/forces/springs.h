@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "reference/fast/threads.h"
 #include "reference/forces/damping.h"
 #include "reference/forces/energies.h"
 #include "reference/forces/force_differential.h"
@@ -34,6 +35,11 @@ struct StretchMaterial {
 struct StretchSprings {
   static constexpr auto energy_term = &Energies::stretch;
   std::vector<Spring> springs;
+  // of the springs among threads, and the same of their dampers if each spring has one
+  Sharing sharing = {}, damper_sharing = {};
+
+  /// Shares out the springs, whose number must then stay.
+  void use_threads(int threads, Eigen::Index particles);
 
   /// Throws DegenerateElement when the ends of a spring coincide: its direction is then undefined.
   void add_elastic(const State& s, PerParticle3& f) const;

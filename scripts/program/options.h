@@ -31,7 +31,7 @@ struct Options {
   int count = 10;                   // of golden: rows
   unsigned seed = 1;                // of golden
   unsigned seed_shift = 0;          // of check, study and verify (verification/seeds.h)
-  JobSettings running;              // of check, study and verify
+  JobSettings running;              // of check, study and verify; threads: of simulate, too
   int cells = 64;                   // of inspect: along the longest side
   int subdivisions = 0;             // of project
   int smooth_levels = 1;            // of smooth

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "reference/scene/field_recipe.h"
 #include "scripts/program/commands.h"
@@ -19,6 +20,9 @@
 namespace foldproof {
 
 namespace {
+
+// A thread with fewer costs more in waking up and waiting than it saves.
+constexpr Eigen::Index least_particles_per_thread = 1000;
 
 std::string reached_text(const KeptRun& kept) {
   return fmt::format("frame {}, t = {:.6g} s", kept.frame, kept.time);
@@ -97,10 +101,20 @@ int report(const CaseRun& run, const Options& options) {
   return run.record.stopped.empty() ? exit_code(expected) : some_fail;
 }
 
+/// As typed, or else one a core, but no more than pay.
+int threads_of_run(const Scene& scene, const Options& options) {
+  if (options.running.threads > 0) return int(options.running.threads);
+  const auto useful = scene.x.cols() / least_particles_per_thread;
+  return int(
+      std::clamp<Eigen::Index>(useful, 1, std::max(1u, std::thread::hardware_concurrency())));
+}
+
 /// Level sets may take a minute.
 BuiltCase built_with_notice(Case input_case, const Options& options) {
   const InterruptionNotice notice("no step is made yet", typed_again(options.words));
-  return built_case(std::move(input_case), provider_for(options.cache));
+  BuiltCase of = built_case(std::move(input_case), provider_for(options.cache));
+  use_threads(of.built.system, threads_of_run(of.input_case.scene, options));
+  return of;
 }
 
 CaseRun run_of(const BuiltCase& of, const Options& options) {

@@ -60,7 +60,7 @@ class Resume(unittest.TestCase):
             for key in ("name", "file", "find", "replace", "law", "equivalent")
         ]
         others += [SLIP._replace(**{key: ("another",)}) for key in ("caught_by", "caught_by_tests")]
-        others += [SLIP._replace(**{key: True}) for key in ("fast", "loops", "crash")]
+        others += [SLIP._replace(**{key: True}) for key in ("fast", "loops", "crash", "full")]
         self.assertEqual(len(others), len(FAULTS.Fault._fields))
         self.assertEqual(
             len({FAULTS.key_of_row(fault) for fault in [SLIP, *others]}), len(others) + 1

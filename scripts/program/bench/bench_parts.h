@@ -40,6 +40,25 @@ Record contact_rate(const Scene& scene, double step, double step_seconds);
 /// bench_strain.cpp: a sweep of strain limits over the scene's springs, likewise.
 Record strain_rate(const Scene& scene, double step, double step_seconds);
 
+/// Eight sheets of 36 x 36 particles in contact (bench_self.cpp).
+Scene stacked_sheets();
+
+/// How a step of scheme C speeds up with threads.
+struct ThreadScaling {
+  std::string name, scene;
+  double target;  // of the share [1]
+  std::string why_target;
+  std::vector<int> threads = {};      // 1, 2, 4, ... to the cores of the machine
+  std::vector<double> seconds = {};   // the least of a step
+  double share = 0, uncertainty = 0;  // serial share of a step by Amdahl's law [1]
+};
+
+/// bench_threads.cpp: of a sheet of 100,000 particles without contact, and of layers in contact.
+std::vector<ThreadScaling> thread_scalings();
+Record serial_share(const ThreadScaling& scaling);
+Table threads_table(const std::vector<ThreadScaling>& scalings);
+Table forecast_table(const std::vector<ThreadScaling>& scalings);
+
 Record self_collision_rate();  // bench_self.cpp: a step of cloth that lies on itself
 Record crossing_rate();        // bench_crossings.cpp: the test for crossings of moving features
 std::vector<Record> octree_rates();     // bench_octree.cpp: an octree of a mesh, queries

@@ -8,11 +8,8 @@
 
 namespace foldproof {
 
-namespace {
-
-/// Eight sheets of 36 x 36 particles, 1.8 mm apart, the lowest of them held: `fold_stack` as it
-/// lies, without its folds.
-Scene stack() {
+/// 1.8 mm apart, the lowest of them held: `fold_stack` as it lies, without its folds.
+Scene stacked_sheets() {
   Sheet sheet;
   sheet.pattern = SheetPattern::equilateral;
   sheet.width = sheet.height = 0.28;
@@ -38,10 +35,8 @@ Scene stack() {
   return scene;
 }
 
-}  // namespace
-
 Record self_collision_rate() {
-  const Scene scene = stack();
+  const Scene scene = stacked_sheets();
   const System system = build_system(scene);
   const Integrator& integrator = integrator_named("C");
   const double h = 0.5 * elastic_limit(system, start_state(scene));

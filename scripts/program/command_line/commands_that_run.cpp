@@ -18,6 +18,9 @@ void add_simulate(CLI::App& app, Options& options) {
   add_switch(simulate, "--restart", options.restarts,
              "Start over; deletes checkpoints of an interrupted run")
       ->excludes(resume);
+  add_threads(simulate, options,
+              "Threads of the run; the results are the same to the bit (default: one a core, fewer "
+              "in small scenes)");
   add_cache(simulate, options);
   add_folder(simulate, options, "Folder for results")->capture_default_str();
   add_json(simulate, options);

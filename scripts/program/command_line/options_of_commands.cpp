@@ -65,8 +65,8 @@ std::vector<CLI::Option*> add_frame_times(CLI::App* command, Options& options) {
   return {times, rate, start};
 }
 
-void add_threads(CLI::App* command, Options& options) {
-  command->add_option("--threads", options.running.threads, "Jobs at a time (default: one a core)")
+void add_threads(CLI::App* command, Options& options, const std::string& what) {
+  command->add_option("--threads", options.running.threads, what)
       ->type_name("N")
       ->check(whole_number(1, 1024));
 }
@@ -78,7 +78,7 @@ void add_running(CLI::App* command, Options& options) {
       ->type_name("N")
       ->check(whole_number(0, 1'000'000'000))
       ->capture_default_str();
-  add_threads(command, options);
+  add_threads(command, options, jobs_at_a_time);
   command
       ->add_option("--order", options.running.order,
                    "Shuffle the jobs, with N as the seed (default: the longest first)")

@@ -49,7 +49,8 @@ void add_cache(CLI::App* command, Options& options);
 /// When frames of another program are; returned: the options, which belong together.
 std::vector<CLI::Option*> add_frame_times(CLI::App* command, Options& options);
 
-void add_threads(CLI::App* command, Options& options);
+inline const std::string jobs_at_a_time = "Jobs at a time (default: one a core)";
+void add_threads(CLI::App* command, Options& options, const std::string& what = jobs_at_a_time);
 
 /// How checks, studies and cases are run, and on which samples.
 void add_running(CLI::App* command, Options& options);

@@ -1,105 +1,15 @@
 // Runs that go on from a checkpoint: they end with the bits of the run that was never interrupted.
-#include <algorithm>
-#include <bit>
-#include <cstdint>
-#include <string>
-
-#include "reference/dynamics/simulate.h"
 #include "verification/checks/dynamics/dynamics_checks.h"
-#include "verification/specimens/layered_cloth.h"
 #include "verification/evidence.h"
-#include "verification/specimens/moving_sheets.h"
-#include "verification/specimens/sticking_scenes.h"
+#include "verification/specimens/followed_runs.h"
 
 namespace foldproof {
 
 namespace {
 
-/// A run with all that was handed out.
-struct Followed {
-  std::vector<State> frames;
-  std::vector<Diagnostics> rows;
-  std::vector<Checkpoint> checkpoints;
-  std::vector<std::size_t> rows_at;  // of each checkpoint: rows that came before it
-  RunResult result;
-};
-
-Observer follower(Followed& run) {
-  return {[&run](const State& s) { run.frames.push_back(s); },
-          [&run](const Diagnostics& row) { run.rows.push_back(row); },
-          [&run](const Checkpoint& checkpoint) {
-            run.checkpoints.push_back(checkpoint);
-            run.rows_at.push_back(run.rows.size());
-          }};
-}
-
-/// Numbers of a run in their order; two runs are compared bit by bit.
-using Numbers = std::vector<double>;
-
-void add(const State& s, Numbers& all) {
-  all.push_back(s.time);
-  all.insert(all.end(), s.x.data(), s.x.data() + s.x.size());
-  all.insert(all.end(), s.v.data(), s.v.data() + s.v.size());
-  for (const Bond& b : s.bonds)
-    all.insert(all.end(), {double(b.patch), double(b.triangle), double(b.particle), b.place[0],
-                           b.place[1], b.place[2]});
-}
-
-/// All of a row but clock time.
-void add(const Diagnostics& row, Numbers& all) {
-  for_each_value(row, [&](auto number) { all.push_back(double(number)); });
-}
-
-void add(const Work& w, Numbers& all) {
-  for_each_counter(w, [&](auto number) { all.push_back(double(number)); });
-}
-
-void add(const RunResult& result, Numbers& all) {
-  add(result.last, all);
-  add(result.work, all);
-  all.push_back(double(result.steps));
-  if (result.stop)
-    all.insert(all.end(),
-               {result.stop->time, double(result.stop->step), double(result.stop->particle)});
-}
-
-/// All of a checkpoint but clock time.
-void add(const Checkpoint& checkpoint, Numbers& all) {
-  for (const State& s : checkpoint.past) add(s, all);
-  add(checkpoint.work, all);
-  all.insert(all.end(), {double(checkpoint.frame), double(checkpoint.steps), checkpoint.start_time,
-                         checkpoint.size, checkpoint.event_time, checkpoint.damping_work,
-                         checkpoint.damping_power});
-}
-
-/// Output after the given numbers of frames, rows and checkpoints, and the result of the run.
-Numbers numbers_after(const Followed& run, std::size_t frames, std::size_t rows,
-                      std::size_t checkpoints) {
-  Numbers all;
-  for (std::size_t k = frames; k < run.frames.size(); ++k) add(run.frames[k], all);
-  for (std::size_t k = rows; k < run.rows.size(); ++k) add(run.rows[k], all);
-  for (std::size_t k = checkpoints; k < run.checkpoints.size(); ++k) add(run.checkpoints[k], all);
-  add(run.result, all);
-  return all;
-}
-
-double bits_that_differ(const Numbers& a, const Numbers& b) {
-  if (a.size() != b.size()) return NAN;
-  double count = 0;
-  for (std::size_t k = 0; k < a.size(); ++k)
-    count += std::bit_cast<std::uint64_t>(a[k]) != std::bit_cast<std::uint64_t>(b[k]);
-  return count;
-}
-
-struct Interrupted {
-  std::string name, integrator;
-  Scene scene;
-  bool stops = false;  // before its end
-};
-
 /// Numbers that differ, over all frames of the run at which it is interrupted; NaN for a run that
 /// is not what it is meant to be.
-double differences(const Interrupted& of) {
+double differences(const NamedRun& of) {
   const Integrator& integrator = integrator_named(of.integrator);
   Followed whole;
   whole.result = simulate(build_system(of.scene), integrator, start_state(of.scene),
@@ -117,71 +27,9 @@ double differences(const Interrupted& of) {
   return worst.value();
 }
 
-/// Damped springs and hinges in automatic steps, led particles among them that start and stop on
-/// the way, one of them a rounding after a frame.
-Scene stopping_and_starting() {
-  Scene scene = partly_prescribed_sheet();
-  scene.schedule = {0.057, 0.0081, {0.0017, 0.5, 0.1}, 100000};
-  const double at_frame = 2 * 0.0081;
-  scene.prescribed.at(1).motion.from = std::nextafter(at_frame, 1.0);
-  scene.prescribed.at(1).motion.until = 0.0431;
-  scene.prescribed.at(2).motion.until = 0.0297;
-  return scene;
-}
-
-/// Cloth that sticks to a palm that is there for a while, and to itself.
-Scene stuck_for_a_while() {
-  Scene scene = free_sheet();
-  Motion swing;
-  swing.amplitude = {0.05, 0.02, 0.1};
-  swing.frequency = 3.1;
-  StickyPatch hand = palm(scene, 0.8, swing);
-  hand.stiffness = 40;
-  hand.forecast_time = 0.011;
-  hand.near = 0.02;
-  hand.far = 0.031;
-  hand.from = 0.013;
-  hand.until = 0.061;
-  hand.release = 0.02;
-  scene.sticky = {hand};
-  scene.schedule = {0.075, 0.0091, {0, 0.4, 0.05}, 100000};
-  return scene;
-}
-
-Scene layers_that_meet() {
-  LayeredSheets layers;
-  layers.settings = {0.004, 3.0, 0.3, 8, true};
-  Scene scene = layered_scene(layers);
-  scene.stretch = StretchMaterial{20, 0.01, 1};
-  scene.strain_limits = StrainLimits{};
-  scene.schedule = {0.03, 0.0043, {0.0011, 0.5, 0.1}, 100000};
-  return scene;
-}
-
-/// Cloth that is thrown apart by steps that are too long.
-Scene flying_apart() {
-  Scene scene = undamped_sheet();
-  const double h = 1.6 * elastic_limit(build_system(scene), start_state(scene));
-  scene.schedule = {400 * h, h, {h, 0.5, 0.1}, 100000};
-  return scene;
-}
-
-std::vector<Interrupted> interrupted_runs() {
-  std::vector<Interrupted> runs;
-  for (const Integrator& integrator : integrators())
-    if (integrator.family != Family::fully_explicit || integrator.name == "RK4")
-      runs.push_back({"led", std::string(integrator.name), stopping_and_starting()});
-  for (const char* integrator : {"C", "BDF2"}) {
-    runs.push_back({"sticking", integrator, stuck_for_a_while()});
-    runs.push_back({"layers", integrator, layers_that_meet()});
-  }
-  runs.push_back({"divergence", "C", flying_apart(), true});
-  return runs;
-}
-
 Finding same_bits_finding(const Subject&) {
   Table measured{{"case", ""}, {"numbers that differ", "1"}};
-  for (const Interrupted& run : interrupted_runs())
+  for (const NamedRun& run : runs_of_all_parts())
     measured.row(run.name + ", " + run.integrator, differences(run));
   return judge_worst(
       measured, 0,

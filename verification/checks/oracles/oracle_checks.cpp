@@ -98,6 +98,10 @@ constexpr Comparison comparisons[] = {
      "The oracle's load under which a ribbon on edge tips over is the same by power series and by "
      "GSL, and ribbons of more rows gain the rigidity of a periodic cell.",
      tipping_ribbons_agree},
+    {"oracle.stretched-wrinkles-agree",
+     "The oracle's wrinkles of a stretched sheet by functions are those by a series, and tend to "
+     "the scaling law; the rigidity that tension adds is that of a lattice of springs.",
+     stretched_wrinkles_agree},
     {"oracle.hung-chains-agree",
      "The oracle's hanging chains are the same by functions, by power series and by GSL: shapes, "
      "pulls and frequencies.",

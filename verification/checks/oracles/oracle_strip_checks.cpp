@@ -8,6 +8,7 @@
 #include "verification/oracles/chains_and_ribbons.h"
 #include "verification/oracles/folds.h"
 #include "verification/oracles/homogenised_bending.h"
+#include "verification/oracles/sheets/stretched_wrinkles.h"
 
 namespace foldproof {
 
@@ -37,6 +38,47 @@ Table tipping_ribbons_agree() {
           {oracles::strip_rigidity(R, 0), off});
   compare(answers, "twisting, ribbon and cell", {(wide.twisting - narrow.twisting) / added, off},
           {4 * R(2, 2), off});
+  return answers;
+}
+
+/// The energy per area that springs under tension add to a wave of amplitude 1 across, over k^4/4:
+/// edge by edge, over a whole number of waves.
+double rigidity_of_springs(double T, double edge, int edges_a_wave) {
+  const double k = 2 * pi / (edges_a_wave * edge), spacing = std::sqrt(0.75) * edge;
+  const double slanting = T * edge / std::sqrt(3), across = -slanting / 2;  // N
+  const auto height = [&](double x) { return std::cos(k * x); };
+  double energy = 0;
+  for (int i = 0; i < edges_a_wave; ++i) {
+    const double x = i * edge;
+    energy += across / edge * std::pow(height(x + edge) - height(x), 2) / 2;
+    for (const double side : {-0.5, 0.5})
+      energy += slanting / edge * std::pow(height(x + side * edge) - height(x), 2) / 2;
+  }
+  return energy / (edges_a_wave * edge * spacing) * 4 / std::pow(k, 4);
+}
+
+Table stretched_wrinkles_agree() {
+  Table answers = no_answers();
+  for (const double reach : {0.07, 0.011, 0.0013, 0.0003}) {
+    const oracles::Wrinkles one = oracles::wrinkles_by_functions(reach),
+                            other = oracles::wrinkles_by_series(reach),
+                            law = oracles::wrinkles_by_scaling(reach);
+    const std::string at = ", reach " + std::to_string(reach);
+    compare(answers, "wavelength" + at, one.wavelength, other.wavelength);
+    compare(answers, "compression" + at, one.compression, other.compression);
+    // the clamps shorten the length by two reaches; bending along adds terms of the next power
+    compare(answers, "wavelength over the law's" + at,
+            {one.wavelength.value / law.wavelength.value, 0}, {1 - reach, 5 * reach * reach});
+  }
+  const double T = 3.7, edge = 0.6;
+  for (const int edges_a_wave : {40, 70}) {
+    const double k = 2 * pi / (edges_a_wave * edge), next_term = std::pow(k * edge, 2);
+    const oracles::Estimate rigidity = oracles::rigidity_under_tension(0, T, edge, k);
+    // its uncertainty is the first term that it leaves out
+    compare(answers, "rigidity by tension, " + std::to_string(edges_a_wave) + " edges a wave",
+            {rigidity.value - rigidity.uncertainty, next_term * rigidity.uncertainty},
+            {rigidity_of_springs(T, edge, edges_a_wave), 1e-12});
+  }
   return answers;
 }
 
