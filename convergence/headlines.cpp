@@ -113,6 +113,7 @@ const std::vector<Headline> headlines = {
       "tension-stiffens-coarse-meshes"}},
     {"hanging-chain", {"sag-and-pull-agree", "frequency-agrees"}},
     {"friction-tests", {"threshold-agrees", "slide-agrees", "belt-agrees"}},
+    {"hung-disc", {"energy-agrees", "depth-agrees", "three-folds-fall-to-two"}},
     {"cusick-drape",
      {"coefficient-grows-with-bending-length", "fold-number-follows-the-start",
       "folds-change-the-coefficient"}}};

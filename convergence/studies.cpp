@@ -71,6 +71,7 @@ std::vector<Study> all_studies() {
           hanging_chain_study(),
           friction_tests_study(),
           cusick_drape_study(),
+          hung_disc_study(),
           fabric_strip_study()};
 }
 

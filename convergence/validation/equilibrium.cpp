@@ -128,7 +128,10 @@ Equilibrium equilibrium_of(const Subject& subject, const Scene& scene) {
     rest.x = free.moved(rest.x, by);
     if (far < longest / 4) step *= 1.5;
   }
-  factors.factorize(hessian.at(rest.x, Definiteness::exact, 0));
+  // a millionth of how strongly gravity holds a pendulum as long as the sheet
+  const double extent = scene.mesh.rest.colwise().norm().maxCoeff();
+  const double pendulum = scene.gravity.value().norm() / extent;  // 1/s^2
+  factors.factorize(hessian.at(rest.x, Definiteness::exact, 1e-6 * pendulum));
   rest.stable = positive_pivots(factors);
   return rest;
 }

@@ -10,7 +10,9 @@ struct Equilibrium {
   PerParticle3 x;     // 3 x N [m]
   double unbalanced;  // largest force on a free particle, over its weight [1]
   int steps;
-  bool stable;  // all pivots of the energy's Hessian are positive: a minimum
+  // all pivots of the energy's Hessian are positive: a minimum; a turn about the vertical, which
+  // costs a sheet that hangs from one particle nothing, does not count
+  bool stable;
 };
 
 /// Follows the forces from the scene's start, without inertia: steps of backward Euler that forget

@@ -164,7 +164,7 @@ NamedFinding exponent_agrees(const std::vector<SheetLadder>& ladders, Varied var
       exponent(first.wavelength.simulated, last.wavelength.simulated),
       (relative(first.wavelength) + relative(last.wavelength)) / std::abs(range),
       {should,
-       std::abs(exponent(first.wavelength.should.value, last.wavelength.should.value) - should)}};
+       std::abs(std::log(last.wavelength.should.value / first.wavelength.should.value) / range)}};
   const double at_ends = 2 * resolution / std::abs(range);
   Table table = no_comparisons("1");
   add_comparison(table, comparison, at_ends);

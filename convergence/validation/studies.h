@@ -16,6 +16,7 @@ Study fold_tests_study();          // fold-tests: strips folded over on a floor
 Study pressed_strip_study();       // pressed-strip: when the tip of a strip on a floor slips
 Study fabric_strip_study();        // fabric-strip: a simulated strip in the laboratory's test
 Study strip_tests_study();         // strip-tests: a laboratory's loops, rings and wrinkles
+Study hung_disc_study();           // hung-disc: a disc that hangs from its centre
 Study cusick_drape_study();        // cusick-drape: a disc of cloth over a smaller plate
 
 }  // namespace foldproof

@@ -102,6 +102,10 @@ constexpr Comparison comparisons[] = {
      "The oracle's wrinkles of a stretched sheet by functions are those by a series, and tend to "
      "the scaling law; the rigidity that tension adds is that of a lattice of springs.",
      stretched_wrinkles_agree},
+    {"oracle.hung-cones-agree",
+     "The oracle's cone that hangs from its tip is the same by a series and by shooting, and tends "
+     "to that of small slopes.",
+     hung_cones_agree},
     {"oracle.hung-chains-agree",
      "The oracle's hanging chains are the same by functions, by power series and by GSL: shapes, "
      "pulls and frequencies.",
