@@ -48,8 +48,10 @@ struct ThreadScaling {
   std::string name, scene;
   double target;  // of the share [1]
   std::string why_target;
-  std::vector<int> threads = {};      // 1, 2, 4, ... to the cores of the machine
-  std::vector<double> seconds = {};   // the least of a step
+  std::vector<int> threads = {};     // 1, 2, 4, ... to the cores of the machine
+  std::vector<double> seconds = {};  // the least of a step
+  // processor time over clock time: fewer than `threads` where other programs need the cores
+  std::vector<double> cores = {};
   double share = 0, uncertainty = 0;  // serial share of a step by Amdahl's law [1]
 };
 
