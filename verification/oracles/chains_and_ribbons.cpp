@@ -37,6 +37,26 @@ long double twist_by_series(long double Q) {
   return sum;
 }
 
+/// phi(t) for the load G: of phi = sum a_k t^(3 k), a_(k+1) (3 k + 3)(3 k + 2) = -G a_k. Of its
+/// integral from 0 to t, each term is t/(3 k + 1) times as large.
+struct SlopeSeries {
+  long double slope, integral;
+};
+
+SlopeSeries slope_by_series(long double G, long double t) {
+  long double term = 1, sum = 1, integral = t;
+  for (int k = 0; k < 60; ++k) {
+    term *= -G * t * t * t / ((3 * k + 3) * (3 * k + 2));
+    sum += term;
+    integral += term * t / (3 * k + 4);
+  }
+  return {sum, integral};
+}
+
+long double self_buckling_load() {
+  return bisected_root([](long double G) { return slope_by_series(G, 1).slope; }, 6, 10);
+}
+
 /// J0(u) by its power series; up to u = 15 its terms stay below 2e5.
 long double bessel_by_series(long double u) {
   long double term = 1, sum = 1;
@@ -114,6 +134,24 @@ Estimate tipping_load_by_shooting() {
     return last_value(rhs, {1, 0}, 0, 1);
   };
   return root_of_shots(twist, 8, 18);
+}
+
+Estimate self_buckling_load_by_series() { return {double(self_buckling_load()), 20 * rounding}; }
+
+Estimate self_buckling_load_by_shooting() {
+  const auto slope = [](double G) {
+    const RightHandSide rhs = [G](double t, std::span<const double> y, std::span<double> dy) {
+      dy[0] = y[1];
+      dy[1] = -G * t * y[0];
+    };
+    return last_value(rhs, {1, 0}, 0, 1);
+  };
+  return root_of_shots(slope, 6, 10);
+}
+
+double self_buckling_slope(double t) {
+  const long double G = self_buckling_load();
+  return double(slope_by_series(G, t).slope / slope_by_series(G, 1).integral);
 }
 
 Estimate chain_frequency_by_series(int n) {

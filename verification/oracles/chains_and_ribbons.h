@@ -1,4 +1,4 @@
-// Hanging chains, and the weight under which a ribbon on edge falls over.
+// Hanging chains, and the weights under which a ribbon on edge and a column fall over.
 #pragma once
 
 #include <span>
@@ -16,6 +16,17 @@ namespace foldproof::oracles {
 /// By the power series of phi in extended precision; by GSL's ODE solver.
 Estimate tipping_load_by_series();
 Estimate tipping_load_by_shooting();
+
+/// A column that is clamped at its foot falls under its own weight at q L^3/(EI) = this, q its
+/// weight per length (Greenhill). With t the distance from the free end over L and G that load,
+/// its slope obeys
+///   phi'' + G t phi = 0,   phi'(0) = 0,   phi(1) = 0.
+/// By the power series of phi in extended precision; by GSL's ODE solver.
+Estimate self_buckling_load_by_series();
+Estimate self_buckling_load_by_shooting();
+
+/// phi of the column at that load, over the distance of its free end from the vertical over L.
+double self_buckling_slope(double t);
 
 /// The frequency of the n-th mode, n = 1..5, of a chain of length L hanging from one end, over
 /// sqrt(g/L): half the n-th root of Bessel's J0. By its power series in extended precision; by

@@ -27,6 +27,8 @@ Table tipping_ribbons_agree() {
   Table answers = no_answers();
   compare(answers, "load, series and shooting", oracles::tipping_load_by_series(),
           oracles::tipping_load_by_shooting());
+  compare(answers, "load of a column, series and shooting", oracles::self_buckling_load_by_series(),
+          oracles::self_buckling_load_by_shooting());
   // a ribbon's two edges cost it the same, however wide it is: more rows add the sheet's own
   const double edge = 0.7, added = 20 * edge * std::sqrt(0.75);
   const oracles::RibbonRigidity narrow = oracles::equilateral_ribbon(edge, 40),

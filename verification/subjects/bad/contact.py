@@ -83,6 +83,14 @@ class FrictionHalved(OnPlanes):
         return super().kept(most / 2, speed)
 
 
+class FrictionCreeps(OnPlanes):
+    """Friction that grows with the speed to Coulomb's, within some mm/s, so that its formula has no
+    kink: steep slopes hardly show it."""
+
+    def kept(self, most: np.ndarray, speed: np.ndarray) -> np.ndarray:
+        return super().kept(most * speed / (speed + 0.002), speed)
+
+
 class OnBoxes(ToySolver):
     """Particles that end a step in a box leave it by the nearest face, and stop there."""
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "adapters"))
-from foldproof_solver import Scene  # noqa: E402
+from foldproof_solver import Declined, Scene  # noqa: E402
 from toy_solver import ToySolver  # noqa: E402
 
 
@@ -44,19 +44,26 @@ class Bends(ToySolver):
         material = scene.header["scene"]["material"]
         given, material["bending_rigidity"] = material["bending_rigidity"], 0
         mapping = super().prepare(scene)
-        n = len(self.x)
-        self.bending = np.zeros((n, n))
-        for hinge in scene.hinges:
-            weights, area = laplacian(scene.rest[hinge])
-            self.bending[np.ix_(hinge, hinge)] += np.outer(weights, weights) / area
-        self.bending *= self.rigidity * given
+        self.corners = scene.hinges
+        found = [laplacian(scene.rest[hinge]) for hinge in scene.hinges]
+        self.weights = np.array([weights for weights, _ in found]).reshape(-1, 4)
+        scale = self.rigidity * given
+        self.over_area = np.array([scale / area for _, area in found])
         return {**mapping, "bending": "B of the scene, by the squared Laplacian"}
 
+    def bending(self) -> tuple[np.ndarray, float]:
+        """Forces [N] and energy [J]."""
+        sums = np.einsum("kc,kci->ki", self.weights, self.x[self.corners])
+        pull = self.over_area[:, None] * sums
+        f = np.zeros_like(self.x)
+        np.add.at(f, self.corners, -self.weights[:, :, None] * pull[:, None])
+        return f, 0.5 * np.sum(sums * pull)
+
     def forces(self) -> np.ndarray:
-        return super().forces() - self.bending @ self.x
+        return super().forces() + self.bending()[0]
 
     def energy(self) -> float:
-        return super().energy() + 0.5 * np.sum(self.x * (self.bending @ self.x))
+        return super().energy() + self.bending()[1]
 
 
 def laplacian(corners: np.ndarray) -> tuple[np.ndarray, float]:
@@ -86,14 +93,34 @@ class BendsNotAtAll(Bends):
     rigidity = 0.0
 
 
+class SpringsPullAlone(Bends):
+    """A spring that is shorter than at rest is slack, as a yarn."""
+
+    def springs(self) -> tuple[np.ndarray, np.ndarray]:
+        direction, elongation = super().springs()
+        return direction, np.maximum(0, elongation)
+
+
+class BendsUnasked(Bends):
+    """A flat sheet that resists bending whatever the scene says, as a coarse mesh that locks:
+    B = Y L^2/2 of its edges L. Nothing that is flat shows it."""
+
+    def prepare(self, scene: Scene) -> dict[str, str]:
+        material = scene.header["scene"]["material"]
+        if material["bending_rigidity"] > 0:
+            raise Declined("bending")
+        material["bending_rigidity"] = material["young"] * np.mean(scene.rest_lengths) ** 2 / 2
+        return super().prepare(scene)
+
+
 class BendsUprightOnly(Bends):
     """The theory of small deflections: bending resists height alone, whatever the slope. Turned
     sheets are bent the wrong way, and steep ones too little."""
 
     def forces(self) -> np.ndarray:
-        bending = self.bending @ self.x
+        bending, _ = self.bending()
         bending[:, :2] = 0
-        return super(Bends, self).forces() - bending
+        return super(Bends, self).forces() + bending
 
 
 class Damped(ToySolver):

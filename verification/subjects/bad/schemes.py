@@ -63,7 +63,8 @@ class Implicit(ToySolver):
             self.solve_step(dt)
 
     def solve_step(self, dt: float) -> None:
-        x, v, mass = self.x, self.v, self.mass[:, None]
+        x, v, mass = self.x.astype("f8"), self.v.astype("f8"), self.mass[:, None]
+        self.x = x
         known, new, blocks = self.forces(), v.copy(), self.blocks()
         size = np.inf
         for _ in range(60):  # the matrix is that of the step's start

@@ -24,7 +24,7 @@ class Flex extends Solver {
     const joints = 'xyz'.split('').map((_, c) =>
       `<joint type="slide" axis="${[0, 1, 2].map(k => Number(k === c)).join(' ')}"/>`).join('');
     const bodies = Array.from(scene.mass, (mass, i) =>
-      `<body name="b${i}" pos="${vector(this.moves[i] ? scene.rest : scene.x, i)}">
+      `<body name="b${i}" pos="${vector(scene.rest, i)}">
          <inertial pos="0 0 0" mass="${mass}" diaginertia="1e-9 1e-9 1e-9"/>
          ${this.moves[i] ? joints : ''}</body>`).join('');
     this.model?.delete(), this.data?.delete();
@@ -40,6 +40,9 @@ class Flex extends Solver {
           damping="${material.stretch_damping / material.young}" elastic2d="stretch"/>
         <contact internal="false" selfcollide="none" contype="0" conaffinity="0"/>
       </flex></deformable></mujoco>`);
+    // the flex has taken its rest shape from where the bodies were; body 0 is the world
+    for (const i of scene.held)
+      for (let c = 0; c < 3; ++c) this.model.body_pos[3 * (i + 1) + c] = scene.x[3 * i + c];
     this.data = new mujoco.MjData(this.model);
     this.set_state(scene.x, scene.v);
     return {

@@ -1,0 +1,31 @@
+// A strip of equilateral triangles, and the rigidity that a solver gives it.
+#pragma once
+
+#include <vector>
+
+#include "verification/subjects/suite/trial.h"
+
+namespace foldproof::suite {
+
+/// Rows of edges along x, so many along y, about y = 0.
+struct StripShape {
+  int columns, rows;
+  double edge;  // m
+
+  double row_height() const;  // m
+  double length() const;      // m
+  double width() const;       // of a full row [m]
+};
+
+/// In its rest shape, free, without gravity.
+PortableScene free_strip(const StripShape& shape);
+
+/// Particles of the rows at this distance from y = 0, in the rest shape.
+std::vector<int> rows_at_distance(const PortableScene& strip, const StripShape& shape,
+                                  double distance);
+
+/// B as the law calibration.bending-rigidity-is-the-scene-s measures it, of this very strip [N m]:
+/// let go from a cylinder, half of it gains angular momentum by the moment in its middle.
+double measured_rigidity(Trial& trial, const PortableScene& strip, const StripShape& shape);
+
+}  // namespace foldproof::suite
