@@ -96,7 +96,7 @@ class ErrorsShown(unittest.TestCase):
         )
         for shown in (
             "it &lt;varies&gt;", "height &lt;b&gt;", "only &lt;statistics&gt;",
-            "level 2 came to no end: it &lt;stops&gt;".capitalize(), "not run: 4.5 hours",
+            "level 2 came to no end: it &lt;stops&gt;".capitalize(), "not measured: 4.5 hours",
             "fold, first 0.5 of 3 s", "(commit fedcba9876)", "(tied: C)", "cheapest for 1 %",
             "cheapest for 0.1 %"
         ):
