@@ -19,7 +19,8 @@ void rule_covered_claims(const std::vector<Claim>& claims, RunRecord& run);
 void reject_claims_of_lost_findings(const std::vector<Claim>& claims, const RunRecord& run);
 
 /// For a run of all studies: throws InputError if a fault names a finding of a study that the study
-/// does not make. (Names of checks and cases are known without a run: scripts/tests/test_names.py.)
+/// does not make; of a fault of the full tier, in that tier only. (Names of checks and cases are
+/// known without a run: scripts/tests/test_names.py.)
 void reject_faults_of_lost_findings(const std::vector<Fault>& faults, const RunRecord& run);
 
 }  // namespace foldproof

@@ -22,8 +22,9 @@ Fault fault_of(const KeyTable& row) {
   if (row.has("equivalent")) fault.outcome = "equivalent: " + row.text("equivalent");
   if (row.has("caught_by")) fault.caught_by = row.texts("caught_by");
   if (row.has("caught_by_tests")) fault.caught_by_tests = row.texts("caught_by_tests");
+  fault.is_of_full_tier = row.flag_or("full", false);
   // for the runner alone
-  for (const char* mark : {"fast", "loops", "crash", "full"}) row.flag_or(mark, false);
+  for (const char* mark : {"fast", "loops", "crash"}) row.flag_or(mark, false);
   return fault;
 }
 

@@ -15,6 +15,7 @@ struct Fault {
   std::vector<std::string> caught_by;        // findings
   std::vector<std::string> caught_by_tests;  // test cases
   std::string outcome;                       // "caught", "SURVIVED", ..., or "not run"
+  bool is_of_full_tier = false;              // only that tier makes its findings
 };
 
 /// The room of a source file, which names the file of its faults: the folder below reference/ or
