@@ -240,7 +240,9 @@ class SlurmTest(unittest.TestCase):
     def test_a_disk_that_was_full_for_a_while_costs_nothing(self) -> None:
         file, out = self.write(60, 1), self.path / "out"
         out.mkdir()
-        subprocess.run(["mount", "-t", "tmpfs", "-o", "size=4m", "tmpfs", out], check=True)
+        mount = ["mount", "-t", "tmpfs", "-o", "size=4m", "tmpfs", str(out)]
+        if subprocess.run(mount, capture_output=True, check=False).returncode != 0:
+            self.skipTest("no small disk can be mounted here")
         self.addCleanup(subprocess.run, ["umount", "--lazy", out], check=True)
         running = self.start(file, "--slice", "10")
         self.wait_for_results(5)
