@@ -34,7 +34,7 @@ long count_of(const WantedArray& array) {
 template <class Number>
 std::vector<double> finite_numbers(std::string_view bytes, const std::string& name) {
   std::vector<Number> numbers(bytes.size() / sizeof(Number));
-  std::memcpy(numbers.data(), bytes.data(), numbers.size() * sizeof(Number));
+  if (!numbers.empty()) std::memcpy(numbers.data(), bytes.data(), numbers.size() * sizeof(Number));
   for (size_t k = 0; k < numbers.size(); ++k)
     if (!std::isfinite(numbers[k]))
       throw SolverFailure("nan",
