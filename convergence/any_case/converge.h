@@ -64,7 +64,7 @@ struct LadderAnswer {
   // overrides that make each level, of a ladder in space
   std::vector<std::vector<std::string>> overrides = {};
   std::vector<std::string> warnings = {};  // a sentence each
-  // of the method, or of the mesh; NaN: none is claimed
+  // that the method, or the mesh, should have; NaN: no order is known
   double formal_order = std::numeric_limits<double>::quiet_NaN();
   std::string work_name = "operator applications", seconds_name = "processor time";
 

@@ -16,7 +16,7 @@ namespace {
 /// A frame may be off by so much of the end [1].
 constexpr double same_frame = 1e-9;
 
-/// What a trial needs of a solver beyond steps.
+/// Throws InputError unless the solver declares every capability that the scene needs.
 void require_offered(const PortableScene& scene, Trial& solver) {
   try {
     if (!scene.held.empty()) solver.require("held");
@@ -128,9 +128,10 @@ LadderAnswer SolverLadder::answer(const std::vector<LevelRun>& runs) {
 SolverGap solver_gap(const LevelRun& solver, const LadderAnswer& solver_answer,
                      const LevelRun& reference, const LadderAnswer& reference_answer,
                      const PerParticle& mass) {
-  return {field_difference(solver, reference, mass),
-          solver_answer.quantities.front().bar.half_width,
-          reference_answer.quantities.front().bar.half_width};
+  const ErrorBar &ours = reference_answer.quantities.front().bar,
+                 &theirs = solver_answer.quantities.front().bar;
+  return {field_difference(solver, reference, mass), theirs.half_width, ours.half_width,
+          ours.reading != Reading::inconclusive && theirs.reading != Reading::inconclusive};
 }
 
 std::string in_words(const SolverGap& gap, const std::string& solver) {
@@ -138,8 +139,8 @@ std::string in_words(const SolverGap& gap, const std::string& solver) {
       "the finest runs of {} and of the reference are {:.2g} m apart; the error bars of their "
       "steps are {:.2g} m and {:.2g} m: ",
       solver, gap.distance, gap.solver_bar, gap.reference_bar);
-  if (!std::isfinite(gap.distance + gap.solver_bar + gap.reference_bar))
-    return apart + "nothing can be said";
+  if (!gap.are_estimates || !std::isfinite(gap.distance))
+    return apart + "without an order of both, nothing can be said";
   return apart + (gap.is_beyond_steps() ? "steps do not explain it, so the models differ"
                                         : "steps may explain it");
 }

@@ -34,8 +34,8 @@ class SolverLadder {
   /// InputError for a case that the protocol cannot say, or that the solver does not offer.
   SolverLadder(LadderPlan plan, Trial& solver, const LevelSetProvider& level_sets);
 
-  /// The run with 2^k times the steps of the first level. A failure of the solver is told in
-  /// `stopped`. Seconds are of the clock, through the pipe; work counts steps.
+  /// The run with 2^k times the steps of the first level. If the solver fails, `stopped` says why.
+  /// Seconds are of the clock, through the pipe; work counts steps.
   LevelRun run(int k);
 
   /// Reads all levels, coarse to fine. A solver that claims no order is read as of first order.
@@ -57,8 +57,9 @@ class SolverLadder {
 struct SolverGap {
   double distance = 0;                       // largest over the frames, root mean square [m]
   double solver_bar = 0, reference_bar = 0;  // of their steps [m]
+  bool are_estimates = false;                // the bars; else at least one is a spread
 
-  bool is_beyond_steps() const { return distance > solver_bar + reference_bar; }
+  bool is_beyond_steps() const { return are_estimates && distance > solver_bar + reference_bar; }
 };
 
 SolverGap solver_gap(const LevelRun& solver, const LadderAnswer& solver_answer,

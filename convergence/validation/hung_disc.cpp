@@ -25,7 +25,7 @@ struct DiscLadder {
   DiscAtRest finest;
 };
 
-/// What is read of one disc, over the cone's [1].
+/// Numbers of one disc, each divided by the cone's [1].
 struct OverCone {
   double energy, depth, trough;
 };
@@ -44,7 +44,7 @@ Comparison compared(const std::string& words, const Ladders& ladders, double Ove
     ladder.floor = 1e-6;
     return error_bar(ladder).half_width;
   };
-  // what stretch saves falls with the root of the stiffness, which grows fourfold
+  // stretch changes them as the inverse root of the stiffness, which grows fourfold
   const double by_sectors = bar(ladders.sectors, 1.5, 2), by_stretch = bar(ladders.stretch, 2, 1);
   return {words,
           ladders.sectors.back().*quantity,
@@ -183,7 +183,7 @@ Study hung_disc_study() {
   return {"hung-disc",
           "A heavy disc that hangs from its centre is a cone with two folds, with the energy and "
           "the depth of an elastica on a sphere. Three folds fall to two.",
-          "Cerda, Mahadevan and Pasini, PNAS 101 (2004) 1806, of which the abstract was read",
+          "Cerda, Mahadevan and Pasini, PNAS 101 (2004) 1806 (read: the abstract)",
           "The disc's sectors are flat, so that it can be a cone without stretching; up to a fifth "
           "of the radius each is one triangle. The weight is the moment of the disc's weight about "
           "its centre while it is level, over 2 pi and over a cone's bending energy per kappa^2/2: "

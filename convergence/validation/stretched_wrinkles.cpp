@@ -17,7 +17,7 @@ namespace {
 constexpr double resolution = 0.01;       // of a wavelength [1]
 constexpr double load_resolution = 0.02;  // of the compression [1]
 
-/// What a sheet differs in from the first one.
+/// The number in which a sheet differs from the first one.
 enum class Varied { nothing, tension, length, rigidity };
 
 struct Sheet {

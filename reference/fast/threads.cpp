@@ -19,7 +19,7 @@ int next_value(const std::atomic<int>& value, int old) {
   return value;
 }
 
-/// The threads beside the one that calls. Whoever is free takes the next part: where other programs
+/// The calling thread and its helpers. Whoever is free takes the next part: where other programs
 /// need the cores, the caller waits for nobody who has not begun. The last part comes first, so
 /// that results that depend on the order differ from those of one thread even on one core.
 class Team {

@@ -12,6 +12,36 @@ if sys.argv[1:2] == ["--program"]:  # --program FILE: instead of build/foldproof
     PROGRAM = Path(sys.argv[2])
     del sys.argv[1:3]
 
+# a sheet that hangs from its upper edge
+SHEET = """
+[cloth]
+shape = "sheet"
+width = 0.3
+height = 0.2
+columns = 6
+rows = 4
+density = 0.2
+[gravity]
+[stretch]
+stiffness = 40.0
+damping = 0.02
+[bending]
+stiffness = 1e-3
+[[hold]]
+box = [[-1, 0.19, -1], [1, 1, 1]]
+[solver]
+tolerance = 1e-12
+[time]
+end = 0.06
+frames_per_second = 50
+[[quantity]]
+what = "lowest"
+[[quantity]]
+name = "swing"
+what = "kinetic_energy"
+when = "maximum"
+"""
+
 
 def run(*arguments: str, folder: Path | None = None) -> subprocess.CompletedProcess[str]:
     return subprocess.run(

@@ -16,35 +16,7 @@ from typing import Any
 sys.dont_write_bytecode = True
 
 from file_tests import CLOCK, PROGRAM, FileTest, run  # noqa: E402
-
-SHEET = """
-[cloth]
-shape = "sheet"
-width = 0.3
-height = 0.2
-columns = 6
-rows = 4
-density = 0.2
-[gravity]
-[stretch]
-stiffness = 40.0
-damping = 0.02
-[bending]
-stiffness = 1e-3
-[[hold]]
-box = [[-1, 0.19, -1], [1, 1, 1]]
-[solver]
-tolerance = 1e-12
-[time]
-end = 0.06
-frames_per_second = 50
-[[quantity]]
-what = "lowest"
-[[quantity]]
-name = "swing"
-what = "kinetic_energy"
-when = "maximum"
-"""
+from program_case import SHEET  # noqa: E402
 
 DROOP = """
 [cloth]

@@ -11,38 +11,9 @@ from typing import Any
 
 sys.dont_write_bytecode = True
 
-from program_case import PROGRAM, ROOT, ProgramCase, run  # noqa: E402
+from program_case import PROGRAM, ROOT, SHEET, ProgramCase, run  # noqa: E402
 
 SUBJECTS = ROOT / "verification" / "subjects"
-
-SHEET = """
-[cloth]
-shape = "sheet"
-width = 0.3
-height = 0.2
-columns = 6
-rows = 4
-density = 0.2
-[gravity]
-[stretch]
-stiffness = 40.0
-damping = 0.02
-[bending]
-stiffness = 1e-3
-[[hold]]
-box = [[-1, 0.19, -1], [1, 1, 1]]
-[solver]
-tolerance = 1e-12
-[time]
-end = 0.06
-frames_per_second = 50
-[[quantity]]
-what = "lowest"
-[[quantity]]
-name = "swing"
-what = "kinetic_energy"
-when = "maximum"
-"""
 
 SPINNING_PLANE = """
 [[object]]
@@ -104,6 +75,12 @@ class SolverTest(ProgramCase):
         # 2 % of what gravity does: the springs hardly leave their linear range
         motion = reference["predictability"]["motion"]
         self.assertAlmostEqual(other["from_reference"] / motion, 0.02, delta=0.002)
+
+    def test_a_solver_without_a_limit_is_not_called_another_model(self) -> None:
+        other = self.ladders(f"{self.WRONG} random", *self.SPRINGS)[1]
+        self.assertEqual(other["quantities"][0]["reading"], "inconclusive")
+        self.assertFalse(other["beyond_steps"])
+        self.assertIn("nothing can be said", other["in_words"])
 
     def test_the_report_has_both_ladders(self) -> None:
         self.ladders(f"{self.WRONG} none", *self.SPRINGS)

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <optional>
 
-#include "reference/mesh/shapes.h"
 #include "verification/oracles/estimate.h"
 #include "verification/subjects/suite/laws.h"
 #include "verification/subjects/suite/scenes.h"
@@ -26,22 +25,13 @@ constexpr size_t quadruplings = 2;    // the last of the ladder are judged
 
 /// Of the same cells whatever their number, so that its steps are the same problem.
 PortableScene sheet_of(int cells) {
-  PortableScene scene = small_sheet();
+  PortableScene scene = sheet_of_cells(cells);
   scene.name = fmt::format("moving sheet of {} cells", cells);
-  scene.mesh = make_sheet({.pattern = SheetPattern::jittered,
-                           .width = 0.1 * cells,
-                           .columns = cells,
-                           .rows = cells,
-                           .jitter = 0.2,
-                           .seed = 7});
-  scene.x = scene.mesh.rest;
-  scene.v = PerParticle3::Zero(3, scene.x.cols());
   for (Eigen::Index i = 0; i < scene.x.cols(); ++i) {
     const Vector3 p = scene.mesh.rest.col(i);
     scene.x.col(i) << 1.04 * p[0], 1.06 * p[1], 0.03 * std::sin(7 * p[0]) * std::cos(5 * p[1]);
     scene.v.col(i) << 0, 0, 0.3 * std::cos(6 * p[0]);
   }
-  scene.mass = lumped_masses(scene.mesh, scene.material.density);
   return scene;
 }
 

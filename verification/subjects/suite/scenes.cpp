@@ -16,6 +16,8 @@ constexpr double step = 0.002;  // s; a third of the explicit limit of the sheet
 
 const Vector3 earth{0, 0, -9.81};
 
+}  // namespace
+
 PortableScene sheet_of_cells(int cells) {
   PortableScene scene;
   scene.mesh = make_sheet({.pattern = SheetPattern::jittered,
@@ -31,8 +33,6 @@ PortableScene sheet_of_cells(int cells) {
   scene.dt = step;
   return scene;
 }
-
-}  // namespace
 
 PortableScene sheet_at_rest() {
   PortableScene scene = sheet_of_cells(6);

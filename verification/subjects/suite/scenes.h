@@ -7,6 +7,9 @@
 
 namespace foldproof::suite {
 
+/// A flat jittered sheet of n x n cells of 0.1 m, 0.2 kg/m^2, Y = 5 N/m, in its rest shape, free.
+PortableScene sheet_of_cells(int n);
+
 /// A flat jittered sheet of 0.6 m x 0.52 m, 0.2 kg/m^2, Y = 5 N/m, in its rest shape, free.
 PortableScene sheet_at_rest();
 
