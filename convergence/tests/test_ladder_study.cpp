@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "convergence/any_case/ladder_study.h"
+#include "convergence/any_case/solver_ladder.h"
 
 namespace foldproof {
 
@@ -101,6 +102,16 @@ TEST_CASE("a study of a ladder has its differences, its bars and its costs") {
   CHECK(study.tables.at(1).texts("stopped") == std::vector<std::string>{"no", "no", "no", "fell"});
   CHECK(study.tables[1].numbers("particles") == std::vector<double>{4, 4, 4, 4});
   CHECK(study.tables[1].numbers("processor time") == std::vector<double>{3, 6, 12, 24});
+}
+
+TEST_CASE("two solvers are called different models by their error bars only") {
+  const SolverGap far{1, 0.2, 0.3, true}, near{0.4, 0.2, 0.3, true}, spread{1, 0.2, 0.3, false};
+  CHECK(far.is_beyond_steps());
+  CHECK_FALSE(near.is_beyond_steps());
+  CHECK_FALSE(spread.is_beyond_steps());
+  CHECK_THAT(in_words(far, "s"), Contains("the models differ"));
+  CHECK_THAT(in_words(near, "s"), Contains("steps may explain it"));
+  CHECK_THAT(in_words(spread, "s"), Contains("nothing can be said"));
 }
 
 }  // namespace foldproof

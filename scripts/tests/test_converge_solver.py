@@ -76,12 +76,6 @@ class SolverTest(ProgramCase):
         motion = reference["predictability"]["motion"]
         self.assertAlmostEqual(other["from_reference"] / motion, 0.02, delta=0.002)
 
-    def test_a_solver_without_a_limit_is_not_called_another_model(self) -> None:
-        other = self.ladders(f"{self.WRONG} random", *self.SPRINGS)[1]
-        self.assertEqual(other["quantities"][0]["reading"], "inconclusive")
-        self.assertFalse(other["beyond_steps"])
-        self.assertIn("nothing can be said", other["in_words"])
-
     def test_the_report_has_both_ladders(self) -> None:
         self.ladders(f"{self.WRONG} none", *self.SPRINGS)
         done = run("report", str(self.path / "out"))
