@@ -32,6 +32,7 @@ std::vector<Law> cantilever_laws();      // a heavy strip at rest
 std::vector<Law> buckling_laws();        // an upright strip falls over
 std::vector<Law> chain_laws();           // a limp strip between two points
 std::vector<Law> contact_laws();         // capability "planes": resting, friction
+std::vector<Law> ball_laws();            // capability "spheres": a fall, rest, friction
 std::vector<Law> self_collision_laws();  // capability "self_collision"
 std::vector<Law> tunnelling_laws();  // capability "boxes": a thin one stops what is thrown at it
 
