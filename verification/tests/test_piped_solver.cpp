@@ -325,10 +325,19 @@ TEST_CASE("subject: the conformance test accepts the toys and names the first br
       CHECK(row.conformity == Conformity::kept);
     }
   }
-  CHECK(check_conformance(python("bad/wrong.py on_round_bodies")).size() == 12 + 2);
   const std::vector<ConformanceRow> rows = check_conformance(broken("invalid_json"));
   CHECK(rows.back().conformity == Conformity::broken);
   CHECK(rows.back().demand == "advance returns the state");
+}
+
+TEST_CASE("subject: the conformance test tries obstacles that are declared") {
+  const std::vector<ConformanceRow> kept =
+      check_conformance(python("bad/wrong.py on_round_bodies"));
+  CHECK(kept.size() == 12 + 2);
+  for (const ConformanceRow& row : kept) CHECK(row.conformity == Conformity::kept);
+  const auto chokes = check_conformance(python("bad/wrong.py chokes_on_round_bodies")).back();
+  CHECK(chokes.conformity == Conformity::broken);
+  CHECK(chokes.demand == "a sheet on a sphere is moved");
 }
 
 TEST_CASE("subject: the toy in C++ meets every law that it does not decline") {

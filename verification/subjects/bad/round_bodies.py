@@ -48,6 +48,13 @@ class OnRoundBodiesBackwardEuler(OnRoundBodies, BackwardEuler):
     pass
 
 
+class ChokesOnRoundBodies(OnRoundBodies):
+    """Declares them, and was never tried on one."""
+
+    def respond_to(self, body: dict, before: np.ndarray, dt: float) -> None:
+        raise NotImplementedError("round bodies")
+
+
 class RadiusTooSmall(OnRoundBodies):
     scale = 0.97
 

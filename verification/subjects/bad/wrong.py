@@ -324,6 +324,7 @@ KINDS = {
     "on_round_bodies": round_bodies.OnRoundBodies,
     "on_round_bodies_single": round_bodies.OnRoundBodiesInSingle,
     "on_round_bodies_backward_euler": round_bodies.OnRoundBodiesBackwardEuler,
+    "chokes_on_round_bodies": round_bodies.ChokesOnRoundBodies,
     "radius_too_small": round_bodies.RadiusTooSmall,
     "radius_too_large": round_bodies.RadiusTooLarge,
     "stops_from_above": round_bodies.StopsFromAbove,
