@@ -90,7 +90,7 @@ class RoundBodiesTurn(OnRoundBodies):
     def touch(
         self, normals: np.ndarray, gap: np.ndarray, friction: float, before: np.ndarray, dt: float
     ) -> None:
-        carried = 2.0 * np.cross([0, 0, 1], normals)
+        carried = 0.3 * np.cross([0, 0, 1], normals)
         self.v = self.v - carried
         super().touch(normals, gap, friction, before + dt * carried, dt)
         self.v = self.v + carried

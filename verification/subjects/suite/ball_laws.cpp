@@ -127,7 +127,7 @@ double way_of_a_point(double phi0, double mu, double ball_radius, double time) {
 }
 
 constexpr double large = 2;  // m, the radius of a ball on which a sheet of 0.4 m is hardly bent
-constexpr long slide_steps = 200;
+constexpr long slide_steps = 300;
 
 /// A sheet that lies on a large ball, its middle at the angle phi from the top, towards x. Each
 /// particle keeps its distance from the middle and its direction.
