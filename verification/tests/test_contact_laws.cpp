@@ -39,6 +39,17 @@ TEST_CASE("subject: wrong contact with balls is found") {
   CHECK(failing_laws("round_bodies_stick", laws) == std::set<std::string>{slides});
 }
 
+TEST_CASE("subject: wrong contact with capsules is found") {
+  const std::string lies = "capstan.strip-lies-on-the-capsule",
+                    slips = "capstan.slips-at-euler-s-ratio";
+  const std::vector<Law> laws = laws_of({"capstan"});
+  CHECK(failing_laws("radius_too_small", laws) == std::set<std::string>{lies});
+  CHECK(failing_laws("capsules_are_balls", laws).contains(lies));
+  CHECK(failing_laws("round_friction_halved", laws) == std::set<std::string>{slips});
+  CHECK(failing_laws("round_friction_is_drag", laws) == std::set<std::string>{slips});
+  CHECK(failing_laws("round_bodies_stick", laws) == std::set<std::string>{slips});
+}
+
 TEST_CASE("subject: a sheet that stands still has passed no test of collisions") {
   require_law_fails("starts_from_rest", "inertia.free-sheet-keeps-its-velocity");
   for (const char* law : {"tunnelling.thin-box-stops-a-slow-sheet",
@@ -49,10 +60,10 @@ TEST_CASE("subject: a sheet that stands still has passed no test of collisions")
 TEST_CASE("subject: correct contact with round bodies raises no alarm") {
   for (const char* kind : {"on_round_bodies", "on_round_bodies_single"}) {
     INFO(kind);
-    CHECK(failing_laws(kind, laws_of({"ball"})) == std::set<std::string>{});
+    CHECK(failing_laws(kind, laws_of({"ball", "capstan"})) == std::set<std::string>{});
   }
   // a slow one
-  const std::vector<Law> laws = laws_of({"ball.falling", "ball.slides"});
+  const std::vector<Law> laws = laws_of({"ball.falling", "capstan.strip"});
   CHECK(failing_laws("on_round_bodies_backward_euler", laws) == std::set<std::string>{});
 }
 

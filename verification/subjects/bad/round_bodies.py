@@ -113,3 +113,22 @@ class RoundBodiesStick(OnRoundBodies):
 
     def kept(self, most: np.ndarray, speed: np.ndarray) -> np.ndarray:
         return super().kept(most * self.excess, speed)
+
+
+class RoundFrictionHalved(OnRoundBodies):
+    def kept(self, most: np.ndarray, speed: np.ndarray) -> np.ndarray:
+        return super().kept(most / 2, speed)
+
+
+class RoundFrictionIsDrag(OnRoundBodies):
+    """Takes a share of the sliding speed, however hard the contact: what moves creeps on."""
+
+    def kept(self, most: np.ndarray, speed: np.ndarray) -> np.ndarray:
+        return np.where(most > 0, 0.9, 1.0)
+
+
+class CapsulesAreBalls(OnRoundBodies):
+    """A capsule is the ball in its middle."""
+
+    def from_axis(self, body: dict, p: np.ndarray) -> np.ndarray:
+        return p - (np.array(body["a"]) + np.array(body["b"])) / 2
