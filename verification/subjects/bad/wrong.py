@@ -309,6 +309,8 @@ KINDS = {
     "knows_left_from_right": KnowsLeftFromRight,
     "rest_lengths_kept": RestLengthsKept,
     "bends_upright_only": materials.BendsUprightOnly,
+    "bends_face_up_alone": materials.BendsFaceUpAlone,
+    "stiffens_when_sharp": materials.StiffensWhenSharp,
     "damped": materials.Damped,
     "damping_halved": materials.DampingHalved,
     "damped_unasked": materials.DampedUnasked,

@@ -123,13 +123,7 @@ Finding falls_at_greenhill_s_load(Trial& trial) {
   trial.require_level(1);
   trial.require("held");
   const double rigidity = measured_rigidity(trial, lying_strip(), shape_of_column);
-  constexpr double least_rigidity = 1e-2;  // of the scene's; less would take too long to fall
-  if (!(rigidity > least_rigidity * given))
-    throw SolverFailure(
-        "error",
-        fmt::format(
-            "the strip does not resist bending: {:.2g} N m are measured, the scene has {:.2g} N m",
-            rigidity, given));
+  require_resistance(rigidity, given);
   const double most = falls_under(rigidity, shortest),
                least = (1 - largest_poisson * largest_poisson) * falls_under(rigidity, longest);
   const Bracket bracket = bracketed(trial, {rigidity, lying_strip().dt});

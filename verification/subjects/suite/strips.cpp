@@ -1,5 +1,7 @@
 #include "verification/subjects/suite/strips.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "reference/mesh/shapes.h"
@@ -54,6 +56,16 @@ double measured_rigidity(Trial& trial, const PortableScene& strip, const StripSh
     moment += sign * momentum / (2 * double(steps) * scene.dt * shape.width());
   }
   return moment / curvature;
+}
+
+void require_resistance(double measured, double given) {
+  constexpr double least_rigidity = 1e-2;  // of the scene's
+  if (measured > least_rigidity * given) return;
+  throw SolverFailure(
+      "error",
+      fmt::format(
+          "the strip does not resist bending: {:.2g} N m are measured, the scene has {:.2g} N m",
+          measured, given));
 }
 
 }  // namespace foldproof::suite

@@ -28,4 +28,8 @@ std::vector<int> rows_at_distance(const PortableScene& strip, const StripShape& 
 /// let go from a cylinder, half of it gains angular momentum by the moment in its middle.
 double measured_rigidity(Trial& trial, const PortableScene& strip, const StripShape& shape);
 
+/// Throws SolverFailure "error" if a measured rigidity is below a hundredth of the scene's [N m]:
+/// such a strip would take too long to come to rest, or to fall.
+void require_resistance(double measured, double given);
+
 }  // namespace foldproof::suite
