@@ -167,8 +167,8 @@ class DampedUnasked(Damped):
 
 
 class BendsFaceUpAlone(Bends):
-    """Where the sheet is turned over by more than 120 degrees it does not resist bending, as where a
-    table of angles ends."""
+    """Where the sheet is turned over by more than 120 degrees it does not resist bending, as where
+    a table of angles ends."""
 
     def bending(self) -> tuple[np.ndarray, float]:
         a, b, c, d = (self.x[self.corners[:, k]] for k in range(4))
