@@ -59,4 +59,13 @@ TEST_CASE(
                               wrinkles, fold});
 }
 
+TEST_CASE("subject: a strip on edge that tips too late or too early is found, no other one") {
+  const std::string tips = "buckling.strip-on-edge-tips-at-its-load";
+  for (const char* kind : {"bends", "bends_fourfold"})
+    CHECK(outcome_of_law(kind, tips) == Outcome::holds);
+  require_law_fails("springs_pull_alone", tips);
+  CHECK(failing_laws("held_strips_weigh_twice", laws_of({"buckling"})) ==
+        std::set<std::string>{tips, "buckling.upright-strip-falls-at-greenhill-s-load"});
+}
+
 }  // namespace foldproof

@@ -194,3 +194,13 @@ class StiffensWhenSharp(Bends):
         found = super().bending()
         self.over_area = given
         return found
+
+
+class HeldStripsWeighTwice(Bends):
+    """Gravity is added once more where particles are held."""
+
+    def prepare(self, scene: Scene) -> dict[str, str]:
+        mapping = super().prepare(scene)
+        if len(self.held):
+            self.gravity = 2 * self.gravity
+        return mapping

@@ -311,6 +311,7 @@ KINDS = {
     "bends_upright_only": materials.BendsUprightOnly,
     "bends_face_up_alone": materials.BendsFaceUpAlone,
     "stiffens_when_sharp": materials.StiffensWhenSharp,
+    "held_strips_weigh_twice": materials.HeldStripsWeighTwice,
     "damped": materials.Damped,
     "damping_halved": materials.DampingHalved,
     "damped_unasked": materials.DampedUnasked,

@@ -68,4 +68,15 @@ void require_resistance(double measured, double given) {
           measured, given));
 }
 
+Bracket bracketed(double expected, const std::function<bool(double)>& falls) {
+  Bracket bracket{0.5 * expected, 1.5 * expected};
+  if (falls(bracket.stands)) return {0, bracket.stands};
+  if (!falls(bracket.falls)) return {bracket.falls, bracket.falls};
+  while (bracket.falls - bracket.stands > 0.02 * expected) {
+    const double middle = (bracket.stands + bracket.falls) / 2;
+    (falls(middle) ? bracket.falls : bracket.stands) = middle;
+  }
+  return bracket;
+}
+
 }  // namespace foldproof::suite
