@@ -15,9 +15,9 @@ namespace {
 
 using namespace suite;
 
-//   z                     Two rows at y = 0 are held, the strip's width along z. Its weight bends it
-//   |______________       in its stiff plane; beyond a load it tips over: it turns about y and leaves
-//   |______________|_ y   the plane along x.
+//   z                    Two rows at y = 0 are held, the strip's width along z. Its weight bends
+//   |______________      it in its stiff plane; beyond a load it tips over: it turns about y and
+//   |______________|_ y  leaves the plane along x.
 constexpr StripShape ribbon{2, 20, 0.04};
 constexpr double given = 4e-3;           // B of the scene [N m]
 constexpr double young = 750;            // N/m; in its plane it is 100 times as stiff
