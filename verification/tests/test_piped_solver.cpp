@@ -174,36 +174,6 @@ TEST_CASE("subject: gravity that is 1 % wrong is found in single precision") {
   require_law_fails("gravity_scaled_single", "gravity.fall-is-as-exact-as-the-order-claims");
 }
 
-TEST_CASE("subject: parameters that mean something else are found") {
-  const std::string young = "calibration.young-s-modulus-is-the-scene-s",
-                    refined = "calibration.modulus-survives-refinement";
-  const std::vector<Law> laws = laws_of({"calibration"});
-  CHECK(failing_laws("springs_of_one_stiffness", laws).contains(young));
-  CHECK(failing_laws("springs_per_length", laws) == std::set<std::string>{young, refined});
-  CHECK(failing_laws("bends_upright_only", laws_of({"calibration", "cantilever"})) ==
-        std::set<std::string>{"cantilever.heavy-strip-hangs-as-the-elastica"});
-  CHECK(failing_laws("bends_fourfold", laws) ==
-        std::set<std::string>{"calibration.bending-rigidity-is-the-scene-s"});
-}
-
-TEST_CASE("subject: bending that nobody asked for, and springs that only pull, are found") {
-  require_law_fails("bends_unasked", "chain.limp-strip-sags-as-a-catenary");
-  require_law_fails("springs_pull_alone", "buckling.upright-strip-falls-at-greenhill-s-load");
-  // four times the rigidity carries four times the weight, in shorter steps: no false alarm
-  CHECK(outcome_of_law("bends_fourfold", "buckling") == Outcome::holds);
-}
-
-TEST_CASE("subject: a strip without bending hangs limp, and the law says so in numbers") {
-  const SolverCommand command = python("bad/wrong.py bends_not_at_all");
-  const Record record = judge_solver(command, laws_of({"cantilever"}), ignore).records.at(0);
-  INFO(record.finding.note);
-  CHECK(record.outcome == Outcome::fails);
-  CHECK(record.finding.verdict.measured > 0.2);
-  CHECK(record.finding.verdict.measured < 1);
-  CHECK(record.finding.note.find("It does not resist bending") == 0);
-  CHECK(record.finding.note.find("limp, 1.00 of its length low") != std::string::npos);
-}
-
 TEST_CASE("subject: lost momentum and hidden damping are found") {
   require_law_fails("momentum_dropped", "momentum.linear-is-conserved");
   require_law_fails("hidden_damping", "inertia.free-sheet-keeps-its-velocity");
@@ -347,6 +317,7 @@ TEST_CASE("subject: the toy in C++ meets every law that it does not decline") {
         !record.name.starts_with("tunnelling.") && !record.name.starts_with("self-collision.") &&
         !record.name.starts_with("contact.") && !record.name.starts_with("ball.") &&
         !record.name.starts_with("capstan.") && !record.name.starts_with("buckling.") &&
+        !record.name.starts_with("strip.") &&
         record.name != "vibration.damped-decays-as-its-damping-says" &&
         record.name != "calibration.bending-rigidity-is-the-scene-s" &&
         record.name != "cantilever.heavy-strip-hangs-as-the-elastica";

@@ -1,9 +1,8 @@
-// The solvers of bad/wrong.py, and the laws that they fail.
+// Solvers of bad/wrong.py, and the laws that they fail. For files that know SUBJECTS_FOLDER.
 #pragma once
 
-#include <catch2/catch.hpp>
-
 #include <algorithm>
+#include <catch2/catch.hpp>
 #include <optional>
 #include <set>
 #include <string>
