@@ -26,7 +26,8 @@ struct BulletBody : Solver {
     const int version = btGetVersion();
     declared.name = name;
     declared.version = std::to_string(version / 100) + "." + std::to_string(version % 100);
-    declared.capabilities = {"set_state", "held", "masses", "planes", "boxes", "spheres", "capsules"};
+    declared.capabilities = {"set_state", "held",    "masses",  "planes",
+                             "boxes",     "spheres", "capsules"};
   }
   ~BulletBody() override { clear(); }
 
@@ -115,17 +116,18 @@ struct BulletBody : Solver {
       const btTransform pose(turn, vector(plane["point"]) - far * normal);
       place_box({far, far, far}, pose, plane["friction"]);
     }
+    const auto at = [](const Json& place) {
+      return btTransform(btQuaternion::getIdentity(), vector(place));
+    };
     for (const Json& box : constants.value("boxes", Json::array()))
-      place_box(vector(box["half_extents"]),
-                btTransform(btQuaternion::getIdentity(), vector(box["centre"])), box["friction"]);
+      place_box(vector(box["half_extents"]), at(box["centre"]), box["friction"]);
     for (const Json& s : constants.value("spheres", Json::array()))
-      place(std::make_unique<btSphereShape>(s["radius"]),
-            btTransform(btQuaternion::getIdentity(), vector(s["centre"])), s["friction"]);
-    for (const Json& capsule : constants.value("capsules", Json::array())) {
-      const btVector3 a = vector(capsule["a"]), axis = vector(capsule["b"]) - a;
+      place(std::make_unique<btSphereShape>(s["radius"]), at(s["centre"]), s["friction"]);
+    for (const Json& c : constants.value("capsules", Json::array())) {
+      const btVector3 a = vector(c["a"]), axis = vector(c["b"]) - a;
       const btQuaternion turn = shortestArcQuat(btVector3(0, 1, 0), axis.normalized());
-      place(std::make_unique<btCapsuleShape>(capsule["radius"], axis.length()),
-            btTransform(turn, a + axis / 2), capsule["friction"]);
+      place(std::make_unique<btCapsuleShape>(c["radius"], axis.length()),
+            btTransform(turn, a + axis / 2), c["friction"]);
     }
   }
 
