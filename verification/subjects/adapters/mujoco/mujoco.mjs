@@ -1,5 +1,6 @@
 // Adapter of MuJoCo's flexible bodies; `scripts/engines mujoco` installs them.
-// Settings: integrator = Euler, RK4 or discrete; poisson = ratio (1/3); thickness [m] (1e-3).
+// Settings: integrator = Euler, RK4 or discrete; poisson = ratio (1/3); thickness [m] (1e-3);
+// solref, solimp = of contacts ("1e-4 1", which MuJoCo raises to two steps; "0.5 0.5 0.001").
 import load from '@mujoco/mujoco';
 import { Declined, Solver, serve } from '../foldproof_solver.mjs';
 
@@ -7,10 +8,30 @@ const mujoco = await load();
 const orders = { Euler: 1, RK4: 4, discrete: 1 };
 const vector = (x, i) => Array.from(x.slice(3 * i, 3 * i + 3)).join(' ');
 
+/// The obstacles; their friction and softness hold against any flex. At rest a particle is about
+/// g (2 dt)^2 (1 - d) deep, d the impedance: with d = 0.5 more than the g dt^2 of a free step, so that
+/// it does not chatter.
+function geoms({ planes = [], boxes = [], spheres = [], capsules = [], settings }) {
+  const { solref = '1e-4 1', solimp = '0.5 0.5 0.001' } = settings;
+  const geom = (friction, attributes) =>
+    `<geom friction="${friction} 0 0" priority="1" solref="${solref}" solimp="${solimp}" ` +
+    Object.entries(attributes).map(([name, value]) => `${name}="${[value].flat().join(' ')}"`)
+      .join(' ') + '/>';
+  return [
+    ...planes.map(o =>
+      geom(o.friction, { type: 'plane', pos: o.point, zaxis: o.normal, size: [0, 0, 1] })),
+    ...boxes.map(o => geom(o.friction, { type: 'box', pos: o.centre, size: o.half_extents })),
+    ...spheres.map(o => geom(o.friction, { type: 'sphere', pos: o.centre, size: o.radius })),
+    ...capsules.map(o =>
+      geom(o.friction, { type: 'capsule', fromto: [...o.a, ...o.b], size: o.radius })),
+  ].join('');
+}
+
 class Flex extends Solver {
   name = 'MuJoCo flex'; version = mujoco.mj_versionString(); level = 'L2';
   scheme = 'Euler, Runge-Kutta or discrete'; order = 1;
-  capabilities = ['set_state', 'held', 'masses', 'damping'];
+  capabilities = [
+    'set_state', 'held', 'masses', 'damping', 'planes', 'boxes', 'spheres', 'capsules'];
 
   prepare(scene) {
     const { material, gravity, settings } = scene.header;
@@ -27,18 +48,19 @@ class Flex extends Solver {
       `<body name="b${i}" pos="${vector(scene.rest, i)}">
          <inertial pos="0 0 0" mass="${mass}" diaginertia="1e-9 1e-9 1e-9"/>
          ${this.moves[i] ? joints : ''}</body>`).join('');
+    const obstacles = geoms(scene.header), meets = Number(obstacles.length > 0);
     this.model?.delete(), this.data?.delete();
     this.model = mujoco.MjModel.from_xml_string(`<mujoco>
       <compiler boundmass="0" boundinertia="0"/>
-      <option integrator="${integrator}" gravity="${gravity.join(' ')}">
-        <flag contact="disable" constraint="disable"/></option>
-      <worldbody>${bodies}</worldbody>
+      <option integrator="${integrator}" gravity="${gravity.join(' ')}" cone="elliptic">
+        ${meets ? '' : '<flag contact="disable" constraint="disable"/>'}</option>
+      <worldbody>${obstacles}${bodies}</worldbody>
       <deformable><flex name="sheet" dim="2" radius="1e-4"
         body="${this.moves.map((_, i) => `b${i}`).join(' ')}"
         element="${scene.triangles.join(' ')}">
         <elasticity young="${young}" poisson="${poisson}" thickness="${thickness}"
           damping="${material.stretch_damping / material.young}" elastic2d="stretch"/>
-        <contact internal="false" selfcollide="none" contype="0" conaffinity="0"/>
+        <contact internal="false" selfcollide="none" contype="${meets}" conaffinity="${meets}"/>
       </flex></deformable></mujoco>`);
     // the flex has taken its rest shape from where the bodies were; body 0 is the world
     for (const i of scene.held)
@@ -49,6 +71,7 @@ class Flex extends Solver {
       stretch: `elastic triangles, not springs: ${thickness} m thick, Young's modulus ` +
         `${young} Pa, Poisson's ratio ${poisson.toFixed(3)}; springs of edges are ignored`,
       damping: 'of the stiffness matrix [s]', step: integrator,
+      contact: 'of triangles, soft: solref and solimp; elliptic friction cones',
     };
   }
 
