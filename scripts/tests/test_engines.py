@@ -88,11 +88,14 @@ class Bullet(unittest.TestCase):
         )
         self.assertEqual(built.returncode, 0, built.stderr)
         lines = run(program).stdout.splitlines()[1:]
-        numbers, speed, drift, twice = (float(line.rsplit(" by ")[1].split()[0]) for line in lines)
+        numbers, speed, drift, twice, slide = (
+            float(line.rsplit(" by ")[1].split()[0]) for line in lines
+        )
         self.assertGreater(numbers, 1e-6)  # m
         self.assertAlmostEqual(speed, 4.75e-8, delta=1e-9)  # g t
         self.assertGreater(drift, 1e-15)  # of the velocity
         self.assertEqual(twice, 0)
+        self.assertAlmostEqual(slide, 0.593, delta=0.002)  # of Coulomb's way
 
 
 class Npm(unittest.TestCase):
