@@ -181,7 +181,7 @@ def note_on_unfinished_run(file: Path) -> str:
     if not waiting:
         return ""
     return (
-        f"The last run into this folder, begun {begun}, did not come to its end: {waiting} checks,"
+        f"The last run into this folder, begun {begun}, did not finish: {waiting} checks,"
         " studies and cases of it have no result. What is shown here is older."
     )
 

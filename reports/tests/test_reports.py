@@ -257,14 +257,14 @@ class PartsMissing(unittest.TestCase):
 
     def test_a_run_that_never_ended_is_not_taken_for_the_one_before(self) -> None:
         put_run(self.root)
-        self.assertNotIn("did not come to its end", self.made())
+        self.assertNotIn("did not finish", self.made())
         findings = [
             {"name": "a", "outcome": "did not run"},
             {"name": "b", "outcome": "did not run"},
         ]
         told = {"program": {"date": HOSTILE}, "findings": findings}
         (self.root / "verdicts.json").write_text(json.dumps(told))
-        self.assertIn("did not come to its end: 2 checks, studies and cases", self.made())
+        self.assertIn("did not finish: 2 checks, studies and cases", self.made())
         Seen(self.made())
 
     def test_coverage_is_shown_with_the_lines_that_never_ran(self) -> None:
