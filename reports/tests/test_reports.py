@@ -257,7 +257,7 @@ class PartsMissing(unittest.TestCase):
 
     def test_a_run_that_never_ended_is_not_taken_for_the_one_before(self) -> None:
         put_run(self.root)
-        self.assertNotIn("did not finish", self.made())
+        self.assertNotIn("did not finish: ", self.made())
         findings = [
             {"name": "a", "outcome": "did not run"},
             {"name": "b", "outcome": "did not run"},
