@@ -95,6 +95,7 @@ TEST_CASE("solver's precision: what takes too long, or has no order, has no pric
   CHECK_FALSE(dear.is_answered());
   const SolverPrecision noisy =
       answer_of(plan, [](int parts) { return 0.1 * std::sin(3.1 * std::log2(parts)); });
+  for (const SolverStep& step : noisy.steps) CHECK(std::isnan(step.error));
   for (const SolverPrice& price : noisy.prices)
     CHECK(price.because.find("show no order") != std::string::npos);
 }
