@@ -39,11 +39,12 @@ std::string gap_in_words(const SolverPrecision& solver) {
   if (std::isnan(solver.from_truth) || std::isnan(solver.explained))
     return head + "not compared with the reference: one of them is not known";
   return head +
-         fmt::format("{:.2g} % of the motion from the reference's; steps explain {:.2g} %: {}",
-                     percent * solver.from_truth / solver.plan.motion,
-                     percent * solver.explained / solver.plan.motion,
-                     solver.from_truth > solver.explained ? "the models differ"
-                                                          : "the models may be the same");
+         fmt::format(
+             "{:.2g} % of the motion from the reference's truth, the error bars are {:.2g} %: {}",
+             percent * solver.from_truth / solver.plan.motion,
+             percent * solver.explained / solver.plan.motion,
+             solver.from_truth > solver.explained ? "steps do not explain it, so the models differ"
+                                                  : "steps may explain it");
 }
 
 struct CostAxis {

@@ -48,13 +48,13 @@ class PrecisionSolverTest(ProgramCase):
         self.assertIn("ke = 4 B", told["solver"]["mapping"]["bending"])
         # beside it, the reference's cheapest method
         self.assertIn("the reference with C h = ", told["solver"]["sentences"][0])
-        self.assertIn("may be the same", told["solver"]["sentences"][-1])
+        self.assertIn("steps may explain it", told["solver"]["sentences"][-1])
 
     def test_a_limit_beside_the_truth_is_told_from_steps(self) -> None:
         told = self.answer(
             f"{WRONG} gravity_scaled", "--method", "A,C", *SPRINGS, "--errors", "1e-2"
         )
-        self.assertIn("the models differ", told["solver"]["sentences"][-1])
+        self.assertIn("so the models differ", told["solver"]["sentences"][-1])
         self.assertAlmostEqual(
             told["solver"]["from_truth"] / told["truth"]["motion"], 0.02, delta=0.002
         )

@@ -287,7 +287,7 @@ memory or --hours is refused; the other levels still give a result. Seconds are 
 run's own thread. DIR/converge.h5 is for `foldproof report DIR`.
 
 Examples:
-  foldproof converge flat_hanging --solver ./adapter --settings iterations=20
+  foldproof converge hanging_sheet --solver ./adapter --settings iterations=20
   foldproof converge hanging_sheet --in space --set cloth.columns=6 --set cloth.rows=6 --until 0.3
 
 Exit codes:
@@ -317,7 +317,7 @@ its limit is from the reference's truth, and whether steps explain it. Its runs 
 
 Examples:
   foldproof precision hinge --until 0.2
-  foldproof precision flat_hanging --solver ./adapter --settings iterations=20
+  foldproof precision hanging_sheet --solver ./adapter --settings iterations=20
   foldproof precision hanging_sheet --method A,C,RK4 --errors 1e-2 --out mine
 
 Exit codes:
