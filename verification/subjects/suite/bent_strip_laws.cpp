@@ -150,8 +150,8 @@ double share_of_chords(const Eigen::Matrix2Xd& rows) {
   return sum / double(rows.cols() - 2) / 24;
 }
 
-/// How far forces that round positions may change a row's weight [1]. Throws NotOffered if
-/// that is a tenth of it.
+/// How far forces that round positions may change a row's weight [1]. Throws NotOffered if that
+/// is a tenth of it.
 double rounding_of_load(const PortableScene& scene, const Declaration& declared) {
   const double of_force = scene.material.young * declared.rounding() * length / h,  // N/m
       share = of_force / (scene.material.density * scene.gravity.norm() * h);
