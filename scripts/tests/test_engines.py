@@ -77,21 +77,35 @@ class Bullet(unittest.TestCase):
                       "vibration.undamped-goes-on", "contact.slides-as-coulomb-says",
                       "contact.slips-at-coulomb-s-slope"} | MODULI)
 
-    def test_what_its_page_records_is_seen_without_the_adapter(self) -> None:
-        program = ROOT / "build" / "engines" / "bullet_laws"
+    def lines_without_the_adapter(self, name: str) -> list[str]:
+        """What a program of Bullet alone prints, below its heading."""
+        program = ROOT / "build" / "engines" / f"bullet_{name}"
         libraries = ("BulletSoftBody", "BulletDynamics", "BulletCollision", "LinearMath")
         built = run(
             "g++", "-std=c++17", "-w", "-DBT_USE_DOUBLE_PRECISION", "-isystem",
-            "/usr/include/bullet", "verification/subjects/adapters/bullet/repro/laws.cpp", "-o",
+            "/usr/include/bullet", f"verification/subjects/adapters/bullet/repro/{name}.cpp", "-o",
             program, *(f"-l{name}-float64" for name in libraries)
         )
         self.assertEqual(built.returncode, 0, built.stderr)
-        lines = run(program).stdout.splitlines()[1:]
+        return run(program).stdout.splitlines()[1:]
+
+    def test_what_its_page_records_is_seen_without_the_adapter(self) -> None:
+        lines = self.lines_without_the_adapter("laws")
         numbers, speed, drift, twice = (float(line.rsplit(" by ")[1].split()[0]) for line in lines)
         self.assertGreater(numbers, 1e-6)  # m
         self.assertAlmostEqual(speed, 4.75e-8, delta=1e-9)  # g t
         self.assertGreater(drift, 1e-15)  # of the velocity
         self.assertEqual(twice, 0)
+
+    def test_its_friction_takes_a_share_of_the_speed_without_the_adapter(self) -> None:
+        rows = [line.split() for line in self.lines_without_the_adapter("friction")[1:]]
+        self.assertEqual(len(rows), 28)
+        for row in rows:
+            _, mu, over, coulomb, way, _ = map(float, row)
+            share = 2 * (1 - mu) / mu / 200 if over > 0.6 else 0  # the same for all slopes
+            self.assertAlmostEqual(way, share, delta=0.03 * share + 1e-4)
+            if over > 1:
+                self.assertLess(way, coulomb / 2)
 
 
 class Npm(unittest.TestCase):
