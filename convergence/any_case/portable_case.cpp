@@ -37,8 +37,18 @@ void add_object(const Object& object, PortableScene& portable) {
         {place.translation, place.rotation * Vector3::UnitZ(), object.friction});
     return;
   }
+  if (const auto* sphere = std::get_if<Sphere>(&body.solid)) {
+    portable.spheres.push_back({place.translation, sphere->radius, object.friction});
+    return;
+  }
+  if (const auto* capsule = std::get_if<Capsule>(&body.solid)) {
+    const Vector3 half = capsule->half_length * (place.rotation * Vector3::UnitZ());
+    portable.capsules.push_back(
+        {place.translation - half, place.translation + half, capsule->radius, object.friction});
+    return;
+  }
   const auto* box = std::get_if<Box>(&body.solid);
-  if (!box) refuse("object '" + object.name + "', which is neither a plane nor a box");
+  if (!box) refuse("object '" + object.name + "', which is no plane, box, sphere or capsule");
   if (!place.rotation.isApprox(Eigen::Quaterniond::Identity()))
     refuse("object '" + object.name + "', a box whose edges are not along the axes");
   portable.boxes.push_back({place.translation, box->half_extents, object.friction});

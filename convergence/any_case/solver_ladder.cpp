@@ -22,6 +22,8 @@ void require_offered(const PortableScene& scene, Trial& solver) {
     if (!scene.held.empty()) solver.require("held");
     if (!scene.planes.empty()) solver.require("planes");
     if (!scene.boxes.empty()) solver.require("boxes");
+    if (!scene.spheres.empty()) solver.require("spheres");
+    if (!scene.capsules.empty()) solver.require("capsules");
     if (scene.material.stretch_damping > 0) solver.require("damping");
     if (scene.thickness > 0) solver.require("self_collision");
   } catch (const NotOffered& missing) {

@@ -15,6 +15,29 @@ from program_case import PROGRAM, ROOT, SHEET, ProgramCase, run  # noqa: E402
 
 SUBJECTS = ROOT / "verification" / "subjects"
 
+RING = """
+[[object]]
+shape = "torus"
+ring_radius = 0.2
+tube_radius = 0.1
+move = [0, 0, -1]
+"""
+
+BALL_AND_ARM = """
+[[object]]
+shape = "sphere"
+radius = 0.1
+move = [0.08, 0.05, -0.105]
+friction = 0.4
+
+[[object]]
+shape = "capsule"
+radius = 0.05
+length = 0.2
+turn = { axis = [0, 1, 0], angle = 95 }
+move = [0.22, 0.08, -0.065]
+"""
+
 SPINNING_PLANE = """
 [[object]]
 shape = "half_space"
@@ -34,8 +57,8 @@ class SolverTest(ProgramCase):
         *("--set", "time.step=5e-4"),
     )
 
-    def ladders(self, solver: str, *words: str) -> list[dict[str, Any]]:
-        sheet = self.write("sheet.toml", SHEET)
+    def ladders(self, solver: str, *words: str, objects: str = "") -> list[dict[str, Any]]:
+        sheet = self.write("sheet.toml", SHEET + objects)
         done = run(
             "converge", sheet, "--solver", solver, *words, "--json", "--out", str(self.path / "out")
         )
@@ -58,6 +81,15 @@ class SolverTest(ProgramCase):
                 self.assertEqual(theirs["reading"], ours["reading"])
                 self.assertAlmostEqual(theirs["error_bar"], ours["error_bar"], delta=1e-9)
             self.assertAlmostEqual(there["quantities"][0]["order"], order, delta=0.15)
+
+    def test_balls_and_capsules_are_the_same_over_the_pipe(self) -> None:
+        words = ("--set", "time.step=1e-3", "--set", "gravity.acceleration=[0, -6, -8]")
+        free, hit = (
+            self.ladders(f"{self.SERVED} C", *words, objects=objects)
+            for objects in ("", BALL_AND_ARM)
+        )
+        self.assertLess(hit[1]["from_reference"], 1e-10)
+        self.assertNotEqual(hit[0]["quantities"], free[0]["quantities"])  # it meets them
 
     def test_an_independent_solver_has_its_own_order_and_the_same_limit(self) -> None:
         for kind in ("none", "backward_euler"):
@@ -102,8 +134,10 @@ class SolverTest(ProgramCase):
     def test_what_the_protocol_cannot_say_is_refused(self) -> None:
         sheet, toy = self.write("sheet.toml", SHEET), f"{self.WRONG} none"
         spins = self.write("spins.toml", SHEET + SPINNING_PLANE)
+        ring = self.write("ring.toml", SHEET + RING)
         for words, why in (
-            (["drape_sphere", "--solver", toy], "which is neither a plane nor a box"),
+            (["drape_sphere", "--solver", toy], "capability 'spheres'"),
+            ([ring, "--solver", toy], "which is no plane, box, sphere or capsule"),
             ([spins, "--solver", toy], "which moves or deforms"),
             ([sheet, "--solver", toy], "capability 'damping'"),
             ([sheet, "--solver", toy, "--set", "stretch.damping=0"], "declines: bending"),

@@ -64,9 +64,9 @@ class Bullet(unittest.TestCase):
             self.assertEqual(done.returncode, 0, done.stdout)
 
     def test_deformable_bodies_meet_every_law_but_those_of_one_stiffness_an_edge(self) -> None:
-        self.require(self.judged("bullet_deformable"), MODULI)
-        self.require(self.judged("bullet_deformable", "--settings", "implicit=0"),
-                     MODULI | {"tunnelling.thin-box-stops-a-slow-sheet"})
+        for implicit in ("1", "0"):
+            self.require(self.judged("bullet_deformable", "--settings", f"implicit={implicit}"),
+                         MODULI | {"capstan.slips-at-euler-s-ratio"})
 
     def test_position_based_bodies_depend_on_the_numbering(self) -> None:
         self.require(self.judged("bullet_position_based"),
@@ -75,7 +75,8 @@ class Bullet(unittest.TestCase):
                       "momentum.angular-drift-falls-with-the-step",
                       "order.halved-steps-approach-a-limit",
                       "vibration.undamped-goes-on", "contact.slides-as-coulomb-says",
-                      "contact.slips-at-coulomb-s-slope"} | MODULI)
+                      "contact.slips-at-coulomb-s-slope", "ball.slides-as-coulomb-says",
+                      "capstan.slips-at-euler-s-ratio"} | MODULI)
 
     def lines_without_the_adapter(self, name: str) -> list[str]:
         """What a program of Bullet alone prints, below its heading."""
@@ -112,7 +113,7 @@ class Npm(unittest.TestCase):
     """Engines that npm has, in the version that scripts/engines pins."""
 
     name, version = "jolt", "1.1.0"
-    applicable = 30  # laws
+    applicable = 36  # laws
     failing = {"": set()}  # what fails, by setting
 
     @classmethod
@@ -139,7 +140,7 @@ class Npm(unittest.TestCase):
 
 
 class Jolt(Npm):
-    failing = {"": set(), "iterations=1": set()}
+    failing = {"": {"ball.slides-as-coulomb-says"}, "iterations=1": set()}
 
 
 class MuJoCo(Npm):

@@ -26,7 +26,7 @@ SUBJECTS = ROOT / "verification" / "subjects"
 PYTHON = "exec /usr/bin/python3"
 TOY = f"{PYTHON} '{SUBJECTS}/adapters/toy_solver.py'"
 SCHEMA = json.loads((SUBJECTS / "protocol.schema.json").read_text(encoding="utf-8"))
-LAWS = 43  # of the portable suite
+LAWS = 54  # of the portable suite
 BYTES = {"f8": 8, "f4": 4, "i4": 4}
 
 # An adapter that writes down every header that comes or goes, and states its settings as its
@@ -48,6 +48,7 @@ class Logging(Pipe):
         super().send(header, arrays)
 
 class Stating(ToySolver):
+    capabilities = (*ToySolver.capabilities, *{more!r})
     def prepare(self, scene):
         return {{**super().prepare(scene), **scene.header["scene"]["settings"]}}
 
@@ -92,11 +93,13 @@ class Judge(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.path = Path(folder.name)
 
-    def logging_solver(self) -> tuple[str, Path]:
-        """A command, and the file of its headers."""
+    def logging_solver(self, *more: str) -> tuple[str, Path]:
+        """A command, and the file of its headers. It declares more capabilities, and ignores what
+        it is then sent."""
         log, program = self.path / "log", self.path / "logging.py"
         program.write_text(
-            LOGGING.format(adapters=str(SUBJECTS / "adapters"), log=str(log)), encoding="utf-8"
+            LOGGING.format(adapters=str(SUBJECTS / "adapters"), log=str(log), more=more),
+            encoding="utf-8"
         )
         return f"{PYTHON} '{program}'", log
 
@@ -104,7 +107,7 @@ class Judge(unittest.TestCase):
         out = self.path / "toy"
         done = run("judge", "--solver", TOY, "--name", "my toy", "--out", str(out))
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-        self.assertRegex(done.stdout, r"\d\d hold, 0 fail, 0 inconclusive, 15 not applicable")
+        self.assertRegex(done.stdout, r"\d\d hold, 0 fail, 0 inconclusive, 21 not applicable")
         self.assertIn("mapping of stretch: a spring per edge", done.stdout)
         self.assertEqual(
             {path.name for path in out.iterdir()},
@@ -123,7 +126,10 @@ class Judge(unittest.TestCase):
             {
                 "calibration.bending-rigidity-is-the-scene-s", "contact.sheet-rests-on-a-plane",
                 "contact.resting-sheet-is-still", "contact.slides-as-coulomb-says",
-                "contact.slips-at-coulomb-s-slope",
+                "contact.slips-at-coulomb-s-slope", "ball.falling-sheet-stays-outside",
+                "ball.fall-gains-no-energy", "ball.sheet-comes-to-rest",
+                "ball.slides-as-coulomb-says", "capstan.strip-lies-on-the-capsule",
+                "capstan.slips-at-euler-s-ratio",
                 "buckling.upright-strip-falls-at-greenhill-s-load",
                 "buckling.strip-on-edge-tips-at-its-load",
                 "strip.loops-hang-as-the-elastica", "strip.rings-take-the-elastica-s-shape",
@@ -356,6 +362,20 @@ class Judge(unittest.TestCase):
         )
         for side, header in rows:
             validator("request" if side == ">" else "answer").validate(header)
+
+    def test_obstacles_are_sent_as_the_schema_describes(self) -> None:
+        kinds = {"planes", "boxes", "spheres", "capsules"}
+        command, log = self.logging_solver(*sorted(kinds))
+        self.assertEqual(run("subject", "--check", command).returncode, 0)
+        rows = [json.loads(line) for line in log.read_text(encoding="utf-8").splitlines()]
+        sent = [header for side, header in rows if side == ">"]
+        self.assertLessEqual(kinds, {key for header in sent for key in header.get("scene", ())})
+        for header in sent:
+            validator("request").validate(header)
+        validator("declaration").validate(rows[1][1])
+        (ball,) = [header for header in sent if "spheres" in header.get("scene", ())]
+        ball["scene"]["spheres"][0]["radius"] = 0
+        self.assertFalse(validator("request").is_valid(ball))
 
     def test_the_transcript_is_what_the_schema_describes(self) -> None:
         rows = transcript()

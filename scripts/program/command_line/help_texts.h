@@ -279,7 +279,8 @@ disturbed runs give means over time of height, energies, contacts and fold angle
 --solver CMD also runs another solver (verification/subjects/PROTOCOL.md), with equal steps from
 frame to frame that are halved in the same way. Says how far its finest run is from the reference's,
 and whether both error bars explain that. A case can have what the protocol can say: particles held
-still, planes and boxes at rest, self-collision. The solver's runs are not kept.
+still, self-collision, and planes, boxes, spheres and capsules at rest. The solver's runs are not
+kept.
 
 The folder keeps every run: an interrupted call resumes; a second call runs only what is missing.
 The two coarsest levels run alone first and show what the others will cost. A level that exceeds the

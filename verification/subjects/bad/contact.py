@@ -27,11 +27,18 @@ class OnPlanes(ToySolver):
     def respond(self, plane: dict, before: np.ndarray, dt: float) -> None:
         normal, v = np.array(plane["normal"]), self.v.astype("f8")
         gap = (before + dt * v - np.array(plane["point"])) @ normal
+        self.touch(np.tile(normal, (len(v), 1)), gap, plane["friction"], before, dt)
+
+    def touch(
+        self, normals: np.ndarray, gap: np.ndarray, friction: float, before: np.ndarray, dt: float
+    ) -> None:
+        """Where the gap at the step's end is negative, along the normals (N, 3)."""
+        v = self.v.astype("f8")
         push = self.push(gap, dt)
-        v += push[:, None] * normal
-        tangential = v - np.outer(v @ normal, normal)
+        v += push[:, None] * normals
+        tangential = v - np.sum(v * normals, axis=1)[:, None] * normals
         speed = np.linalg.norm(tangential, axis=1)
-        kept = self.kept(plane["friction"] * push, speed)
+        kept = self.kept(friction * push, speed)
         touched = push > 0
         v[touched] -= ((1 - kept)[:, None] * tangential)[touched]
         self.v = v.astype(self.number)

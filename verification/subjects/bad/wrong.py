@@ -21,6 +21,7 @@ import numpy as np  # noqa: E402
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "adapters"))
 import contact  # noqa: E402
 import materials  # noqa: E402
+import round_bodies  # noqa: E402
 from foldproof_solver import Scene, serve  # noqa: E402
 from schemes import (  # noqa: E402
     BackwardEuler,
@@ -323,6 +324,20 @@ KINDS = {
     "on_boxes_now_and_then": contact.OnBoxesNowAndThen,
     "particles_repel_alone": contact.ParticlesRepelAlone,
     "starts_from_rest": contact.StartsFromRest,
+    "on_round_bodies": round_bodies.OnRoundBodies,
+    "on_round_bodies_single": round_bodies.OnRoundBodiesInSingle,
+    "on_round_bodies_backward_euler": round_bodies.OnRoundBodiesBackwardEuler,
+    "chokes_on_round_bodies": round_bodies.ChokesOnRoundBodies,
+    "radius_too_small": round_bodies.RadiusTooSmall,
+    "radius_too_large": round_bodies.RadiusTooLarge,
+    "stops_from_above": round_bodies.StopsFromAbove,
+    "throws_back": round_bodies.ThrowsBack,
+    "round_bodies_turn": round_bodies.RoundBodiesTurn,
+    "round_bodies_without_friction": round_bodies.RoundBodiesWithoutFriction,
+    "round_friction_halved": round_bodies.RoundFrictionHalved,
+    "round_friction_is_drag": round_bodies.RoundFrictionIsDrag,
+    "capsules_are_balls": round_bodies.CapsulesAreBalls,
+    "round_bodies_stick": round_bodies.RoundBodiesStick,
     "sinks_in": contact.SinksIn,
     "jitters": contact.Jitters,
     "friction_beyond_the_cone": contact.FrictionBeyondTheCone,

@@ -59,6 +59,15 @@ void add_scene(const PortableScene& scene, const SolverCommand& command, Request
     request.header["scene"]["boxes"].push_back({{"centre", list_of(box.centre)},
                                                 {"half_extents", list_of(box.half_extents)},
                                                 {"friction", box.friction}});
+  for (const PortableSphere& sphere : scene.spheres)
+    request.header["scene"]["spheres"].push_back({{"centre", list_of(sphere.centre)},
+                                                  {"radius", sphere.radius},
+                                                  {"friction", sphere.friction}});
+  for (const PortableCapsule& capsule : scene.capsules)
+    request.header["scene"]["capsules"].push_back({{"a", list_of(capsule.a)},
+                                                   {"b", list_of(capsule.b)},
+                                                   {"radius", capsule.radius},
+                                                   {"friction", capsule.friction}});
   if (scene.thickness > 0) request.header["scene"]["thickness"] = scene.thickness;
   if (!scene.extension.empty()) request.header["scene"]["extension"] = json::parse(scene.extension);
   std::vector<std::array<int, 2>> edges;

@@ -31,6 +31,20 @@ struct PortableBox {
   double friction = 0;           // mu, Coulomb's [1]
 };
 
+/// A fixed ball.
+struct PortableSphere {
+  Vector3 centre;       // m
+  double radius;        // m
+  double friction = 0;  // mu, Coulomb's [1]
+};
+
+/// Fixed: all points within `radius` of the segment from a to b.
+struct PortableCapsule {
+  Vector3 a, b;         // m
+  double radius;        // m
+  double friction = 0;  // mu, Coulomb's [1]
+};
+
 struct PortableScene {
   std::string name;
   TriangleMesh mesh;                  // with the rest shape
@@ -39,10 +53,13 @@ struct PortableScene {
   std::vector<int> held = {};         // particles at rest where they start
   Vector3 gravity = Vector3::Zero();  // m/s^2
   PortableMaterial material = {};
-  std::vector<double> rest_angles = {};    // one a hinge [rad]; empty: all flat
-  double dt = 0;                           // s
-  std::vector<PortablePlane> planes = {};  // for solvers of capability "planes"
-  std::vector<PortableBox> boxes = {};     // for solvers of capability "boxes"
+  std::vector<double> rest_angles = {};  // one a hinge [rad]; empty: all flat
+  double dt = 0;                         // s
+  // obstacles, each for solvers of the capability of that name
+  std::vector<PortablePlane> planes = {};
+  std::vector<PortableBox> boxes = {};
+  std::vector<PortableSphere> spheres = {};
+  std::vector<PortableCapsule> capsules = {};
   double thickness = 0;        // of the cloth against itself [m]; for capability "self_collision"
   bool own_masses = false;     // masses are other than the density's
   std::string extension = {};  // JSON for solvers that know it; "" for none

@@ -41,8 +41,8 @@ struct ReferenceSolver : foldproof_solver::Solver {
     declared.name = subject.name, declared.version = subject.version;
     declared.level = "L2", declared.precision = served.is_single ? "f4" : "f8";
     declared.scheme = integrator.title, declared.order = integrator.order;
-    declared.capabilities = {"set_state", "held",  "masses",         "history",
-                             "planes",    "boxes", "self_collision", "damping"};
+    declared.capabilities = {"set_state", "held",    "masses",   "history",        "planes",
+                             "boxes",     "spheres", "capsules", "self_collision", "damping"};
     declared.solve_tolerance =
         integrator.family == Family::fully_explicit ? 0 : SolverSettings{}.tolerance;
   }

@@ -112,6 +112,7 @@ SceneObject plane_of(const Json& plane) {
   return part;
 }
 
+/// Its edges along the axes.
 SceneObject box_of(const Json& box) {
   SceneObject part;
   part.object = Object{
@@ -120,6 +121,36 @@ SceneObject box_of(const Json& box) {
                   Pose{Eigen::Quaterniond::Identity(), vector_of(box.at("centre"))}, Motion{}},
       box.at("friction")};
   return part;
+}
+
+SceneObject sphere_of(const Json& sphere) {
+  SceneObject part;
+  part.object = Object{
+      "sphere",
+      RigidObject{Sphere{sphere.at("radius")},
+                  Pose{Eigen::Quaterniond::Identity(), vector_of(sphere.at("centre"))}, Motion{}},
+      sphere.at("friction")};
+  return part;
+}
+
+SceneObject capsule_of(const Json& capsule) {
+  const Vector3 a = vector_of(capsule.at("a")), b = vector_of(capsule.at("b"));
+  const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), b - a);
+  SceneObject part;
+  part.object = Object{"capsule",
+                       RigidObject{Capsule{capsule.at("radius"), (b - a).norm() / 2},
+                                   Pose{turn, (a + b) / 2}, Motion{}},
+                       capsule.at("friction")};
+  return part;
+}
+
+void read_obstacles(const Json& constants, Scene& scene) {
+  using Read = SceneObject (*)(const Json&);
+  constexpr std::pair<const char*, Read> kinds[] = {
+      {"planes", plane_of}, {"boxes", box_of}, {"spheres", sphere_of}, {"capsules", capsule_of}};
+  for (const auto& [key, read] : kinds)
+    for (const Json& obstacle : constants.value(key, Json::array()))
+      scene.objects.push_back(read(obstacle));
 }
 
 void read_material(const Message& message, Scene& scene) {
@@ -132,10 +163,7 @@ void read_material(const Message& message, Scene& scene) {
   if (m.at("bending_rigidity") > 0 || m.at("bending_damping") > 0)
     scene.bending =
         BendingMaterial{4 * m.at("bending_rigidity").get<double>(), m.at("bending_damping")};
-  for (const Json& plane : constants.value("planes", Json::array()))
-    scene.objects.push_back(plane_of(plane));
-  for (const Json& box : constants.value("boxes", Json::array()))
-    scene.objects.push_back(box_of(box));
+  read_obstacles(constants, scene);
   if (const double thickness = constants.value("thickness", 0.0); thickness > 0)
     scene.self_collision = SelfCollisionSettings{.thickness = thickness};
   for (const int i : message.integers.at("held"))

@@ -20,20 +20,22 @@ struct Law {
 /// Smoke laws first.
 std::vector<Law> portable_laws();
 
-std::vector<Law> motion_laws();          // smoke, rest, inertia, gravity, momentum, held particles
-std::vector<Law> symmetry_laws();        // translation, rotation, mirror, numbering
-std::vector<Law> repeat_laws();          // determinism, state, order, precision
-std::vector<Law> force_laws();           // level 2: sums, weight, energy
-std::vector<Law> calibration_laws();     // effective moduli
-std::vector<Law> vibration_laws();       // period and decay
-std::vector<Law> stability_laws();       // the largest step
-std::vector<Law> cost_laws();            // growth with the number of particles
-std::vector<Law> cantilever_laws();      // a heavy strip at rest
-std::vector<Law> bent_strip_laws();      // loops, rings and wrinkles of a heavy strip
-std::vector<Law> buckling_laws();        // an upright strip falls over
-std::vector<Law> tipping_laws();         // a strip on edge tips sideways
-std::vector<Law> chain_laws();           // a limp strip between two points
-std::vector<Law> contact_laws();         // capability "planes": resting, friction
+std::vector<Law> motion_laws();       // smoke, rest, inertia, gravity, momentum, held particles
+std::vector<Law> symmetry_laws();     // translation, rotation, mirror, numbering
+std::vector<Law> repeat_laws();       // determinism, state, order, precision
+std::vector<Law> force_laws();        // level 2: sums, weight, energy
+std::vector<Law> calibration_laws();  // effective moduli
+std::vector<Law> vibration_laws();    // period and decay
+std::vector<Law> stability_laws();    // the largest step
+std::vector<Law> cost_laws();         // growth with the number of particles
+std::vector<Law> cantilever_laws();   // a heavy strip at rest
+std::vector<Law> bent_strip_laws();   // loops, rings and wrinkles of a heavy strip
+std::vector<Law> buckling_laws();     // an upright strip falls over
+std::vector<Law> tipping_laws();      // a strip on edge tips sideways
+std::vector<Law> chain_laws();        // a limp strip between two points
+std::vector<Law> contact_laws();      // capability "planes": resting, friction
+std::vector<Law> ball_laws();         // capability "spheres": a fall, rest, friction
+std::vector<Law> capstan_laws();      // capability "capsules": a strip over one, and when it slips
 std::vector<Law> self_collision_laws();  // capability "self_collision"
 std::vector<Law> tunnelling_laws();  // capability "boxes": a thin one stops what is thrown at it
 

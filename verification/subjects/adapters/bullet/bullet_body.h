@@ -26,7 +26,8 @@ struct BulletBody : Solver {
     const int version = btGetVersion();
     declared.name = name;
     declared.version = std::to_string(version / 100) + "." + std::to_string(version % 100);
-    declared.capabilities = {"set_state", "held", "masses", "planes", "boxes"};
+    declared.capabilities = {"set_state", "held",    "masses",  "planes",
+                             "boxes",     "spheres", "capsules"};
   }
   ~BulletBody() override { clear(); }
 
@@ -55,6 +56,8 @@ struct BulletBody : Solver {
     info.m_broadphase = broadphase.get(), info.m_dispatcher = &dispatcher;
     info.m_gravity = gravity, info.air_density = 0, info.water_density = 0;
     info.m_sparsesdf.Initialize();
+    info.m_sparsesdf.setDefaultVoxelsz(0.02);  // m; with the default, 0.25, balls are polyhedra
+    info.m_sparsesdf.Reset();
     info.m_maxDisplacement = 1e9;  // m; a step's velocity is cut to it over dt
     add_body(scene);
   }
@@ -88,11 +91,16 @@ struct BulletBody : Solver {
 
   static btVector3 vector(const Json& list) { return {list[0], list[1], list[2]}; }
 
-  void place(const btVector3& half_extents, const btTransform& pose, double friction) {
-    shapes.push_back(std::make_unique<btBoxShape>(half_extents));
-    shapes.back()->setMargin(0);
+  void place_box(const btVector3& half_extents, const btTransform& pose, double friction) {
+    auto box = std::make_unique<btBoxShape>(half_extents);
+    box->setMargin(0);
+    place(std::move(box), pose, friction);
+  }
+
+  void place(std::unique_ptr<btCollisionShape> shape, const btTransform& pose, double friction) {
+    shapes.push_back(std::move(shape));
     obstacles.push_back(std::make_unique<btRigidBody>(0, nullptr, shapes.back().get()));
-    obstacles.back()->setWorldTransform(pose);
+    obstacles.back()->setCenterOfMassTransform(pose);  // now, and in the prediction
     obstacles.back()->setFriction(friction);
     world->addCollisionObject(obstacles.back().get());
   }
@@ -106,11 +114,21 @@ struct BulletBody : Solver {
       const btVector3 normal = vector(plane["normal"]);
       const btQuaternion turn = shortestArcQuat(btVector3(0, 0, 1), normal);
       const btTransform pose(turn, vector(plane["point"]) - far * normal);
-      place({far, far, far}, pose, plane["friction"]);
+      place_box({far, far, far}, pose, plane["friction"]);
     }
+    const auto at = [](const Json& place) {
+      return btTransform(btQuaternion::getIdentity(), vector(place));
+    };
     for (const Json& box : constants.value("boxes", Json::array()))
-      place(vector(box["half_extents"]),
-            btTransform(btQuaternion::getIdentity(), vector(box["centre"])), box["friction"]);
+      place_box(vector(box["half_extents"]), at(box["centre"]), box["friction"]);
+    for (const Json& s : constants.value("spheres", Json::array()))
+      place(std::make_unique<btSphereShape>(s["radius"]), at(s["centre"]), s["friction"]);
+    for (const Json& c : constants.value("capsules", Json::array())) {
+      const btVector3 a = vector(c["a"]), axis = vector(c["b"]) - a;
+      const btQuaternion turn = shortestArcQuat(btVector3(0, 1, 0), axis.normalized());
+      place(std::make_unique<btCapsuleShape>(c["radius"], axis.length()),
+            btTransform(turn, a + axis / 2), c["friction"]);
+    }
   }
 
   void set_state(Numbers new_x, Numbers new_v, double new_time) override {

@@ -12,7 +12,7 @@ const version =
 class SoftBody extends Solver {
   name = 'Jolt soft body'; version = version; precision = 'f4';
   scheme = 'position based, with compliance'; order = 0;
-  capabilities = ['set_state', 'held', 'masses', 'planes', 'boxes'];
+  capabilities = ['set_state', 'held', 'masses', 'planes', 'boxes', 'spheres', 'capsules'];
   obstacles = [];
 
   constructor() {
@@ -59,11 +59,11 @@ class SoftBody extends Solver {
     };
   }
 
-  place_obstacles({ planes = [], boxes = [] }) {
+  place_obstacles({ planes = [], boxes = [], spheres = [], capsules = [] }) {
     const unturned = Jolt.Quat.prototype.sIdentity();
-    const add = (shape, place, friction) => {
+    const add = (shape, place, friction, turn = unturned) => {
       const creation = new Jolt.BodyCreationSettings(
-        shape, new Jolt.RVec3(...place), unturned, Jolt.EMotionType_Static, 0);
+        shape, new Jolt.RVec3(...place), turn, Jolt.EMotionType_Static, 0);
       creation.mFriction = friction ** 2;  // Jolt takes the geometric mean of two bodies
       const obstacle = this.bodies.CreateBody(creation);
       this.bodies.AddBody(obstacle.GetID(), Jolt.EActivation_DontActivate);
@@ -75,6 +75,14 @@ class SoftBody extends Solver {
     }
     for (const { centre, half_extents, friction } of boxes)
       add(new Jolt.BoxShape(new Jolt.Vec3(...half_extents), 0), centre, friction);
+    for (const { centre, radius, friction } of spheres)
+      add(new Jolt.SphereShape(radius), centre, friction);
+    for (const { a, b, radius, friction } of capsules) {  // Jolt's are along y
+      const axis = new Jolt.Vec3(...a.map((_, c) => (b[c] - a[c]) / 2));
+      const turn = Jolt.Quat.prototype.sFromTo(new Jolt.Vec3(0, 1, 0), axis.Normalized());
+      const middle = a.map((_, c) => (a[c] + b[c]) / 2);
+      add(new Jolt.CapsuleShape(axis.Length(), radius), middle, friction, turn);
+    }
   }
 
   /// Particles, faces and edges of the scene.
