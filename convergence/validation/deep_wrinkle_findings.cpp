@@ -46,13 +46,15 @@ oracles::DeepWrinkles plate_of(const DeepWrinkleSheet& sheet) {
           wavelength_of(sheet) / sheet.length, sheet.young * sheet.compression / sheet.tension};
 }
 
-DepthLadder ladder_at(const Subject& subject, double over_onset, Table& levels) {
+DepthLadder ladder_at(const Subject& subject, double over_onset, Tier tier, Table& levels) {
   DepthLadder result;
   result.over_onset = over_onset;
   Ladder amplitudes;
   amplitudes.ratio = 1.5;
   amplitudes.floor = 1e-6;
-  for (const int edges : {12, 18, 27}) {
+  const std::vector<int> edges_a_wave =
+      tier == Tier::quick ? std::vector{12, 18, 27} : std::vector{20, 30, 45};
+  for (const int edges : edges_a_wave) {
     const DeepWrinkleSheet sheet = sheet_of(over_onset, edges);
     result.finest = deep_wrinkle(subject, sheet);
     result.compression = sheet.compression;
@@ -165,7 +167,7 @@ void add_deep_wrinkles(const Subject& subject, Tier tier, const Progress& progre
   const std::vector<double> depths =
       tier == Tier::quick ? std::vector{4.0, 8.0} : std::vector{1.5, 2.0, 3.0, 4.0, 6.0, 8.0};
   for (const double depth : depths) {
-    ladders.push_back(ladder_at(subject, depth, levels));
+    ladders.push_back(ladder_at(subject, depth, tier, levels));
     progress((1 + double(ladders.size()) / double(depths.size())) / 2);
   }
   result.findings.push_back(amplitude_agrees(ladders));
