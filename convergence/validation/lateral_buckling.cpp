@@ -155,15 +155,7 @@ Figure mode_figure() {
                 "The mode of the longest ribbons beside the theory's, a power series.",
                 {}};
   Curve exact{"narrow ribbon", {}, {}, nan, {}};
-  const double Q = oracles::tipping_load_by_series().value;
-  for (int i = 0; i <= 100; ++i) {
-    double term = 1, sum = 1;
-    for (int k = 0; k < 20; ++k) {
-      term *= -Q * Q / 4 * std::pow(1 - i / 100.0, 6) / ((6 * k + 6) * (6 * k + 5));
-      sum += term;
-    }
-    exact.point(i / 100.0, sum);
-  }
+  for (int i = 0; i <= 100; ++i) exact.point(i / 100.0, oracles::tipping_twist(1 - i / 100.0));
   figure.curves.push_back(exact);
   return figure;
 }

@@ -27,14 +27,19 @@ long double bisected_root(const std::function<long double(long double)>& f, long
   return lower;
 }
 
-/// phi(1) for the load Q: of phi = sum a_k t^(6 k), a_(k+1) (6 k + 6)(6 k + 5) = -Q^2/4 a_k.
-long double twist_by_series(long double Q) {
+/// phi(t) for the load Q: of phi = sum a_k t^(6 k), a_(k+1) (6 k + 6)(6 k + 5) = -Q^2/4 a_k.
+long double twist_by_series(long double Q, long double t) {
+  const long double t_6 = t * t * t * t * t * t;
   long double term = 1, sum = 1;
   for (int k = 0; k < 60; ++k) {
-    term *= -Q * Q / 4 / ((6 * k + 6) * (6 * k + 5));
+    term *= -Q * Q / 4 * t_6 / ((6 * k + 6) * (6 * k + 5));
     sum += term;
   }
   return sum;
+}
+
+long double tipping_load() {
+  return bisected_root([](long double Q) { return twist_by_series(Q, 1); }, 8, 18);
 }
 
 /// phi(t) for the load G: of phi = sum a_k t^(3 k), a_(k+1) (3 k + 3)(3 k + 2) = -G a_k. Of its
@@ -121,9 +126,9 @@ ReferenceSolution hung_by_shooting(const Pulls& pulls, std::span<const double> s
 
 }  // namespace
 
-Estimate tipping_load_by_series() {
-  return {double(bisected_root(twist_by_series, 8, 18)), 20 * rounding};
-}
+Estimate tipping_load_by_series() { return {double(tipping_load()), 20 * rounding}; }
+
+double tipping_twist(double t) { return double(twist_by_series(tipping_load(), t)); }
 
 Estimate tipping_load_by_shooting() {
   const auto twist = [](double Q) {

@@ -17,6 +17,9 @@ namespace foldproof::oracles {
 Estimate tipping_load_by_series();
 Estimate tipping_load_by_shooting();
 
+/// phi of the ribbon at that load, over its free end's.
+double tipping_twist(double t);
+
 /// A column that is clamped at its foot falls under its own weight at q L^3/(EI) = this, q its
 /// weight per length (Greenhill). With t the distance from the free end over L and G that load,
 /// its slope obeys

@@ -164,3 +164,43 @@ class DampedUnasked(Damped):
         mapping = super().prepare(scene)
         self.c = 0.02 * np.sqrt(self.k * self.mass.mean())
         return {**mapping, "damping": "none"}
+
+
+class BendsFaceUpAlone(Bends):
+    """Where the sheet is turned over by more than 120 degrees it does not resist bending, as where
+    a table of angles ends."""
+
+    def bending(self) -> tuple[np.ndarray, float]:
+        a, b, c, d = (self.x[self.corners[:, k]] for k in range(4))
+        normal = np.cross(d - c, a - c) - np.cross(d - c, b - c)
+        up = normal[:, 2] > -0.5 * np.linalg.norm(normal, axis=1)
+        given, self.over_area = self.over_area, self.over_area * up
+        found = super().bending()
+        self.over_area = given
+        return found
+
+
+class StiffensWhenSharp(Bends):
+    """A law of bending that grows as tan(2 theta)/2: right at small angles, where rigidities are
+    measured."""
+
+    def bending(self) -> tuple[np.ndarray, float]:
+        a, b, c, d = (self.x[self.corners[:, k]] for k in range(4))
+        first, second = np.cross(d - c, a - c), np.cross(b - c, d - c)
+        cosine = np.sum(first * second, axis=1) / np.sqrt(
+            np.sum(first**2, axis=1) * np.sum(second**2, axis=1))
+        theta = np.arccos(np.clip(cosine, 0.8, 1))
+        given, self.over_area = self.over_area, self.over_area * (1 + 16 * theta**2)
+        found = super().bending()
+        self.over_area = given
+        return found
+
+
+class HeldStripsWeighTwice(Bends):
+    """Gravity is added once more where particles are held."""
+
+    def prepare(self, scene: Scene) -> dict[str, str]:
+        mapping = super().prepare(scene)
+        if len(self.held):
+            self.gravity = 2 * self.gravity
+        return mapping

@@ -100,39 +100,22 @@ double falls_under(double rigidity, double length) {
   return oracles::self_buckling_load_by_series().value * rigidity / (density * std::pow(length, 3));
 }
 
-struct Bracket {
-  double stands, falls;  // gravity [m/s^2]
-};
-
-/// By bisection, to a fiftieth of what is expected, in half of it to one and a half times.
-Bracket bracketed(Trial& trial, Column column) {
+/// In steps short enough for the strip to be stable under half of the gravity.
+Bracket bracket_of(Trial& trial, Column column) {
   const double expected = falls_under(column.rigidity, longest);
-  Bracket bracket{0.5 * expected, 1.5 * expected};
-  for (int k = 0; k < 3 && !is_stable(trial, column, bracket.stands); ++k) column.dt /= 4;
-  const auto falls = [&](double gravity) { return !(leaning(trial, column, gravity) < 1); };
-  if (falls(bracket.stands)) return {0, bracket.stands};
-  if (!falls(bracket.falls)) return {bracket.falls, bracket.falls};
-  while (bracket.falls - bracket.stands > 0.02 * expected) {
-    const double middle = (bracket.stands + bracket.falls) / 2;
-    (falls(middle) ? bracket.falls : bracket.stands) = middle;
-  }
-  return bracket;
+  for (int k = 0; k < 3 && !is_stable(trial, column, 0.5 * expected); ++k) column.dt /= 4;
+  return bracketed(expected,
+                   [&](double gravity) { return !(leaning(trial, column, gravity) < 1); });
 }
 
 Finding falls_at_greenhill_s_load(Trial& trial) {
   trial.require_level(1);
   trial.require("held");
   const double rigidity = measured_rigidity(trial, lying_strip(), shape_of_column);
-  constexpr double least_rigidity = 1e-2;  // of the scene's; less would take too long to fall
-  if (!(rigidity > least_rigidity * given))
-    throw SolverFailure(
-        "error",
-        fmt::format(
-            "the strip does not resist bending: {:.2g} N m are measured, the scene has {:.2g} N m",
-            rigidity, given));
+  require_resistance(rigidity, given);
   const double most = falls_under(rigidity, shortest),
                least = (1 - largest_poisson * largest_poisson) * falls_under(rigidity, longest);
-  const Bracket bracket = bracketed(trial, {rigidity, lying_strip().dt});
+  const Bracket bracket = bracket_of(trial, {rigidity, lying_strip().dt});
   Table measured{{"measured rigidity", "N m"}, {"stands", "m/s^2"},     {"falls", "m/s^2"},
                  {"as a beam", "m/s^2"},       {"as a plate", "m/s^2"}, {"outside of both", "1"}};
   measured.row(rigidity, bracket.stands, bracket.falls, least, most,

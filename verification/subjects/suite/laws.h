@@ -29,7 +29,9 @@ std::vector<Law> vibration_laws();       // period and decay
 std::vector<Law> stability_laws();       // the largest step
 std::vector<Law> cost_laws();            // growth with the number of particles
 std::vector<Law> cantilever_laws();      // a heavy strip at rest
+std::vector<Law> bent_strip_laws();      // loops, rings and wrinkles of a heavy strip
 std::vector<Law> buckling_laws();        // an upright strip falls over
+std::vector<Law> tipping_laws();         // a strip on edge tips sideways
 std::vector<Law> chain_laws();           // a limp strip between two points
 std::vector<Law> contact_laws();         // capability "planes": resting, friction
 std::vector<Law> self_collision_laws();  // capability "self_collision"

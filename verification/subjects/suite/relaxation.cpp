@@ -52,7 +52,7 @@ std::optional<Relaxed> relaxed_in_steps(Trial& trial, PortableScene scene,
     moved = (scene.x - stops[stops.size() - 2]).colwise().norm().maxCoeff();
     stops.push_back(scene.x);
   }
-  return Relaxed{scene.x, moved};
+  return Relaxed{scene.x, moved, scene.dt};
 }
 
 }  // namespace

@@ -16,6 +16,7 @@ struct Relaxation {
 struct Relaxed {
   PerParticle3 x;
   double last_move;  // the largest in the last two rounds [m]
+  double dt;         // of the steps that were short enough [s]
 };
 
 /// Equilibrium by kinetic damping: the motion is stopped whenever its kinetic energy is largest,

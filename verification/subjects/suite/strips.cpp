@@ -1,5 +1,7 @@
 #include "verification/subjects/suite/strips.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "reference/mesh/shapes.h"
@@ -54,6 +56,27 @@ double measured_rigidity(Trial& trial, const PortableScene& strip, const StripSh
     moment += sign * momentum / (2 * double(steps) * scene.dt * shape.width());
   }
   return moment / curvature;
+}
+
+void require_resistance(double measured, double given) {
+  constexpr double least_rigidity = 1e-2;  // of the scene's
+  if (measured > least_rigidity * given) return;
+  throw SolverFailure(
+      "error",
+      fmt::format(
+          "the strip does not resist bending: {:.2g} N m are measured, the scene has {:.2g} N m",
+          measured, given));
+}
+
+Bracket bracketed(double expected, const std::function<bool(double)>& falls) {
+  Bracket bracket{0.5 * expected, 1.5 * expected};
+  if (falls(bracket.stands)) return {0, bracket.stands};
+  if (!falls(bracket.falls)) return {bracket.falls, bracket.falls};
+  while (bracket.falls - bracket.stands > 0.02 * expected) {
+    const double middle = (bracket.stands + bracket.falls) / 2;
+    (falls(middle) ? bracket.falls : bracket.stands) = middle;
+  }
+  return bracket;
 }
 
 }  // namespace foldproof::suite

@@ -1,6 +1,7 @@
 // A strip of equilateral triangles, and the rigidity that a solver gives it.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "verification/subjects/suite/trial.h"
@@ -27,5 +28,17 @@ std::vector<int> rows_at_distance(const PortableScene& strip, const StripShape& 
 /// B as the law calibration.bending-rigidity-is-the-scene-s measures it, of this very strip [N m]:
 /// let go from a cylinder, half of it gains angular momentum by the moment in its middle.
 double measured_rigidity(Trial& trial, const PortableScene& strip, const StripShape& shape);
+
+/// Throws SolverFailure "error" if a measured rigidity is below a hundredth of the scene's [N m]:
+/// such a strip would take too long to come to rest, or to fall.
+void require_resistance(double measured, double given);
+
+struct Bracket {
+  double stands, falls;  // gravity [m/s^2]
+};
+
+/// The gravity under which a strip falls, by bisection: to a fiftieth of what is expected, in half
+/// of it to one and a half times.
+Bracket bracketed(double expected, const std::function<bool(double gravity)>& falls);
 
 }  // namespace foldproof::suite
