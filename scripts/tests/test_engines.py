@@ -154,15 +154,19 @@ class MuJoCo(Npm):
         },
     }
 
+    ADAPTER = ROOT / "verification/subjects/adapters/mujoco"
+
+    def lines_without_the_adapter(self, name: str) -> list[str]:
+        """What a script of MuJoCo alone prints, below its heading."""
+        copy = ROOT / "build" / "engines" / "mujoco" / f"{name}.mjs"
+        copy.write_bytes((self.ADAPTER / "repro" / copy.name).read_bytes())
+        return run("node", copy).stdout.splitlines()[1:]
+
     def test_the_modulus_is_as_recorded_without_the_adapter(self) -> None:
         """The script of its page, and the numbers there."""
-        adapters = ROOT / "verification/subjects/adapters/mujoco"
-        script = adapters / "repro" / "uniaxial.mjs"
-        copy = ROOT / "build" / "engines" / "mujoco" / script.name
-        copy.write_bytes(script.read_bytes())
-        rows = [line.split() for line in run("node", copy).stdout.splitlines()[2:]]
+        rows = [line.split() for line in self.lines_without_the_adapter("uniaxial")[1:]]
         self.assertEqual(len(rows), 6)
-        page = (adapters / "README.md").read_text(encoding="utf-8")
+        page = (self.ADAPTER / "README.md").read_text(encoding="utf-8")
         recorded = [
             [float(cell) for cell in line.strip("|").split("|")]
             for line in page.splitlines()
@@ -171,6 +175,13 @@ class MuJoCo(Npm):
         for row, expected in zip(rows, 2 * recorded, strict=True):
             for cell, value in zip(row[1:], expected, strict=True):
                 self.assertAlmostEqual(float(cell), value, delta=0.0011)
+
+    def test_bending_is_as_recorded_without_the_adapter(self) -> None:
+        lines = self.lines_without_the_adapter("bending")
+        rigidity, lower, upper = (float(line.split(": ")[1].split()[0]) for line in lines)
+        self.assertAlmostEqual(rigidity, 0.5, delta=1e-3)
+        self.assertAlmostEqual(lower, 0.77, delta=1e-3)
+        self.assertEqual(upper, 0)
 
 
 del Npm  # only the engines are run

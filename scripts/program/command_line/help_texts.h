@@ -310,15 +310,14 @@ price   interpolated between the two runs that bracket the error. Methods are ti
         are closer than the steps tried. The steps of the cheapest methods must also be stable in a
         run three times as long: its kinetic energy is at most twice that with half the step.
 
---solver CMD also finds the step and the price of another solver (verification/subjects/PROTOCOL.md).
+--solver CMD also finds step and price of another solver (verification/subjects/PROTOCOL.md).
 Its steps are equal from frame to frame, and halved until the error bar of the finest run is a tenth
 of the least wanted error, or a run would take 10 s (times --effort) by the clock. Its error is the
 distance from its finest run, and that run's error bar, over the reference's motion. Says how far
 its limit is from the reference's truth, and whether steps explain it. Its runs are not kept.
 
 Examples:
-  foldproof precision hinge --until 0.2
-  foldproof precision hanging_sheet --solver ./adapter --settings iterations=20
+  foldproof precision hanging_sheet --until 0.2 --solver ./adapter --settings iterations=20
   foldproof precision hanging_sheet --method A,C,RK4 --errors 1e-2 --out mine
 
 Exit codes:
