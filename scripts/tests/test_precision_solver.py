@@ -14,6 +14,12 @@ sys.dont_write_bytecode = True
 from program_case import PROGRAM, ROOT, SHEET, ProgramCase, run  # noqa: E402
 
 WRONG = f"/usr/bin/python3 '{ROOT / 'verification' / 'subjects' / 'bad' / 'wrong.py'}'"
+SPINNING_PLANE = """
+[[object]]
+shape = "half_space"
+move = [0, 0, -1]
+angular_velocity = [0, 0, 90]
+"""
 SPRINGS = (
     *("--set", "bending.stiffness=0"), *("--set", "stretch.damping=0"),
     *("--set", "time.step=5e-4")
@@ -69,8 +75,9 @@ class PrecisionSolverTest(ProgramCase):
 
     def test_what_the_solver_cannot_run_is_refused(self) -> None:
         sheet, toy = self.write("sheet.toml", SHEET), f"{WRONG} none"
+        spins = self.write("spins.toml", SHEET + SPINNING_PLANE)
         for words, why in (
-            (["drape_sphere", "--solver", toy], "which is neither a plane nor a box"),
+            ([spins, "--solver", toy], "which moves or deforms"),
             ([sheet, "--solver", toy], "capability 'damping'"),
             ([sheet, "--solver", toy, "--set", "stretch.damping=0", "--method", "A,C"],
              "declines: bending"),
