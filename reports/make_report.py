@@ -68,6 +68,7 @@ from pages.trials import render_trials, trials_json, trials_of  # noqa: E402
 from pages.trust import (
     kinds_of,
     load_coverage,
+    load_machines,
     load_variants,
     tolerances_of,
     note_on_unfinished_run,
@@ -282,6 +283,7 @@ def make_page(folder: Path, figures: Path, for_papers: bool, shipped: Path) -> P
     beside = {
         "coverage": load_coverage(folder / "coverage.json"),
         "variants": load_variants(folder / "variants.json"),
+        "machines": load_machines(folder / "machines.json"),
         "mutation": load_mutation(folder / "mutation.json"),
         "unended": note_on_unfinished_run(folder / "verdicts.json"),
         "needs": load_needs(folder / "ablation.json", recorded),

@@ -32,6 +32,7 @@ PYTHON_TESTS = {
     "CampaignTest": ROOT / "scripts/tests/test_campaign.py",
     "SlicesTest": ROOT / "scripts/tests/test_slices.py",
     "SolverTest": ROOT / "scripts/tests/test_converge_solver.py",
+    "PrecisionSolverTest": ROOT / "scripts/tests/test_precision_solver.py",
     "IndependentTest": ROOT / "verification/independent/test_independent.py",
 }
 APART_FOLDER = BUILD / "faults" / "apart"

@@ -80,7 +80,7 @@ double energy_difference(const ObservedRun& a, const ObservedRun& b) {
 std::string reason(const ObservedRun& without, const ObservedRun& with, double moved,
                    const DiscretisationError& error) {
   if (!without.stopped.empty() && with.stopped.empty())
-    return "without it the run does not come to its end: " + without.stopped;
+    return "without it the run stops early: " + without.stopped;
   if (const auto failed_keys = not_in(without.failed_keys, with.failed_keys); !failed_keys.empty())
     return fmt::format("without it this expectation fails: {}", fmt::join(failed_keys, ", "));
   if (const auto meaningless = not_in(with.expected_keys, without.expected_keys);
@@ -95,7 +95,7 @@ std::string reason(const ObservedRun& without, const ObservedRun& with, double m
                        without.deepest, with.deepest);
   if (!(moved <= error.value()))
     return fmt::format(
-        "it moves particles by {:.3g} m, more than the scene's own error of {:.3g} m", moved,
+        "the motion differs by {:.3g} m, more than the scene's own error of {:.3g} m", moved,
         error.value());
   return "";
 }
@@ -106,7 +106,7 @@ std::string doubt(const ObservedRun& without, const ObservedRun& with, double mo
   const double deeper = without.deepest - with.deepest;
   if (std::max(moved, deeper) <= error.seen()) return "";
   const std::string what = moved > error.seen()
-                               ? fmt::format("it moves particles by {:.3g} m", moved)
+                               ? fmt::format("the motion differs by {:.3g} m", moved)
                                : fmt::format("without it cloth is {:.3g} m deeper", deeper);
   return fmt::format("{}; the scene's own error is {:.3g} m, {:.3g} m with its error bar", what,
                      error.seen(), error.value());
@@ -207,7 +207,7 @@ JudgedPart judge_part(const ScenePart& part, const ObservedRun& scene, ObservedR
     result.reason = in_doubt;
   } else {
     result.need = part.is_present ? Need::not_needed : Need::no_effect;
-    result.reason = fmt::format("it moves particles by {:.3g} m; the scene's own error is {:.3g} m",
+    result.reason = fmt::format("the motion differs by {:.3g} m; the scene's own error is {:.3g} m",
                                 result.position_difference, error.seen());
   }
   result.run = std::move(toggled);

@@ -107,18 +107,6 @@ std::string as_sentence(std::string words) {
   return words + ".";
 }
 
-/// Letters, digits and hyphens, as names of studies have them.
-std::string as_name(const std::string& words) {
-  std::string name;
-  for (const char letter : words)
-    if (std::isalnum(static_cast<unsigned char>(letter)))
-      name += letter;
-    else if (!name.empty() && name.back() != '-')
-      name += '-';
-  while (name.ends_with('-')) name.pop_back();
-  return name;
-}
-
 /// Steps, or edges, become shorter from level to level.
 std::string shortened(const LadderAnswer& answer) {
   return answer.in == "time" ? "steps" : "edges";
@@ -151,6 +139,17 @@ std::string halved_by_level(const LadderAnswer& answer) {
 }
 
 }  // namespace
+
+std::string as_name(const std::string& words) {
+  std::string name;
+  for (const char letter : words)
+    if (std::isalnum(static_cast<unsigned char>(letter)))
+      name += letter;
+    else if (!name.empty() && name.back() != '-')
+      name += '-';
+  while (name.ends_with('-')) name.pop_back();
+  return name;
+}
 
 std::string how_to_halve(const LadderAnswer& answer) {
   const ErrorBar& bar = answer.quantities.front().bar;

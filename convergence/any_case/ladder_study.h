@@ -9,6 +9,9 @@ namespace foldproof {
 /// How large the error of the case as it stands is, in one or two sentences.
 std::string in_words(const LadderAnswer& answer);
 
+/// Letters, digits and hyphens, as names of studies have them.
+std::string as_name(const std::string& words);
+
 /// Says how to halve the error of the positions, and at which price. In the asymptotic range, steps
 /// (edges) are divided by 2^(1/order), and the cost grows as between the two finest levels. Outside
 /// it, the sentence names the first level whose measured error is at most half of the first one's,

@@ -23,7 +23,7 @@ std::string why_not_reached(const MethodCurve& curve, double wanted) {
   if (curve.stopped.empty()) return "its work exceeds the budget at every step";
   const std::string& last = curve.stopped.back();
   return last.empty() ? "it is unstable at every step that was tried"
-                      : "no run comes to its end: " + last;
+                      : "every run stops early: " + last;
 }
 
 /// The longer run of a price's step; nullptr: it was not asked.

@@ -72,14 +72,15 @@ SolverLadder::SolverLadder(LadderPlan plan, Trial& solver, const LevelSetProvide
   require_offered(portable_, solver_);
 }
 
-LevelRun SolverLadder::run(int k) {
-  const long a_frame = steps_.a_frame << k;
-  portable_.dt = steps_.length(k);
+LevelRun SolverLadder::run(int k) { return run_with(steps_.a_frame << k); }
+
+LevelRun SolverLadder::run_with(long a_frame) {
+  portable_.dt = steps_.interval / double(a_frame);
   std::vector<long> at;
   for (long frame = 1; frame <= steps_.frames; ++frame) at.push_back(frame * a_frame);
   LevelRun run;
   try {
-    run = measured(k, solver_.motion(portable_, at));
+    run = measured(a_frame, solver_.motion(portable_, at));
   } catch (const SolverFailure& failure) {
     solver_.note(failure);
     run.stopped = failure.what();
@@ -92,7 +93,7 @@ LevelRun SolverLadder::run(int k) {
   return run;
 }
 
-LevelRun SolverLadder::measured(int k, const std::vector<Snapshot>& frames) const {
+LevelRun SolverLadder::measured(long a_frame, const std::vector<Snapshot>& frames) const {
   const Scene& scene = plan_.input_case.scene;
   Measurer measurer(scene, built_, plan_.measurements);
   LevelRun run;
@@ -110,8 +111,8 @@ LevelRun SolverLadder::measured(int k, const std::vector<Snapshot>& frames) cons
     state.x = frames[f].x, state.v = frames[f].v;
     record(state);
   }
-  const long all = steps_.frames * (steps_.a_frame << k);
-  for (long n = 1; n <= all; ++n) run.step_ends.push_back(double(n) * steps_.length(k));
+  for (long n = 1; n <= steps_.frames * a_frame; ++n)
+    run.step_ends.push_back(double(n) * portable_.dt);
   run.values = measurer.values(result);
   return run;
 }

@@ -19,8 +19,6 @@ struct SolverSteps {
   long frames = 0;      // of the run, without the start
   double interval = 0;  // between them [s]
   long a_frame = 0;     // steps in the first level
-
-  double length(int level) const { return interval / double(a_frame << level); }  // s
 };
 
 /// No step is longer than the case's `time.step`, or without one, than its safety times the elastic
@@ -38,13 +36,16 @@ class SolverLadder {
   /// Seconds are of the clock, through the pipe; work counts steps.
   LevelRun run(int k);
 
+  /// Likewise, with so many steps a frame.
+  LevelRun run_with(long a_frame);
+
   /// Reads all levels, coarse to fine. A solver that claims no order is read as of first order.
   LadderAnswer answer(const std::vector<LevelRun>& runs);
 
   const SolverSteps& steps() const { return steps_; }
 
  private:
-  LevelRun measured(int k, const std::vector<Snapshot>& frames) const;
+  LevelRun measured(long a_frame, const std::vector<Snapshot>& frames) const;
 
   LadderPlan plan_;
   Trial& solver_;

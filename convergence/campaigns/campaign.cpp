@@ -14,17 +14,20 @@ namespace foldproof {
 
 namespace {
 
-constexpr size_t most_jobs = 10'000'000;
-
 /// A text that would be read as something else after --set, or in a list, needs quotes.
 bool needs_quotes(const std::string& text) {
   return text.empty() || text == "true" || text == "false" || text == "inf" || text == "nan" ||
          std::string("+-0123456789[{\"'").find(text[0]) != std::string::npos;
 }
 
+/// A basic string of TOML: line breaks and other control characters by their numbers.
 std::string in_quotes(const std::string& text) {
   std::string quoted = "\"";
   for (const char c : text) {
+    if (c >= 0 && c < ' ') {
+      quoted += fmt::format("\\u{:04x}", int(c));
+      continue;
+    }
     if (c == '"' || c == '\\') quoted += '\\';
     quoted += c;
   }
@@ -47,6 +50,24 @@ std::string toml_of(const KeyValue& value) {
   return text_of(value);
 }
 
+/// What reading a block depends on beside its keys.
+struct Reading {
+  std::string folder;  // of the campaign's file
+  std::string run;     // the command
+  size_t most_jobs;
+
+  /// Whether a parameter is read as TOML, after --set; else it is a word of the command line.
+  bool is_key_of_case(const std::string& parameter) const {
+    if (run == "simulate") return parameter != "case";
+    return parameter.find('.') != std::string::npos && !parameter.starts_with("settings.");
+  }
+
+  std::string text(const std::string& parameter, const KeyValue& value) const {
+    const auto* word = std::get_if<std::string>(&value.data);
+    return word && !is_key_of_case(parameter) ? *word : text_of(value);
+  }
+};
+
 /// The names in all TOML files of a folder: of [[fault]] tables, say. In the order of
 /// the files' names.
 std::vector<std::string> names_in_files(const KeyTable& asked, const std::string& folder) {
@@ -66,18 +87,17 @@ std::vector<std::string> names_in_files(const KeyTable& asked, const std::string
 
 /// The values of one parameter: a list, { from, to, count, spacing } or { folder, every }.
 std::vector<std::string> values_of(const KeyTable& table, const std::string& key,
-                                   const std::string& folder) {
+                                   const Reading& reading) {
   std::vector<std::string> values;
   const KeyValue& entry = table.entries.at(key);
   if (const auto* list = std::get_if<std::vector<KeyValue>>(&entry.data)) {
     table.leave(key);  // a value may be a table, which the case will read
-    for (const KeyValue& value : *list) values.push_back(text_of(value));
+    for (const KeyValue& value : *list) values.push_back(reading.text(key, value));
   } else if (std::holds_alternative<std::shared_ptr<KeyTable>>(entry.data)) {
     const auto range = table.table(key);
-    if (range->has("every")) return names_in_files(*range, folder);
+    if (range->has("every")) return names_in_files(*range, reading.folder);
     const long count = range->integer("count");
-    if (count < 2 || count > long(most_jobs))
-      throw InputError(range->where("count") + ": 'count' must be 2 to 10000000");
+    if (count < 2) throw InputError(range->where("count") + ": 'count' must be at least 2");
     for (long k = 0; k < count; ++k)
       values.push_back(fmt::format("{}", spread_over(*range, double(k) / double(count - 1))));
   } else {
@@ -88,23 +108,23 @@ std::vector<std::string> values_of(const KeyTable& table, const std::string& key
   return values;
 }
 
-std::vector<Assignment> fixed_in(const KeyTable& block) {
+std::vector<Assignment> fixed_in(const KeyTable& block, const Reading& reading) {
   std::vector<Assignment> fixed;
   if (block.has("case")) fixed.push_back({"case", block.text("case")});
   if (const auto set = block.table("set"))
     for (const auto& [key, value] : set->entries) {
       static_cast<void>(set->has(key));
       set->leave(key);
-      fixed.push_back({key, text_of(value)});
+      fixed.push_back({key, reading.text(key, value)});
     }
   return fixed;
 }
 
-CampaignAxis zipped(const KeyTable& table, const std::string& folder) {
+CampaignAxis zipped(const KeyTable& table, const Reading& reading) {
   CampaignAxis axis;
   for (const auto& [key, value] : table.entries) {
     static_cast<void>(table.has(key));
-    const std::vector<std::string> values = values_of(table, key, folder);
+    const std::vector<std::string> values = values_of(table, key, reading);
     if (axis.keys.empty()) axis.rows.resize(values.size());
     if (values.size() != axis.rows.size())
       throw InputError(fmt::format(
@@ -117,27 +137,57 @@ CampaignAxis zipped(const KeyTable& table, const std::string& folder) {
   return axis;
 }
 
-CampaignBlock read_block(const KeyTable& keys, const std::string& folder) {
+/// How many values an entry of [grid] or [[zip]] announces, before they are made.
+double announced(const KeyTable& table, const std::string& key) {
+  const KeyValue& entry = table.entries.at(key);
+  if (const auto* list = std::get_if<std::vector<KeyValue>>(&entry.data))
+    return double(list->size());
+  const auto* range = std::get_if<std::shared_ptr<KeyTable>>(&entry.data);
+  return range && (*range)->has("count") ? double((*range)->integer("count")) : 1;
+}
+
+void require_few(double jobs, const KeyTable& keys, size_t most_jobs) {
+  if (jobs > double(most_jobs))
+    throw InputError(
+        fmt::format("{}: {:.3g} jobs; a campaign has at most {}", keys.where(), jobs, most_jobs));
+}
+
+/// Refuses too many jobs before their values fill the memory.
+void require_few_announced(const KeyTable& keys, size_t most_jobs) {
+  double jobs = 1;
+  if (const auto grid = keys.table("grid"))
+    for (const auto& [key, value] : grid->entries) jobs *= announced(*grid, key);
+  for (const auto& zip : keys.tables("zip")) {
+    double rows = 1;
+    for (const auto& [key, value] : zip->entries) rows = std::max(rows, announced(*zip, key));
+    jobs *= rows;
+  }
+  if (const auto sample = keys.table("sample")) jobs *= double(sample->integer("count"));
+  require_few(jobs, keys, most_jobs);
+}
+
+CampaignBlock read_block(const KeyTable& keys, const Reading& reading) {
+  require_few_announced(keys, reading.most_jobs);
   CampaignBlock block;
-  block.fixed = fixed_in(keys);
+  block.fixed = fixed_in(keys, reading);
   if (const auto grid = keys.table("grid"))
     for (const auto& [key, value] : grid->entries) {
       static_cast<void>(grid->has(key));
       CampaignAxis axis{{key}, {}, false};
-      for (const std::string& text : values_of(*grid, key, folder)) axis.rows.push_back({text});
+      for (const std::string& text : values_of(*grid, key, reading)) axis.rows.push_back({text});
       block.axes.push_back(axis);
     }
-  for (const auto& table : keys.tables("zip")) block.axes.push_back(zipped(*table, folder));
+  for (const auto& table : keys.tables("zip")) block.axes.push_back(zipped(*table, reading));
   if (const auto table = keys.table("sample")) block.axes.push_back(latin_hypercube(*table));
-  for (const auto& part : keys.tables("part")) block.parts.push_back(read_block(*part, folder));
-  double jobs = 0;
-  for (const CampaignBlock& part : block.parts) jobs += double(part.jobs);
-  if (block.parts.empty()) jobs = 1;
-  for (const CampaignAxis& axis : block.axes) jobs *= double(axis.rows.size());
-  if (jobs > double(most_jobs))
-    throw InputError(
-        fmt::format("{}: {:.3g} jobs; a campaign has at most 10000000", keys.where(), jobs));
-  block.jobs = size_t(jobs);
+  double combinations = 1, parts = 0;
+  for (const CampaignAxis& axis : block.axes) combinations *= double(axis.rows.size());
+  require_few(combinations, keys, reading.most_jobs);
+  for (const auto& part : keys.tables("part")) {
+    block.parts.push_back(read_block(*part, reading));
+    parts += double(block.parts.back().jobs);
+    require_few(combinations * parts, keys, reading.most_jobs);
+  }
+  block.jobs = size_t(combinations * (block.parts.empty() ? 1 : parts));
   return block;
 }
 
@@ -255,7 +305,7 @@ std::string name_of(Keep keep) {
   return keep == Keep::none ? "none" : keep == Keep::failures ? "failures" : "all";
 }
 
-Campaign read_campaign_text(const std::string& text, const std::string& path) {
+Campaign read_campaign_text(const std::string& text, const std::string& path, size_t most_jobs) {
   const auto keys = parse_keys(text, path);
   Campaign campaign;
   campaign.file = path;
@@ -269,7 +319,7 @@ Campaign read_campaign_text(const std::string& text, const std::string& path) {
     throw InputError(keys->where("keep") + ": " + error.what());
   }
   const std::string folder = std::filesystem::absolute(path).parent_path().string();
-  campaign.root = read_block(*keys, folder);
+  campaign.root = read_block(*keys, {folder, campaign.run, most_jobs});
   campaign.limits = read_limits(*keys);
   campaign.expectations = read_expectations(*keys);
   campaign.figures = read_figures(*keys);

@@ -75,7 +75,8 @@ struct Campaign {
 Campaign read_campaign(const std::string& path);
 
 /// The same for text; `path` names it.
-Campaign read_campaign_text(const std::string& text, const std::string& path);
+Campaign read_campaign_text(const std::string& text, const std::string& path,
+                            size_t most_jobs = 10'000'000);
 
 /// The assignments of job i < campaign.root.jobs, sorted by key; of two with one key the
 /// innermost counts.

@@ -51,8 +51,7 @@ double normal_quantile(double u) {
 
 CampaignAxis latin_hypercube(const KeyTable& table) {
   const long count = table.integer("count");
-  if (count < 1 || count > 10'000'000)
-    throw InputError(table.where("count") + ": 'count' must be 1 to 10000000");
+  if (count < 1) throw InputError(table.where("count") + ": 'count' must be at least 1");
   std::mt19937_64 random(std::uint64_t(table.integer_or("seed", 1)));
   CampaignAxis axis;
   axis.is_sample = true;

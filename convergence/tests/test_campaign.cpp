@@ -51,6 +51,31 @@ TEST_CASE("campaign: a grid has every combination once, with what is set") {
   CHECK(varied_parameters(campaign) == std::vector<std::string>{"a", "b.c"});
 }
 
+TEST_CASE("campaign: words of a command line are bare, values of --set are TOML") {
+  const std::string both = "[grid]\n\"a.b\" = [\"2 up\"]\nsolver = [\"2 up\"]\n";
+  CHECK(jobs_of(campaign_of("run = \"judge\"\n" + both))[0] == "a.b=\"2 up\";solver=2 up;");
+  CHECK(jobs_of(campaign_of(both + "case = [\"2d\"]\n"))[0] ==
+        "a.b=\"2 up\";case=2d;solver=\"2 up\";");
+  CHECK(jobs_of(campaign_of("run = \"judge\"\n[set]\n\"settings.k\" = \"1\"\n"))[0] ==
+        "settings.k=1;");
+  const std::string broken = jobs_of(campaign_of("[grid]\na = [\"1\\n\\\"\\u0001\"]\n"))[0];
+  CHECK(broken == "a=\"1\\u000a\\\"\\u0001\";");
+  KeyTable table("", "");
+  set_key(table, broken.substr(0, broken.size() - 1));
+  CHECK(table.text("a") == "1\n\"\x01");
+}
+
+TEST_CASE("campaign: too many jobs are refused before their values are made") {
+  const std::string huge = "= { from = 0, to = 1, count = 4000000000000000000 }\n";
+  CHECK_THROWS_WITH(campaign_of("[grid]\na " + huge), Contains("at most 10000000"));
+  CHECK_THROWS_WITH(campaign_of("[[zip]]\na = [1]\nb " + huge), Contains("at most 10000000"));
+  CHECK_THROWS_WITH(
+      campaign_of("[sample]\ncount = 4000000000000000000\na = { from = 0, to = 1 }\n"),
+      Contains("at most 10000000"));
+  CHECK_THROWS_WITH(read_campaign_text("[[part]]\n[part.grid]\na = [1, 2]\n[[part]]\n", "c", 2),
+                    Contains("at most 2"));
+}
+
 TEST_CASE("campaign: zipped lists go together, and need as many values") {
   const std::vector<std::string> jobs =
       jobs_of(campaign_of("[grid]\ng = [0, 1]\n[[zip]]\na = [1, 2, 3]\nb = [4, 5, 6]\n"));
@@ -85,7 +110,8 @@ TEST_CASE("campaign: ranges are spread evenly, or by factors, up to their very e
   CHECK(factors[4] == 1000);
   CHECK_THROWS_WITH(values("{ from = -1, to = 4, count = 4, spacing = \"log\" }"),
                     Contains("a logarithmic range needs"));
-  CHECK_THROWS_WITH(values("{ from = 0, to = 4, count = 1 }"), Contains("'count' must be 2"));
+  CHECK_THROWS_WITH(values("{ from = 0, to = 4, count = 1 }"),
+                    Contains("'count' must be at least 2"));
 }
 
 TEST_CASE("campaign: a list can be the names in the files of a folder") {

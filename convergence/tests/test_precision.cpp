@@ -249,7 +249,7 @@ TEST_CASE("a method that is never stable has no price and says why") {
   CHECK(made.trials.runs.at("forward-euler").rbegin()->first <= 64);
   const PrecisionAnswer answer = precision_answer(made.plan, made.trials);
   CHECK(std::isnan(price_of(answer, 0, "forward-euler").price.applications));
-  CHECK(price_of(answer, 0, "forward-euler").because == "no run comes to its end: divergence");
+  CHECK(price_of(answer, 0, "forward-euler").because == "every run stops early: divergence");
   CHECK(precision_sentences(answer)[0].ends_with(
       "forward-euler does not reach it within the budget"));
 }

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "convergence/validation/comparison.h"
+#include "convergence/validation/deep_wrinkle_findings.h"
 #include "convergence/validation/studies.h"
 #include "convergence/validation/wrinkled_sheet.h"
 #include "verification/oracles/sheets/stretched_wrinkles.h"
@@ -303,7 +304,7 @@ StudyResult run_stretched_wrinkles(const Subject& subject, Tier tier, const Prog
   std::vector<SheetLadder> ladders;
   for (const Sheet& sheet : sheets) {
     ladders.push_back(ladder_of(subject, sheet, levels));
-    progress(double(ladders.size()) / double(sheets.size()));
+    progress(double(ladders.size()) / double(2 * sheets.size()));
   }
   Figure coarse = coarse_figure();
   result.findings = {wavelength_agrees(ladders), compression_agrees(ladders)};
@@ -313,6 +314,7 @@ StudyResult run_stretched_wrinkles(const Subject& subject, Tier tier, const Prog
   result.findings.push_back(tension_stiffens(subject, ladders.back().sheet, tier, coarse));
   result.figures = {wavelength_figure(ladders), profile_figure(ladders.front()), coarse};
   result.tables.push_back({"meshes", "Every sheet on every mesh", levels});
+  add_deep_wrinkles(subject, tier, progress, result);
   return result;
 }
 
@@ -323,7 +325,8 @@ Study stretched_wrinkles_study() {
       "stretched-wrinkles",
       "A stretched sheet that is compressed across wrinkles with the wavelength 2 pi^(1/2) "
       "(D/T)^(1/4) L^(1/2) of Cerda and Mahadevan, with the mesh's own rigidity D, where edges are "
-      "shorter than (D/T)^(1/2). On longer edges the tension stiffens the mesh.",
+      "shorter than (D/T)^(1/2). On longer edges the tension stiffens the mesh. Beyond the onset "
+      "its waves are as high as a plate's.",
       "Cerda and Mahadevan, Phys. Rev. Lett. 90 (2003) 074302",
       "A sheet is clamped at both ends, stretched, and compressed across by a force b per length. "
       "It is endless across: forces on a few columns of triangles give the stiffness against waves "
@@ -331,8 +334,17 @@ Study stretched_wrinkles_study() {
       "least b. S is that of the finest of three meshes, with the error bar of the ladder; D is a "
       "plate under tension, by functions, which a check holds against a series. The uncertainty of "
       "the law is its distance from the plate: it leaves out bending along the tension and the "
-      "clamps. Here b is prescribed. In an experiment it comes from the clamps, which keep the "
-      "ends from narrowing; that, and the height of wrinkles beyond the onset, is not compared.",
+      "clamps. Beyond the onset the width is prescribed, shorter by Delta/W in every section. One "
+      "half wave settles, with mirror images on either side; its wavelength is that of the law. A "
+      "sine of amplitude A across folds away pi^2 A^2/wavelength^2 of the width. If the profile "
+      "along is a sine, too, and the mean along the length is to be Delta/W, A is (2^(1/2)/pi) "
+      "wavelength (Delta/W)^(1/2) in the middle, the amplitude of Cerda and Mahadevan's law. But "
+      "here every section must be as narrow as the others: springs across push until each has "
+      "folded away its own part, or keeps it as stress close to the clamps. So the profile is flat "
+      "where it is deep, and A tends to (1/pi) wavelength (Delta/W)^(1/2). The wavelength is not "
+      "sought anew there, and deeper waves, whose rests were found not to be stable, are left out. "
+      "In an experiment the compression comes from the clamps, which keep the ends from narrowing; "
+      "that is not compared.",
       run_stretched_wrinkles,
       "validation"};
 }

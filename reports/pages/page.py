@@ -33,7 +33,7 @@ from pages.sentences import Piece, html_of
 from pages.site import Cuts, split
 from pages.summary import Judged, Summary, since_last, summary_of
 from pages.summary_markdown import count_words
-from pages.trust import Coverage, Kinds, Tolerances, Variants
+from pages.trust import Coverage, Kinds, Machines, Tolerances, Variants
 from pictures.case_pictures import PictureRow, length_text
 from pictures.sketches import sketch_of
 from plots.map_plots import map_notes
@@ -117,6 +117,7 @@ class Page:
     needs: Needs | None = None  # which of its parts each scene needs
     errors: Errors | None = None  # how large the error of each scene's step is
     variants: Variants | None = None
+    machines: Machines | None = None
     alone: bool = False  # simulations that no run of the verification made
     unended: str = ""  # why this is not what was run last
     mutation: Mutation | None = None  # what scripts/mutate found, where that lies beside the run

@@ -85,6 +85,39 @@ class Variants:
 
 
 @dataclass
+class Apart:
+    """A case whose last state has other bits on another machine; of the cloth's size [1]."""
+    case: str
+    distance: float
+    bound: float               # what a rounding a step explains
+
+    def is_explained(self) -> bool:
+        return self.distance <= self.bound
+
+
+@dataclass
+class Machine:
+    name: str
+    cases: int
+    apart: list[Apart]
+
+
+@dataclass
+class Machines:
+    """Results of scripts/machines."""
+    commit: str
+    seconds: float             # of each case that were simulated
+    machines: list[Machine]
+
+    def cases(self) -> int:
+        return sum(machine.cases for machine in self.machines)
+
+    def unexplained(self) -> int:
+        every = [case for machine in self.machines for case in machine.apart]
+        return sum(not case.is_explained() for case in every)
+
+
+@dataclass
 class Kinds:
     """How many of the judged findings bear each label that the program gave."""
     scopes: list[tuple[str, int]]
@@ -167,6 +200,23 @@ def load_variants(file: Path) -> Variants | None:
         return Variants(content.get("commit", "not recorded"), runs)
 
 
+def load_machines(file: Path) -> Machines | None:
+    """The outcomes of `scripts/machines --out DIR/machines.json`; None if there are none. Throws
+    Unreadable for another file."""
+    if not file.is_file():
+        return None
+    with reading(file):
+        content = json.loads(file.read_text(encoding="utf-8"))
+        machines = [
+            Machine(
+                row["machine"], row["cases"],
+                [Apart(case["case"], case["apart"], case["bound"]) for case in row["apart"]]
+            )
+            for row in content["machines"]
+        ]
+        return Machines(content["commit"], content["seconds"], machines)
+
+
 def note_on_unfinished_run(file: Path) -> str:
     """A warning if the last run into this folder did not finish; "" if it did, or if there is no
     file. Throws Unreadable for another file."""
@@ -181,7 +231,7 @@ def note_on_unfinished_run(file: Path) -> str:
     if not waiting:
         return ""
     return (
-        f"The last run into this folder, begun {begun}, did not come to its end: {waiting} checks,"
+        f"The last run into this folder, begun {begun}, did not finish: {waiting} checks,"
         " studies and cases of it have no result. What is shown here is older."
     )
 

@@ -206,8 +206,9 @@ class NeedsShown(unittest.TestCase):
         put_run(self.root)
         for name, texts in {
             "ablation.json": ('{"cases": [{}]}', "[]", "{"), "coverage.json": ("{}", "3"),
-            "variants.json": ("{}",), "mutation.json": ("{}", "[1]"),
-            "faults.json": ('{"faults": [3]}', "{}"), "verdicts.json": ('{"findings": [{}]}',)
+            "variants.json": ("{}",), "machines.json": ("{}", "[2]"),
+            "mutation.json": ("{}", "[1]"), "faults.json": ('{"faults": [3]}', "{}"),
+            "verdicts.json": ('{"findings": [{}]}',)
         }.items():
             for text in texts:
                 (self.root / name).write_text(text)

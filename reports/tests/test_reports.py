@@ -257,43 +257,15 @@ class PartsMissing(unittest.TestCase):
 
     def test_a_run_that_never_ended_is_not_taken_for_the_one_before(self) -> None:
         put_run(self.root)
-        self.assertNotIn("did not come to its end", self.made())
+        self.assertNotIn("did not finish: ", self.made())
         findings = [
             {"name": "a", "outcome": "did not run"},
             {"name": "b", "outcome": "did not run"},
         ]
         told = {"program": {"date": HOSTILE}, "findings": findings}
         (self.root / "verdicts.json").write_text(json.dumps(told))
-        self.assertIn("did not come to its end: 2 checks, studies and cases", self.made())
+        self.assertIn("did not finish: 2 checks, studies and cases", self.made())
         Seen(self.made())
-
-    def test_coverage_is_shown_with_the_lines_that_never_ran(self) -> None:
-        put_run(self.root)
-        self.assertNotIn('id="coverage"', self.made())
-        row = {"lines": 40, "lines_reached": 36, "branches": 10, "branches_taken": 5}
-        file = {**row, "file": "reference/" + HOSTILE, "lines_missed": [3, 4, 5, 9]}
-        told = {"commit": "abc", "ran": "checks", "least": 95.0, "total": row, "files": [file]}
-        (self.root / "coverage.json").write_text(json.dumps(told))
-        text = self.made()
-        self.assertIn("90.0 % of 40 lines", text)
-        self.assertIn("3–5, 9", text)
-        Seen(text)
-
-    def test_variants_are_shown_with_their_false_alarms(self) -> None:
-        put_run(self.root)
-        self.assertNotIn('id="variants"', self.made())
-        runs = [
-            {"variant": "clang", "options": ["check"], "findings": 7, "false_alarms": []},
-            {
-                "variant": "seeds", "options": ["check", "--seed", "3"], "findings": 5,
-                "false_alarms": [{"name": HOSTILE}]
-            },
-        ]
-        (self.root / "variants.json").write_text(json.dumps({"commit": "abc", "runs": runs}))
-        text = self.made()
-        self.assertIn("2 runs with 12 findings (commit abc), 1 of which did not hold", text)
-        self.assertIn("<code>foldproof check --seed 3</code>", text)
-        Seen(text)
 
     def test_simulations_without_a_run_bring_what_was_expected_of_them(self) -> None:
         for name in ("fold", "other"):
@@ -473,7 +445,7 @@ def load_tests(loader: unittest.TestLoader, tests: unittest.TestSuite,
                _: str | None) -> unittest.TestSuite:
     """This file's tests, and those of the files named here, which are run with it."""
     names = ("page", "compare", "history", "needs", "errors", "pieces", "results", "summary",
-             "site", "formulas", "campaign_page", "trials")
+             "site", "formulas", "campaign_page", "trials", "trust")
     tests.addTests(loader.loadTestsFromNames([f"tests.test_{name}" for name in names]))
     return tests
 

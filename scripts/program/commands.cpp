@@ -131,8 +131,7 @@ std::vector<Job> jobs_of_built_in_cases(const Options& options, const Provenance
 /// the one before.
 void announce(const std::vector<Job>& jobs, RunRecord begun, const std::string& folder) {
   for (const Job& job : jobs)
-    begun.records.push_back(
-        unfinished_record(job.name, std::nullopt, "the run has not come to its end"));
+    begun.records.push_back(unfinished_record(job.name, std::nullopt, "the run has not finished"));
   write_verdicts(folder, begun);
 }
 

@@ -37,7 +37,7 @@ class KeptResults {
   std::vector<RunOrigin> origins_;
 };
 
-/// Deletes the results that jobs kept in the folder of a run: it has come to its end.
+/// Deletes the results that jobs kept in the folder of a run: it has finished.
 void drop_kept_results(const std::string& folder);
 
 }  // namespace foldproof

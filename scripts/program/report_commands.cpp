@@ -49,7 +49,7 @@ int run_report_script(const std::string& makes, const std::string& script,
   log_line("the " + makes + " could not be made: " +
            (has_ended && WEXITSTATUS(status) == not_started
                 ? std::string(python) + " is missing; install the Debian package python3"
-                : path + " did not come to its end"));
+                : path + " did not finish"));
   return bad_input;
 }
 

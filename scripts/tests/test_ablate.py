@@ -63,7 +63,7 @@ class AblateTest(FileTest):
         stopped = self.ablate(str(case), "--set", "time.max_steps=3")
         self.assertEqual(stopped.returncode, 1, stopped.stderr)
         self.assertIn(
-            "! the scene itself does not come to its end: the cap on the number of steps",
+            "! the scene itself stops early: the cap on the number of steps",
             stopped.stdout,
         )
 

@@ -98,7 +98,7 @@ class Kills(FileTest):
         except subprocess.TimeoutExpired:
             process.kill()
             code = process.wait()
-            # it may have come to its end in the moment before the signal
+            # it may have finished in the moment before the signal
             self.assertIn(code, (-9, 0, 1))
             return code == -9
 

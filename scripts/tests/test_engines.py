@@ -78,24 +78,35 @@ class Bullet(unittest.TestCase):
                       "contact.slips-at-coulomb-s-slope", "ball.slides-as-coulomb-says",
                       "capstan.slips-at-euler-s-ratio"} | MODULI)
 
-    def test_what_its_page_records_is_seen_without_the_adapter(self) -> None:
-        program = ROOT / "build" / "engines" / "bullet_laws"
+    def lines_without_the_adapter(self, name: str) -> list[str]:
+        """What a program of Bullet alone prints, below its heading."""
+        program = ROOT / "build" / "engines" / f"bullet_{name}"
         libraries = ("BulletSoftBody", "BulletDynamics", "BulletCollision", "LinearMath")
         built = run(
             "g++", "-std=c++17", "-w", "-DBT_USE_DOUBLE_PRECISION", "-isystem",
-            "/usr/include/bullet", "verification/subjects/adapters/bullet/repro/laws.cpp", "-o",
+            "/usr/include/bullet", f"verification/subjects/adapters/bullet/repro/{name}.cpp", "-o",
             program, *(f"-l{name}-float64" for name in libraries)
         )
         self.assertEqual(built.returncode, 0, built.stderr)
-        lines = run(program).stdout.splitlines()[1:]
-        numbers, speed, drift, twice, slide = (
-            float(line.rsplit(" by ")[1].split()[0]) for line in lines
-        )
+        return run(program).stdout.splitlines()[1:]
+
+    def test_what_its_page_records_is_seen_without_the_adapter(self) -> None:
+        lines = self.lines_without_the_adapter("laws")
+        numbers, speed, drift, twice = (float(line.rsplit(" by ")[1].split()[0]) for line in lines)
         self.assertGreater(numbers, 1e-6)  # m
         self.assertAlmostEqual(speed, 4.75e-8, delta=1e-9)  # g t
         self.assertGreater(drift, 1e-15)  # of the velocity
         self.assertEqual(twice, 0)
-        self.assertAlmostEqual(slide, 0.593, delta=0.002)  # of Coulomb's way
+
+    def test_its_friction_takes_a_share_of_the_speed_without_the_adapter(self) -> None:
+        rows = [line.split() for line in self.lines_without_the_adapter("friction")[1:]]
+        self.assertEqual(len(rows), 28)
+        for row in rows:
+            _, mu, over, coulomb, way, _ = map(float, row)
+            share = 2 * (1 - mu) / mu / 200 if over > 0.6 else 0  # the same for all slopes
+            self.assertAlmostEqual(way, share, delta=0.03 * share + 1e-4)
+            if over > 1:
+                self.assertLess(way, coulomb / 2)
 
 
 class Npm(unittest.TestCase):
@@ -147,15 +158,19 @@ class MuJoCo(Npm):
         },
     }
 
+    ADAPTER = ROOT / "verification/subjects/adapters/mujoco"
+
+    def lines_without_the_adapter(self, name: str) -> list[str]:
+        """What a script of MuJoCo alone prints, below its heading."""
+        copy = ROOT / "build" / "engines" / "mujoco" / f"{name}.mjs"
+        copy.write_bytes((self.ADAPTER / "repro" / copy.name).read_bytes())
+        return run("node", copy).stdout.splitlines()[1:]
+
     def test_the_modulus_is_as_recorded_without_the_adapter(self) -> None:
         """The script of its page, and the numbers there."""
-        adapters = ROOT / "verification/subjects/adapters/mujoco"
-        script = adapters / "repro" / "uniaxial.mjs"
-        copy = ROOT / "build" / "engines" / "mujoco" / script.name
-        copy.write_bytes(script.read_bytes())
-        rows = [line.split() for line in run("node", copy).stdout.splitlines()[2:]]
+        rows = [line.split() for line in self.lines_without_the_adapter("uniaxial")[1:]]
         self.assertEqual(len(rows), 6)
-        page = (adapters / "README.md").read_text(encoding="utf-8")
+        page = (self.ADAPTER / "README.md").read_text(encoding="utf-8")
         recorded = [
             [float(cell) for cell in line.strip("|").split("|")]
             for line in page.splitlines()
@@ -164,6 +179,13 @@ class MuJoCo(Npm):
         for row, expected in zip(rows, 2 * recorded, strict=True):
             for cell, value in zip(row[1:], expected, strict=True):
                 self.assertAlmostEqual(float(cell), value, delta=0.0011)
+
+    def test_bending_is_as_recorded_without_the_adapter(self) -> None:
+        lines = self.lines_without_the_adapter("bending")
+        rigidity, lower, upper = (float(line.split(": ")[1].split()[0]) for line in lines)
+        self.assertAlmostEqual(rigidity, 0.5, delta=1e-3)
+        self.assertAlmostEqual(lower, 0.77, delta=1e-3)
+        self.assertEqual(upper, 0)
 
 
 del Npm  # only the engines are run

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "reference/types.h"
@@ -35,18 +34,17 @@ ResultStore::ResultStore(std::string folder) : folder_(std::move(folder)) {
 }
 
 void ResultStore::read_shard(const std::string& path, const std::string& shard) {
-  std::ifstream file(path);
-  for (std::string text; std::getline(file, text);) {
+  read_whole_lines(path, 0, [&](const std::string& text) {
     const json record = json::parse(text, nullptr, false);
     try {
       if (record.contains("start")) ++starts_[record.at("start").get<std::string>()];
-      if (!record.contains("result")) continue;
+      if (!record.contains("result")) return;
       const Line line{record.at("texts").get<std::map<std::string, std::string>>(),
                       record.at("arrays").get<std::map<std::string, size_t>>(), shard};
       results_[record.at("result").get<std::string>()].push_back(line);
-    } catch (const json::exception&) {  // torn, or none of ours
+    } catch (const json::exception&) {  // none of ours
     }
-  }
+  });
 }
 
 std::string ResultStore::arrays_file(const std::string& key, const std::string& shard) const {

@@ -21,7 +21,8 @@ TEST_CASE("subject: parameters that mean something else are found") {
         std::set<std::string>{"calibration.bending-rigidity-is-the-scene-s"});
 }
 
-TEST_CASE("subject: bending that nobody asked for, and springs that only pull, are found") {
+TEST_CASE("subject: bending that nobody asked for, and springs that only pull, are found",
+          "[long]") {
   require_law_fails("bends_unasked", "chain.limp-strip-sags-as-a-catenary");
   require_law_fails("springs_pull_alone", "buckling.upright-strip-falls-at-greenhill-s-load");
   // four times the rigidity carries four times the weight, in shorter steps: no false alarm
@@ -39,15 +40,15 @@ TEST_CASE("subject: a strip without bending hangs limp, and the law says so in n
   CHECK(record.finding.note.find("limp, 1.00 of its length low") != std::string::npos);
 }
 
-TEST_CASE("subject: bent strips raise no alarm for bending of another kind or rigidity") {
+TEST_CASE("subject: bent strips raise no alarm for bending of another kind or rigidity", "[long]") {
   for (const char* kind : {"bends", "bends_fourfold"}) {
     INFO(kind);
     CHECK(failing_laws(kind, laws_of({"strip"})) == std::set<std::string>{});
   }
 }
 
-TEST_CASE(
-    "subject: bending that is wrong where a sheet is turned over, or sharply bent, is found") {
+TEST_CASE("subject: bending that is wrong where a sheet is turned over, or sharply bent, is found",
+          "[long]") {
   const std::string loops = "strip.loops-hang-as-the-elastica",
                     rings = "strip.rings-take-the-elastica-s-shape",
                     wrinkles = "strip.wrinkles-take-the-elastica-s-shape",
@@ -59,7 +60,8 @@ TEST_CASE(
                               wrinkles, fold});
 }
 
-TEST_CASE("subject: a strip on edge that tips too late or too early is found, no other one") {
+TEST_CASE("subject: a strip on edge that tips too late or too early is found, no other one",
+          "[long]") {
   const std::string tips = "buckling.strip-on-edge-tips-at-its-load";
   for (const char* kind : {"bends", "bends_fourfold"})
     CHECK(outcome_of_law(kind, tips) == Outcome::holds);

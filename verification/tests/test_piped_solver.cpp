@@ -143,7 +143,7 @@ TEST_CASE("subject: after a failure the next law goes on") {
   CHECK(rest->outcome == Outcome::holds);
 }
 
-TEST_CASE("subject: correct solvers raise no alarm, in single and double precision") {
+TEST_CASE("subject: correct solvers raise no alarm, in single and double precision", "[long]") {
   for (const char* kind : {"none", "single", "damped", "backward_euler", "backward_euler_single"}) {
     INFO(kind);
     CHECK(failing_laws(kind) == std::set<std::string>{});

@@ -167,8 +167,7 @@ void judge(Ablation& one) {
 /// Why nothing can be said of the scene's parts: its own run is not what its author
 /// wants; "" if it is.
 std::string wrong_by_itself(const Ablation& one) {
-  if (!one.scene.stopped.empty())
-    return "the scene itself does not come to its end: " + one.scene.stopped;
+  if (!one.scene.stopped.empty()) return "the scene itself stops early: " + one.scene.stopped;
   if (one.scene.failed_keys.empty()) return "";
   return fmt::format("expectations of the scene itself fail: {}",
                      fmt::join(one.scene.failed_keys, ", "));

@@ -5,9 +5,11 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 
 #include "convergence/any_case/precision_report.h"
+#include "scripts/program/any_case/precision_of_solver.h"
 #include "scripts/program/command_line/input_files.h"
 #include "scripts/program/command_line/out_folder.h"
 #include "scripts/program/command_line/typed_command.h"
@@ -124,6 +126,17 @@ void print(const PrecisionAnswer& answer) {
       "and the next longer one, which is not.\n");
 }
 
+/// Another solver's answer, and how it understood the case.
+struct SolverAnswer {
+  SolverPrecision precision;
+  std::vector<std::pair<std::string, std::string>> mapping;
+};
+
+void print(const SolverAnswer& solver, const PrecisionAnswer& reference) {
+  print(solver.precision, reference);
+  for (const auto& [key, value] : solver.mapping) fmt::print("mapping of {}: {}\n", key, value);
+}
+
 json to_json(const Opinion& opinion) {
   return {{"method", opinion.method},
           {"steps_a_frame", opinion.parts},
@@ -194,13 +207,26 @@ json to_json(const PrecisionAnswer& answer) {
 }
 
 /// The answer, with the program, and how the case was asked.
-json to_json(const PrecisionAnswer& answer, const Options& options) {
+json to_json(const PrecisionAnswer& answer, const std::optional<SolverAnswer>& solver,
+             const Options& options) {
   json all = to_json(answer);
+  if (solver) {
+    all["solver"] = to_json(solver->precision, answer);
+    for (const auto& [key, value] : solver->mapping) all["solver"]["mapping"][key] = value;
+  }
   all["end"] = read_case(case_file(options.file), options.overrides).scene.schedule.end;
   all["asked_end"] = answer.plan.input_case.scene.schedule.end;
   all["overrides"] = options.overrides;
   all["program"] = program_json(options.command);
   return all;
+}
+
+/// Frames of the run that the truth is made of [s].
+std::vector<double> times_of_truth(const PrecisionAnswer& answer, const Trials& trials) {
+  const auto runs = trials.runs.find(answer.truth.first.method);
+  if (runs == trials.runs.end()) return {};
+  const auto run = runs->second.find(answer.truth.first.parts);
+  return run == runs->second.end() ? std::vector<double>() : run->second.times;
 }
 
 bool is_answered(const PrecisionAnswer& answer) {
@@ -215,25 +241,35 @@ int precision(const Options& options) {
   const auto start = std::chrono::steady_clock::now();
   const LevelSetProvider level_sets = memoizing_provider(provider_for(options.cache));
   const PrecisionPlan plan = plan_of(options, level_sets);
+  std::optional<PrecisionOfSolver> other;  // refuses now what it cannot run
+  if (!options.solver.empty()) other.emplace(options, plan, level_sets);
   const OutFolder folder(options.out);
   log_warnings(plan.input_case.scene);
   ResultStore store(options.out + "/store");
   const InterruptionNotice notice("finished runs are kept in " + options.out + "/store",
                                   typed_again(options.words));
-  const PrecisionAnswer answer =
-      precision_answer(plan, all_trials(plan, level_sets, store, options.running));
+  const Trials trials = all_trials(plan, level_sets, store, options.running);
+  const PrecisionAnswer answer = precision_answer(plan, trials);
+  std::optional<SolverAnswer> solver;
+  if (other) {
+    SolverPrecision of_solver = other->answer(answer, times_of_truth(answer, trials));
+    solver = {std::move(of_solver), other->mapping()};
+  }
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   RunRecord run;
   run.provenance = provenance(options.command);
   run.seconds = seconds;
   run.studies = {precision_record(answer, seconds)};
+  if (solver) run.studies.push_back(solver_precision_record(solver->precision, answer));
   write_run(options.out + "/precision.h5", run);
-  if (options.json)
-    fmt::print("{}\n", json_text(to_json(answer, options)));
-  else
+  if (options.json) {
+    fmt::print("{}\n", json_text(to_json(answer, solver, options)));
+  } else {
     print(answer);
-  return is_answered(answer) ? all_hold : some_fail;
+    if (solver) print(*solver, answer);
+  }
+  return is_answered(answer) && (!solver || solver->precision.is_answered()) ? all_hold : some_fail;
 }
 
 }  // namespace foldproof

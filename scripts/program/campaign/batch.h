@@ -35,7 +35,7 @@ struct BatchTerms {
 ///   slices/000000.jsonl  a job a line
 ///   shards/0000/*.jsonl  results (verification/files/job_store.h), a folder for 100 slices
 ///   alive                touched by who runs it here, every few seconds
-///   ended                it has come to its end, or was given up
+///   ended                it has finished, or was given up
 struct Batch {
   std::string folder, name;
   BatchTerms terms;

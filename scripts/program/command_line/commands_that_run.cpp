@@ -158,17 +158,14 @@ void add_ablate(CLI::App& app, Options& options) {
 }
 
 /// Another solver, whose steps are halved beside the reference's.
-void add_ladder_of_solver(CLI::App* converge, Options& options) {
-  converge
-      ->add_option("--solver", options.solver,
-                   "Also halve the steps of another solver, started by this command")
-      ->type_name("CMD")
-      ->check(some_text("a command"))
-      ->excludes("--in")
-      ->excludes("--refine-objects");
-  add_solver_options(converge, options);
+CLI::Option* add_other_solver(CLI::App* command, Options& options, const std::string& words) {
+  CLI::Option* solver = command->add_option("--solver", options.solver, words)
+                            ->type_name("CMD")
+                            ->check(some_text("a command"));
+  add_solver_options(command, options);
   for (const char* of_solver : {"--seconds", "--settings"})
-    converge->get_option(of_solver)->needs("--solver");
+    command->get_option(of_solver)->needs("--solver");
+  return solver;
 }
 
 void add_converge(CLI::App& app, Options& options) {
@@ -185,7 +182,10 @@ void add_converge(CLI::App& app, Options& options) {
              "In both: errors to find the cheapest step and mesh for, as shares of the motion "
              "(default: 1e-2,1e-3)");
   add_overrides(converge, options);
-  add_ladder_of_solver(converge, options);
+  add_other_solver(converge, options,
+                   "Also halve the steps of another solver, started by this command")
+      ->excludes("--in")
+      ->excludes("--refine-objects");
   add_folder(converge, options,
              "Folder whose store/ keeps every run; a second call runs only missing ones")
       ->capture_default_str();
@@ -216,6 +216,8 @@ void add_precision(CLI::App& app, Options& options) {
       ->check(positive_number())
       ->capture_default_str();
   add_overrides(precision, options);
+  add_other_solver(precision, options,
+                   "Also find the steps of another solver, started by this command");
   add_folder(precision, options,
              "Folder for precision.h5; its store/ keeps every run, and a second call makes only "
              "what is missing")

@@ -288,7 +288,7 @@ memory or --hours is refused; the other levels still give a result. Seconds are 
 run's own thread. DIR/converge.h5 is for `foldproof report DIR`.
 
 Examples:
-  foldproof converge flat_hanging --solver ./adapter --settings iterations=20
+  foldproof converge hanging_sheet --solver ./adapter --settings iterations=20
   foldproof converge hanging_sheet --in space --set cloth.columns=6 --set cloth.rows=6 --until 0.3
 
 Exit codes:
@@ -310,13 +310,19 @@ price   interpolated between the two runs that bracket the error. Methods are ti
         are closer than the steps tried. The steps of the cheapest methods must also be stable in a
         run three times as long: its kinetic energy is at most twice that with half the step.
 
+--solver CMD also finds step and price of another solver (verification/subjects/PROTOCOL.md).
+Its steps are equal from frame to frame, and halved until the error bar of the finest run is a tenth
+of the least wanted error, or a run would take 10 s (times --effort) by the clock. Its error is the
+distance from its finest run, and that run's error bar, over the reference's motion. Says how far
+its limit is from the reference's truth, and whether steps explain it. Its runs are not kept.
+
 Examples:
-  foldproof precision hinge --until 0.2
+  foldproof precision hanging_sheet --until 0.2 --solver ./adapter --settings iterations=20
   foldproof precision hanging_sheet --method A,C,RK4 --errors 1e-2 --out mine
 
 Exit codes:
-  0    every wanted error is reached by some method, and the truth is good for it
-  1    no method reaches an error, or the truth is not known well enough
+  0    every wanted error is reached by some method, and by the solver; the truth is good for it
+  1    no method, or not the solver, reaches an error; or the truth is not known well enough
   2    bad input, or a file that cannot be written)";
 
 constexpr const char* campaign =

@@ -8,6 +8,7 @@
 #include "verification/oracles/chains_and_ribbons.h"
 #include "verification/oracles/folds.h"
 #include "verification/oracles/homogenised_bending.h"
+#include "verification/oracles/sheets/deep_wrinkles.h"
 #include "verification/oracles/sheets/hung_cone.h"
 #include "verification/oracles/sheets/stretched_wrinkles.h"
 
@@ -104,6 +105,26 @@ Table stretched_wrinkles_agree() {
             {rigidity.value - rigidity.uncertainty, next_term * rigidity.uncertainty},
             {rigidity_of_springs(T, edge, edges_a_wave), 1e-12});
   }
+  return answers;
+}
+
+Table deep_wrinkles_agree() {
+  Table answers = no_answers();
+  const auto at = [](const oracles::DeepWrinkles& w) {
+    return ", reach " + std::to_string(w.reach) + ", compression " + std::to_string(w.compression);
+  };
+  for (const oracles::DeepWrinkles& wrinkles :
+       {oracles::DeepWrinkles{0.11, 1.1, 1.3}, {0.085, 0.9, 7.3}, {0.14, 1.6, 3.7}}) {
+    const oracles::DeepWrinkleHeight series = oracles::deep_wrinkles_by_series(wrinkles, {});
+    compare(answers, "height" + at(wrinkles), series.middle,
+            oracles::deep_wrinkles_by_shooting(wrinkles, series));
+  }
+  // far beyond the onset the middle is level and does not feel the clamps
+  const oracles::DeepWrinkles deep{0.023, 0.52, 6.1};
+  const double k = 2 * pi / deep.wavelength;
+  compare(answers, "height far beyond" + at(deep),
+          oracles::deep_wrinkles_by_series(deep, {}).middle,
+          {std::sqrt(1 - std::pow(deep.reach * k, 2) / deep.compression), 1e-8});
   return answers;
 }
 

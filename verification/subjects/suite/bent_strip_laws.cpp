@@ -150,12 +150,12 @@ double share_of_chords(const Eigen::Matrix2Xd& rows) {
   return sum / double(rows.cols() - 2) / 24;
 }
 
-/// How far forces that round positions may change a row's weight [1]. Throws NotOffered if
-/// that is half of it.
+/// How far forces that round positions may change a row's weight [1]. Throws NotOffered if that
+/// is a tenth of it.
 double rounding_of_load(const PortableScene& scene, const Declaration& declared) {
   const double of_force = scene.material.young * declared.rounding() * length / h,  // N/m
       share = of_force / (scene.material.density * scene.gravity.norm() * h);
-  if (share < 0.5) return share;
+  if (share < 0.1) return share;
   throw NotOffered{fmt::format("digits enough: rounding makes {:.2g} of a row's weight", share)};
 }
 

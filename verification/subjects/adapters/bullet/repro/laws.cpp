@@ -96,15 +96,12 @@ double largest_difference(const Points& a, const Points& b) {
   return largest;
 }
 
-Points move_position_based(Sheet& sheet, const btVector3& gravity, int steps,
-                           btRigidBody* obstacle = nullptr) {
+Points move_position_based(Sheet& sheet, const btVector3& gravity, int steps) {
   btSequentialImpulseConstraintSolver constraints;
   btSoftRigidDynamicsWorld world(&dispatcher, &sheet.broadphase, &constraints, &configuration);
   world.setGravity(gravity);
   world.addSoftBody(sheet.body);
-  if (obstacle) world.addCollisionObject(obstacle);
   for (int k = 0; k < steps; ++k) world.stepSimulation(dt, 0);
-  if (obstacle) world.removeCollisionObject(obstacle);
   const Points end = sheet.positions();
   world.removeSoftBody(sheet.body);
   return end;
@@ -137,27 +134,6 @@ void drift() {
     worst = std::max(worst, double((sheet.body->m_nodes[i].m_v - v).length()));
   std::printf("position based, drifting sheet: velocity changes by %.3g of it\n",
               worst / v.length());
-}
-
-/// On a level box, under tilted gravity.
-void slide(double degrees, double friction) {
-  const double angle = degrees * SIMD_PI / 180, time = 50 * dt;
-  const btVector3 gravity(9.81 * std::sin(angle), 0, -9.81 * std::cos(angle));
-  Sheet sheet(false, 1, gravity, btVector3(0, 0, 0));
-  sheet.info.m_sparsesdf.Initialize();
-  sheet.body->m_cfg.kDF = 1;
-  sheet.body->getCollisionShape()->setMargin(1e-4);
-  btBoxShape box(btVector3(5, 5, 5));
-  box.setMargin(0);
-  btRigidBody ground(0, nullptr, &box);
-  ground.setCenterOfMassTransform(btTransform(btQuaternion::getIdentity(), btVector3(0, 0, -5)));
-  ground.setFriction(friction);
-  const Points start = sheet.positions(), end = move_position_based(sheet, gravity, 50, &ground);
-  double way = 0;
-  for (size_t i = 0; i < start.size(); ++i) way += (end[i] - start[i]).x() / double(start.size());
-  const double coulomb = 9.81 * (std::sin(angle) - friction * std::cos(angle)) * time * time / 2;
-  std::printf("position based, slope of %g degrees, mu %g: too short by %.3g of Coulomb's way\n",
-              degrees, friction, 1 - way / coulomb);
 }
 
 /// A step from a state, and the same again after others.
@@ -199,5 +175,4 @@ int main() {
   speed_of_a_fall();
   drift();
   explicit_steps();
-  slide(20, 0.1);
 }

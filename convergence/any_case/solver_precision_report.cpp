@@ -1,0 +1,152 @@
+// The price of a wanted error with another solver, in words, figures and tables.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "convergence/any_case/ladder_study.h"
+#include "convergence/any_case/solver_precision.h"
+
+namespace foldproof {
+
+namespace {
+
+constexpr double percent = 100, milli = 1e-3;
+
+const PriceList* prices_at(const PrecisionAnswer& reference, double wanted) {
+  const auto list = std::ranges::find(reference.lists, wanted, &PriceList::wanted);
+  return list == reference.lists.end() || std::isnan(list->prices.front().price.applications)
+             ? nullptr
+             : &*list;
+}
+
+std::string price_in_words(const SolverPrice& price) {
+  if (!price.because.empty()) return price.because;
+  return fmt::format("h {} {:.3g} ms, {:.2g} s by the clock", price.is_longest_tried ? ">=" : "=",
+                     price.step / milli, price.seconds);
+}
+
+std::string beside(const PrecisionAnswer& reference, double wanted) {
+  const PriceList* list = prices_at(reference, wanted);
+  if (!list) return "the reference has no price for it";
+  const MethodPrice& best = list->prices.front();
+  return fmt::format("the reference with {} h = {:.3g} ms, {:.2g} s of the processor", best.method,
+                     best.price.step / milli, best.price.seconds);
+}
+
+std::string gap_in_words(const SolverPrecision& solver) {
+  const std::string head = fmt::format("the limit of {} is ", solver.plan.name);
+  if (std::isnan(solver.from_truth) || std::isnan(solver.explained))
+    return head + "not compared with the reference: one of them is not known";
+  return head +
+         fmt::format(
+             "{:.2g} % of the motion from the reference's truth, the error bars are {:.2g} %: {}",
+             percent * solver.from_truth / solver.plan.motion,
+             percent * solver.explained / solver.plan.motion,
+             solver.from_truth > solver.explained ? "steps do not explain it, so the models differ"
+                                                  : "steps may explain it");
+}
+
+struct CostAxis {
+  const char *name, *title;
+  double (*of_solver)(const SolverStep& step);
+  double (*of_reference)(const PrecisionRun& run, double end);
+};
+
+const CostAxis cost_axes[] = {
+    {"time",
+     "seconds: the solver's by the clock, through the pipe; the reference's of its processor",
+     [](const SolverStep& step) { return step.seconds; },
+     [](const PrecisionRun& run, double) { return run.seconds; }},
+    {"step", "step", [](const SolverStep& step) { return step.step; },
+     [](const PrecisionRun& run, double end) { return end / run.steps; }}};
+
+/// The reference's methods that win at some error.
+std::vector<std::string> winning_methods(const PrecisionAnswer& reference) {
+  std::vector<std::string> methods;
+  for (const PriceList& list : reference.lists)
+    for (const MethodPrice* price : winners(list))
+      if (!std::ranges::count(methods, price->method)) methods.push_back(price->method);
+  return methods;
+}
+
+Figure figure_of(const SolverPrecision& solver, const PrecisionAnswer& reference,
+                 const CostAxis& cost) {
+  Figure figure{cost.name,
+                fmt::format("Error against {}: {}", cost.name, solver.plan.name),
+                {cost.title, "s", Scale::log},
+                {"position error over the motion", "%", Scale::log},
+                nan,
+                "Each program's error is the distance from its own limit. Of the reference the "
+                "methods are shown that are cheapest at a wanted error.",
+                {}};
+  Curve curve{solver.plan.name, {}, {}, nan, {}};
+  for (const SolverStep& step : solver.steps)
+    if (std::isfinite(step.error)) curve.point(cost.of_solver(step), percent * step.error);
+  if (!curve.x.empty()) figure.curves.push_back(curve);
+  for (const std::string& method : winning_methods(reference)) {
+    const auto found = std::ranges::find(reference.curves, method, &MethodCurve::method);
+    Curve beside{"reference, " + method, {}, {}, percent * reference.truth.uncertainty, {}};
+    for (const PrecisionRun& run : found->curve.runs)
+      if (std::isfinite(run.error))
+        beside.point(cost.of_reference(run, solver.plan.end), percent * run.error);
+    figure.curves.push_back(std::move(beside));
+  }
+  return figure;
+}
+
+Table price_table(const SolverPrecision& solver, const PrecisionAnswer& reference) {
+  Table table{{"error wanted", "%"}, {"step", "s"},
+              {"clock", "s"},        {"cheapest method of the reference", "1"},
+              {"its step", "s"},     {"its processor time", "s"},
+              {"why no price", "1"}};
+  for (const SolverPrice& price : solver.prices) {
+    const PriceList* list = prices_at(reference, price.wanted);
+    const MethodPrice none{"none", {LimitedBy::not_reached, nan, nan, nan, nan}};
+    const MethodPrice& best = list ? list->prices.front() : none;
+    table.row(percent * price.wanted, price.step, price.seconds, best.method, best.price.step,
+              best.price.seconds, price.because);
+  }
+  return {"prices", "What a position error costs", table};
+}
+
+Table step_table(const SolverPrecision& solver) {
+  Table table{
+      {"steps a frame", "1"}, {"step", "s"}, {"error", "%"}, {"clock", "s"}, {"stopped", "1"}};
+  for (const SolverStep& step : solver.steps)
+    table.row(step.parts, step.step, percent * step.error, step.seconds, step.stopped);
+  return {"runs", "Every run; no error where it came to no end, or without an order", table};
+}
+
+}  // namespace
+
+std::vector<std::string> solver_sentences(const SolverPrecision& solver,
+                                          const PrecisionAnswer& reference) {
+  std::vector<std::string> sentences;
+  for (const SolverPrice& price : solver.prices)
+    sentences.push_back(fmt::format("{} at {:.3g} %: {}; {}", solver.plan.name,
+                                    percent * price.wanted, price_in_words(price),
+                                    beside(reference, price.wanted)));
+  sentences.push_back(gap_in_words(solver));
+  return sentences;
+}
+
+StudyRecord solver_precision_record(const SolverPrecision& solver,
+                                    const PrecisionAnswer& reference) {
+  StudyRecord record;
+  record.name = fmt::format("precision.{}.{}", reference.plan.input_case.scene.name,
+                            as_name(solver.plan.name));
+  record.claim = fmt::format("{}.", fmt::join(solver_sentences(solver, reference), ". "));
+  record.about =
+      "Which step of another solver reaches a wanted error, and what does it cost? Its steps are "
+      "equal from frame to frame, and halved from run to run. Its error is the distance from its "
+      "finest run, and that run's error bar; both over the reference's motion. Prices are "
+      "interpolated in logarithms between the two steps that bracket the error.";
+  for (const SolverStep& step : solver.steps) record.seconds += step.seconds;
+  for (const CostAxis& cost : cost_axes)
+    record.figures.push_back(figure_of(solver, reference, cost));
+  record.tables = {price_table(solver, reference), step_table(solver)};
+  return record;
+}
+
+}  // namespace foldproof

@@ -1,0 +1,118 @@
+// What a wanted error costs with another solver, from runs whose law of error is known.
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <functional>
+#include <string>
+
+#include "convergence/any_case/solver_precision.h"
+
+namespace foldproof {
+
+namespace {
+
+constexpr double motion = 1.7;  // m
+
+/// A particle that moves to `motion` and the error.
+LevelRun run_of_error(double error, double seconds) {
+  LevelRun run;
+  run.times = {0, 0.3};
+  run.x = {PerParticle3::Zero(3, 1), PerParticle3::Zero(3, 1)};
+  run.x[1](0, 0) = motion + error;
+  run.seconds = seconds;
+  return run;
+}
+
+SolverPlan plan_of(double order) {
+  SolverPlan plan;
+  plan.name = "made up";
+  plan.wanted = {1e-2, 1e-3};
+  plan.mass = PerParticle::Ones(1);
+  plan.motion = motion;
+  plan.end = plan.frame = 0.3;
+  plan.formal_order = order;
+  plan.floor = 1e-13;
+  plan.first = 4;
+  return plan;
+}
+
+/// All runs that are asked for; error: of so many steps a frame, over the motion.
+SolverRuns all_runs(const SolverPlan& plan, const std::function<double(int)>& error) {
+  SolverRuns runs;
+  for (int parts = next_parts(plan, runs); parts > 0; parts = next_parts(plan, runs)) {
+    REQUIRE(runs.size() < 40);
+    const double off = error(parts);
+    runs[parts] = run_of_error(motion * off, 1e-3 * parts);
+    if (std::isnan(off)) runs[parts].x.clear(), runs[parts].stopped = "unstable";
+  }
+  return runs;
+}
+
+SolverPrecision answer_of(const SolverPlan& plan, const std::function<double(int)>& error) {
+  return solver_precision(plan, all_runs(plan, error), {}, {});
+}
+
+}  // namespace
+
+TEST_CASE("solver's precision: prices follow its law of error") {
+  for (const double order : {1.0, 2.0}) {
+    const auto error = [order](int parts) { return 0.9 * std::pow(parts, -order); };
+    const SolverPrecision answer = answer_of(plan_of(order), error);
+    CHECK(answer.bar.reading == Reading::asymptotic);
+    CHECK(answer.is_answered());
+    for (const SolverPrice& price : answer.prices) {
+      const double parts = std::pow(0.9 / price.wanted, 1 / order);
+      // its errors include a bar of at most a tenth of the least error
+      CHECK(std::abs(price.step * parts / 0.3 - 1) < 0.1);
+      CHECK(std::abs(price.seconds / (1e-3 * parts) - 1) < 0.1);
+      CHECK_FALSE(price.is_longest_tried);
+    }
+  }
+}
+
+TEST_CASE("solver's precision: longer steps are tried where the first is better than needed") {
+  SolverPlan plan = plan_of(2);
+  plan.first = 256;
+  const SolverRuns runs = all_runs(plan, [](int parts) { return 0.9 * std::pow(parts, -2); });
+  CHECK(runs.begin()->first == 8);  // the first beyond 1 %
+  CHECK(std::isfinite(solver_precision(plan, runs, {}, {}).prices[0].step));
+}
+
+TEST_CASE("solver's precision: a step that is unstable is no price") {
+  const auto error = [](int parts) { return parts < 32 ? nan : 0.02 * std::pow(parts, -1.0); };
+  const SolverPrecision answer = answer_of(plan_of(1), error);
+  CHECK(answer.prices[0].step == 0.3 / 32);
+  CHECK(answer.steps.front().stopped == "unstable");
+  CHECK(std::isnan(answer.steps.front().error));
+}
+
+TEST_CASE("solver's precision: what takes too long, or has no order, has no price but a reason") {
+  SolverPlan plan = plan_of(1);
+  plan.most_seconds = 0.3;
+  const SolverPrecision dear = answer_of(plan, [](int parts) { return 0.9 / parts; });
+  CHECK(std::isfinite(dear.prices[0].step));
+  CHECK(dear.prices[1].because.find("would take too long") != std::string::npos);
+  CHECK_FALSE(dear.is_answered());
+  const SolverPrecision noisy =
+      answer_of(plan, [](int parts) { return 0.1 * std::sin(3.1 * std::log2(parts)); });
+  for (const SolverStep& step : noisy.steps) CHECK(std::isnan(step.error));
+  for (const SolverPrice& price : noisy.prices)
+    CHECK(price.because.find("show no order") != std::string::npos);
+}
+
+TEST_CASE("solver's precision: another limit than the reference's is told from steps") {
+  CaseTruth truth;
+  truth.first.x = run_of_error(0, 1).x;
+  truth.motion = motion;
+  truth.uncertainty = 1e-5;
+  const SolverPlan plan = plan_of(2);
+  for (const double off : {0.0, 0.02}) {
+    const SolverRuns runs = all_runs(plan, [&](int parts) { return off + std::pow(parts, -2); });
+    const SolverPrecision answer = solver_precision(plan, runs, truth, {0, 0.3});
+    CHECK((answer.from_truth > answer.explained) == (off > 0));
+    CHECK(std::abs(answer.from_truth / motion - off) < 2e-4);
+    CHECK(std::isnan(solver_precision(plan, runs, truth, {0, 0.2}).from_truth));
+  }
+}
+
+}  // namespace foldproof

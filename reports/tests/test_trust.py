@@ -1,0 +1,74 @@
+"""Tests of what a report shows beside its run: coverage, variants, other machines; run with
+reports/tests/test_reports.py."""
+from __future__ import annotations
+
+import json
+import tempfile
+import unittest
+from pathlib import Path
+
+from make_report import make_report
+from tests.made_up_run import HOSTILE, put_run
+
+
+class Beside(unittest.TestCase):
+    """Files of other scripts beside a run."""
+
+    def setUp(self) -> None:
+        self.folder = tempfile.TemporaryDirectory()
+        self.root = Path(self.folder.name)
+        self.addCleanup(self.folder.cleanup)
+
+    def made(self) -> str:
+        """The text of the folder's report."""
+        page = make_report(self.root, self.root / "report.html", self.root / "figures")
+        return page.read_text(encoding="utf-8")
+
+    def read(self, text: str) -> None:
+        """No text of a file has become a tag."""
+        self.assertIn("&lt;script&gt;alert", text)
+        self.assertNotIn("<script>alert", text)
+
+    def test_coverage_is_shown_with_the_lines_that_never_ran(self) -> None:
+        put_run(self.root)
+        self.assertNotIn('id="coverage"', self.made())
+        row = {"lines": 40, "lines_reached": 36, "branches": 10, "branches_taken": 5}
+        file = {**row, "file": "reference/" + HOSTILE, "lines_missed": [3, 4, 5, 9]}
+        told = {"commit": "abc", "ran": "checks", "least": 95.0, "total": row, "files": [file]}
+        (self.root / "coverage.json").write_text(json.dumps(told))
+        text = self.made()
+        self.assertIn("90.0 % of 40 lines", text)
+        self.assertIn("3–5, 9", text)
+        self.read(text)
+
+    def test_variants_are_shown_with_their_false_alarms(self) -> None:
+        put_run(self.root)
+        self.assertNotIn('id="variants"', self.made())
+        runs = [
+            {"variant": "clang", "options": ["check"], "findings": 7, "false_alarms": []},
+            {
+                "variant": "seeds", "options": ["check", "--seed", "3"], "findings": 5,
+                "false_alarms": [{"name": HOSTILE}]
+            },
+        ]
+        (self.root / "variants.json").write_text(json.dumps({"commit": "abc", "runs": runs}))
+        text = self.made()
+        self.assertIn("2 runs with 12 findings (commit abc), 1 of which did not hold", text)
+        self.assertIn("<code>foldproof check --seed 3</code>", text)
+        self.read(text)
+
+    def test_machines_are_shown_with_the_cases_that_are_apart(self) -> None:
+        put_run(self.root)
+        self.assertNotIn('id="machines"', self.made())
+        apart = [{"case": HOSTILE, "apart": 3e-14, "bound": 2e-13},
+                 {"case": "fast", "apart": 0.5, "bound": 0.25}]
+        rows = [{"machine": "old-libm", "cases": 7, "apart": apart},
+                {"machine": "aarch64", "cases": 7, "apart": []}]
+        told = {"seconds": 0.1, "commit": "abc", "machines": rows}
+        (self.root / "machines.json").write_text(json.dumps(told))
+        text = self.made()
+        section = text[text.index('id="machines"'):]
+        self.assertIn("5 of 7", section)
+        self.assertIn("7 of 7", section)
+        self.assertIn("1 of 14 is further apart", section)
+        self.read(text)
