@@ -30,8 +30,7 @@ struct DeepWrinkle {
   bool stable = false;             // against waves like these
 };
 
-/// Lets half a wave settle. One clamp may move along the tension,
-/// which is a force.
+/// Lets half a wave settle. One clamp may move along the tension, which is a force.
 DeepWrinkle deep_wrinkle(const Subject& subject, const DeepWrinkleSheet& sheet);
 
 }  // namespace foldproof

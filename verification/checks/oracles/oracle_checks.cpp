@@ -103,8 +103,8 @@ constexpr Comparison comparisons[] = {
      "the scaling law; the rigidity that tension adds is that of a lattice of springs.",
      stretched_wrinkles_agree},
     {"oracle.deep-wrinkles-agree",
-     "The oracle's heights of wrinkles beyond their onset are the same by a series and by shooting, "
-     "and tend to a closed form far beyond it.",
+     "The oracle's heights of wrinkles beyond their onset are the same by a series and by "
+     "shooting, and tend to a closed form far beyond it.",
      deep_wrinkles_agree},
     {"oracle.hung-cones-agree",
      "The oracle's cone that hangs from its tip is the same by a series and by shooting, and tends "
