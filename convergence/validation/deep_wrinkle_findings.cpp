@@ -53,7 +53,7 @@ DepthLadder ladder_at(const Subject& subject, double over_onset, Tier tier, Tabl
   amplitudes.ratio = 1.5;
   amplitudes.floor = 1e-6;
   const std::vector<int> edges_a_wave =
-      tier == Tier::quick ? std::vector{12, 18, 27} : std::vector{20, 30, 45};
+      tier == Tier::quick ? std::vector{12, 18, 27} : std::vector{16, 24, 36};
   for (const int edges : edges_a_wave) {
     const DeepWrinkleSheet sheet = sheet_of(over_onset, edges);
     result.finest = deep_wrinkle(subject, sheet);
@@ -165,7 +165,7 @@ void add_deep_wrinkles(const Subject& subject, Tier tier, const Progress& progre
                {"largest force over T edge", "1"}};  // no number: not stable
   std::vector<DepthLadder> ladders;
   const std::vector<double> depths =
-      tier == Tier::quick ? std::vector{4.0, 8.0} : std::vector{1.5, 2.0, 3.0, 4.0, 6.0, 8.0};
+      tier == Tier::quick ? std::vector{4.0, 8.0} : std::vector{2.0, 3.0, 4.0, 6.0, 8.0};
   for (const double depth : depths) {
     ladders.push_back(ladder_at(subject, depth, tier, levels));
     progress((1 + double(ladders.size()) / double(depths.size())) / 2);

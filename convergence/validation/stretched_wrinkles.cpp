@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "convergence/validation/clamped_findings.h"
 #include "convergence/validation/comparison.h"
 #include "convergence/validation/deep_wrinkle_findings.h"
 #include "convergence/validation/studies.h"
@@ -315,6 +316,7 @@ StudyResult run_stretched_wrinkles(const Subject& subject, Tier tier, const Prog
   result.figures = {wavelength_figure(ladders), profile_figure(ladders.front()), coarse};
   result.tables.push_back({"meshes", "Every sheet on every mesh", levels});
   add_deep_wrinkles(subject, tier, progress, result);
+  if (tier == Tier::full) add_clamped_wrinkles(subject, result);
   return result;
 }
 
@@ -343,8 +345,14 @@ Study stretched_wrinkles_study() {
       "folded away its own part, or keeps it as stress close to the clamps. So the profile is flat "
       "where it is deep, and A tends to (1/pi) wavelength (Delta/W)^(1/2). The wavelength is not "
       "sought anew there, and deeper waves, whose rests were found not to be stable, are left out. "
-      "In an experiment the compression comes from the clamps, which keep the ends from narrowing; "
-      "that is not compared.",
+      "In an experiment the clamps compress the sheet, since they keep the ends from narrowing. "
+      "The full tier has such a sheet, twice as long as wide, with free long edges and springs "
+      "whose Poisson's ratio is 1/3: flat, to see where it is compressed (Nayyar, Ravi-Chandar and "
+      "Huang, Int. J. Solids Struct. 48 (2011) 3471, find where hyperelastic sheets are); then at "
+      "the strain at which it leaves its plane; then at four times that. A quarter of it is "
+      "computed, so its waves have a crest on the middle line. Strains are below 0.001, where only "
+      "the ratio of lengths and the onset matter; wrinkles that vanish again under large strains "
+      "are not seen, and no measured sheet is compared.",
       run_stretched_wrinkles,
       "validation"};
 }
