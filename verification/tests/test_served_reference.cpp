@@ -185,7 +185,7 @@ TEST_CASE(
   CHECK(counted["asked"] >= 60);
 }
 
-TEST_CASE("served reference: no law raises an alarm, in f8 and f4") {
+TEST_CASE("served reference: no law raises an alarm, in f8 and f4", "[long]") {
   for (const char* integrator : {"A", "C", "RK4", "backward-euler", "implicit-midpoint"})
     for (const char* precision : {"f8", "f4"}) {
       const SolverCommand command = serve(integrator, precision);
