@@ -78,7 +78,7 @@ Figure figure_of(const PrecisionAnswer& answer, const CostAxis& cost) {
       {"position error over the motion", "%", Scale::log},
       nan,
       "Root mean square over the free particles, in the worst frame, over the largest such "
-      "distance from the start. In the strip at the top: runs that came to no end or err by more "
+      "distance from the start. In the strip at the top: runs that did not finish or err by more "
       "than the motion. The floor is the distance of the two opinions on the truth.",
       {}};
   for (const MethodCurve& method : answer.curves) {

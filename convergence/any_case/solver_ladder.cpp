@@ -144,8 +144,9 @@ std::string in_words(const SolverGap& gap, const std::string& solver) {
       solver, gap.distance, gap.solver_bar, gap.reference_bar);
   if (!gap.are_estimates || !std::isfinite(gap.distance))
     return apart + "without an order of both, nothing can be said";
-  return apart + (gap.is_beyond_steps() ? "steps do not explain it, so the models differ"
-                                        : "steps may explain it");
+  return apart + (gap.is_beyond_steps()
+                      ? "the time step does not explain the difference, so the models differ"
+                      : "steps may explain it");
 }
 
 }  // namespace foldproof

@@ -43,8 +43,9 @@ std::string gap_in_words(const SolverPrecision& solver) {
              "{:.2g} % of the motion from the reference's truth, the error bars are {:.2g} %: {}",
              percent * solver.from_truth / solver.plan.motion,
              percent * solver.explained / solver.plan.motion,
-             solver.from_truth > solver.explained ? "steps do not explain it, so the models differ"
-                                                  : "steps may explain it");
+             solver.from_truth > solver.explained
+                 ? "the time step does not explain the difference, so the models differ"
+                 : "steps may explain it");
 }
 
 struct CostAxis {

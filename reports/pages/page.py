@@ -244,7 +244,11 @@ def program_of(page: Page) -> str:
 
 
 def commands_of(page: Page) -> dict[str, str]:
-    """Commands that repeat findings of simulations outside a verification run."""
+    """Commands that repeat findings outside a verification run: of simulations, and of a trial of
+    another solver, which knows no single law."""
+    typed = str(page.provenance.get("command", ""))
+    if typed.split(" ")[1:2] == ["judge"]:
+        return {finding.name: typed for finding in page.all_findings()}
     if not page.alone:
         return {}
     made_by = {

@@ -7,8 +7,10 @@ import tempfile
 import unittest
 from pathlib import Path
 
+import h5py
+
 from make_report import make_report
-from tests.made_up_run import HOSTILE, put_run
+from tests.made_up_run import HOSTILE, put, put_run
 
 
 class Beside(unittest.TestCase):
@@ -72,3 +74,11 @@ class Beside(unittest.TestCase):
         self.assertIn("7 of 7", section)
         self.assertIn("1 of 14 is further apart", section)
         self.read(text)
+
+    def test_a_law_is_repeated_by_its_whole_trial(self) -> None:
+        put_run(self.root)
+        with h5py.File(self.root / "run.h5", "a") as file:
+            put(file, command="build/foldproof judge --solver 'cmd'", subject="another")
+        text = self.made()
+        self.assertIn("build/foldproof judge --solver &#39;cmd&#39;", text)
+        self.assertNotIn("foldproof check", text)

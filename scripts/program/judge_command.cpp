@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
@@ -107,9 +108,10 @@ std::optional<StudyRecord> error_against_cost(const Judgement& judgement) {
   return study;
 }
 
-RunRecord run_of(const Judgement& judgement, const Options& options) {
+RunRecord run_of(const Judgement& judgement, double seconds, const Options& options) {
   RunRecord run;
   run.provenance = provenance(options.command);
+  run.seconds = seconds;
   run.tier = options.tier;
   run.subject = options.name.empty() ? judgement.declaration.name : options.name;
   if (run.subject.empty()) run.subject = options.solver;
@@ -131,12 +133,15 @@ int judge_another_solver(const Options& options) {
   const auto baseline = baseline_of(options);
   const OutFolder folder(options.out);
   const SolverCommand command = solver_command(options);
+  const auto start = std::chrono::steady_clock::now();
   const Judgement judgement = judge_solver(command, portable_laws(), [](const Record& record) {
     if (record.outcome != Outcome::holds && record.outcome != Outcome::not_applicable)
       log_line(fmt::format("{} {}", outcome_text(record), record.name));
   });
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const std::string below = judgement.smoke_holds ? "" : smoke_failed;
-  return finish_trial({run_of(judgement, options), solver_json(judgement, command),
+  return finish_trial({run_of(judgement, seconds, options), solver_json(judgement, command),
                        heading(judgement, command), below},
                       baseline, options);
 }

@@ -98,6 +98,20 @@ TEST_CASE("subject: headers that are no answer are told") {
   require_failure("wrong_id", "header", "without the id");
 }
 
+TEST_CASE("subject: a capability that there is not is told by its name") {
+  nlohmann::json header = {{"protocol", 1},
+                           {"name", "n"},
+                           {"version", "1"},
+                           {"level", "L1"},
+                           {"precision", "f8"},
+                           {"scheme", {{"name", "s"}, {"order", 1}}},
+                           {"capabilities", {"spheres", "held"}}};
+  CHECK(read_declaration(header).offers("spheres"));
+  header["capabilities"].push_back("sphere");
+  CHECK_THROWS_WITH(read_declaration(header),
+                    Catch::Matchers::Contains("'sphere', which is no capability"));
+}
+
 TEST_CASE("subject: memory and files are limited") {
   SolverCommand command = broken("fill_memory");
   command.limits.memory_bytes = 768L << 20;

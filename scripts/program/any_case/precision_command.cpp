@@ -97,8 +97,9 @@ void print_methods(const PrecisionAnswer& answer) {
 void print_unstable(const PrecisionAnswer& answer) {
   for (const MethodCurve& curve : answer.curves)
     if (const double step = shortest_unstable_step(curve.curve.longer); std::isfinite(step))
-      fmt::print("{}: no price from steps of {:.3g} s on, unstable in a run three times as long\n",
-                 curve.method, step);
+      fmt::print(
+          "{}: steps of {:.3g} s or longer are not priced: unstable in a run three times as long\n",
+          curve.method, step);
 }
 
 /// A reason that holds for several errors is printed once.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <type_traits>
 
@@ -48,6 +49,21 @@ std::vector<std::string> texts_of(const json& header, const char* key) {
   return texts;
 }
 
+constexpr const char* known_capabilities[] = {"set_state",      "held",   "masses",  "damping",
+                                              "planes",         "boxes",  "spheres", "capsules",
+                                              "self_collision", "history"};
+
+/// A misspelt one would be believed, and its laws never asked.
+std::vector<std::string> capabilities_of(const json& header) {
+  const std::vector<std::string> declared = texts_of(header, "capabilities");
+  for (const std::string& one : declared)
+    if (std::ranges::find(known_capabilities, one) == std::end(known_capabilities))
+      throw SolverFailure("header",
+                          fmt::format("declared '{}', which is no capability; there are {}", one,
+                                      fmt::join(known_capabilities, ", ")));
+  return declared;
+}
+
 }  // namespace
 
 Work work_of(const json& header) {
@@ -78,7 +94,7 @@ Declaration read_declaration(const json& header) {
   declared.is_single = declares_single(text_of(header, "precision"));
   declared.scheme = text_of(scheme, "name");
   declared.order = int(std::clamp(number_of(scheme, "order", 0), 0.0, 9.0));
-  declared.capabilities = texts_of(header, "capabilities");
+  declared.capabilities = capabilities_of(header);
   declared.solve_tolerance = number_of(header, "solve_tolerance", 0);
   if (!(declared.solve_tolerance >= 0 && declared.solve_tolerance < 1))
     throw SolverFailure("header", "declared a solve_tolerance outside [0, 1)");

@@ -171,8 +171,8 @@ Finding rigidity_is_the_scene_s(Trial& trial) {
     measured.row(columns, rigidity, std::abs(rigidity / given - 1));
   }
   return judge_worst(measured, 0.05,
-                     "edges along both sides are no hinges: a ninth of the energy over the rows, "
-                     "1.4 % at 8; and what waves and steps add, as in the law of the modulus");
+                     "boundary edges carry no hinges: a ninth of the energy over the rows, 1.4 % "
+                     "at 8; and what waves and steps add, as in the law of the modulus");
 }
 
 }  // namespace

@@ -97,8 +97,8 @@ Finding gains_speed(Trial& trial) {
   measured.row("along gravity", along, along / speed_rounding(many, trial.declaration()));
   measured.row("across", across, across / sideways_rounding(scene, many, trial.declaration()));
   return judge_worst(measured, 1,
-                     "any consistent step integrates a constant force exactly; rounding of n steps "
-                     "is left, epsilon n (4 + n) along gravity");
+                     "a step that adds dt g to the velocity is exact for constant g; rounding of n "
+                     "steps is left, epsilon n (4 + n) along gravity");
 }
 
 /// A method of order 1 errs by dt/2 g t, others not at all.
