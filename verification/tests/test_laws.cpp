@@ -70,6 +70,18 @@ TEST_CASE("subject: a strip on edge that tips too late or too early is found, no
         std::set<std::string>{tips, "buckling.upright-strip-falls-at-greenhill-s-load"});
 }
 
+TEST_CASE(
+    "subject: forces and energies of bending that disagree, or leave a net force, are found") {
+  const std::vector<Law> laws = laws_of({"forces"});
+  CHECK(failing_laws("bends", laws) == std::set<std::string>{});
+  CHECK(failing_laws("bending_energy_tripled", laws) ==
+        std::set<std::string>{"forces.of-a-bent-sheet-are-minus-the-energy-gradient"});
+  CHECK(failing_laws("bending_pulls_one_corner_less", laws) ==
+        std::set<std::string>{"forces.of-a-bent-sheet-sum-to-zero",
+                              "forces.of-a-bent-sheet-exert-no-torque",
+                              "forces.of-a-bent-sheet-are-minus-the-energy-gradient"});
+}
+
 TEST_CASE("subject: wrong contact is found") {
   const std::string rests = "contact.sheet-rests-on-a-plane",
                     still = "contact.resting-sheet-is-still",

@@ -113,6 +113,24 @@ class BendsUnasked(Bends):
         return super().prepare(scene)
 
 
+class BendingEnergyTripled(Bends):
+    """Forces of bending are right, their energy is three times too large."""
+
+    def energy(self) -> float:
+        return super().energy() + 2 * self.bending()[1]
+
+
+class BendingPullsOneCornerLess(Bends):
+    """The force on the last corner of each hinge is halved."""
+
+    def forces(self) -> np.ndarray:
+        sums = np.einsum("kc,kci->ki", self.weights, self.x[self.corners])
+        last = self.weights[:, 3:] * self.over_area[:, None] * sums
+        f = super().forces()
+        np.add.at(f, self.corners[:, 3], last / 2)
+        return f
+
+
 class BendsUprightOnly(Bends):
     """The theory of small deflections: bending resists height alone, whatever the slope. Turned
     sheets are bent the wrong way, and steep ones too little."""

@@ -320,6 +320,8 @@ KINDS = {
     "bends_unasked": materials.BendsUnasked,
     "springs_pull_alone": materials.SpringsPullAlone,
     "bends_fourfold": materials.BendsFourfold,
+    "bending_energy_tripled": materials.BendingEnergyTripled,
+    "bending_pulls_one_corner_less": materials.BendingPullsOneCornerLess,
     "on_boxes": contact.OnBoxes,
     "on_boxes_now_and_then": contact.OnBoxesNowAndThen,
     "particles_repel_alone": contact.ParticlesRepelAlone,

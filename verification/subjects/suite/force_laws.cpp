@@ -25,24 +25,42 @@ PerParticle3 forces_at_start(Trial& trial, const PortableScene& scene) {
   return trial.solver().forces(start_of(scene), 0);
 }
 
-Finding forces_sum_to_zero(Trial& trial) {
-  const PortableScene scene = moving_sheet();
+PortableScene bent_sheet() {
+  PortableScene scene = moving_sheet();
+  scene.name = "bent sheet";
+  scene.material.bending_rigidity = 0.01;
+  return scene;
+}
+
+/// The scale of bending forces: rigidity over the shortest edge, for every hinge, whose weight is
+/// about three; summed [N].
+double bending_scale(const PortableScene& scene) {
+  return 3 * double(scene.mesh.hinges.size()) * scene.material.bending_rigidity /
+         rest_lengths(scene.mesh).minCoeff();
+}
+
+Finding sum_to_zero(Trial& trial, const PortableScene& scene) {
   const PerParticle3 f = forces_at_start(trial, scene);
-  Table measured{{"particles", "1"}, {"net force", "sum of k L"}};
-  measured.row(f.cols(), f.rowwise().sum().norm() / spring_scale(scene));
+  Table measured{{"particles", "1"}, {"net force", "sum of k L and B/L"}};
+  measured.row(f.cols(), f.rowwise().sum().norm() / (spring_scale(scene) + bending_scale(scene)));
   return judge_worst(measured, roundings * trial.declaration().rounding(), "rounding of a sum");
 }
 
-Finding torques_sum_to_zero(Trial& trial) {
-  const PortableScene scene = moving_sheet();
+Finding torque_is_zero(Trial& trial, const PortableScene& scene) {
   const PerParticle3 f = forces_at_start(trial, scene);
   Vector3 torque = Vector3::Zero();
   for (Eigen::Index i = 0; i < f.cols(); ++i)
     torque += Vector3(scene.x.col(i)).cross(Vector3(f.col(i)));
-  Table measured{{"particles", "1"}, {"net torque", "sum of k L size"}};
-  measured.row(f.cols(), torque.norm() / (spring_scale(scene) * size_of(scene.x)));
+  Table measured{{"particles", "1"}, {"net torque", "size times the sum of k L and B/L"}};
+  measured.row(f.cols(),
+               torque.norm() / ((spring_scale(scene) + bending_scale(scene)) * size_of(scene.x)));
   return judge_worst(measured, roundings * trial.declaration().rounding(), "rounding of a sum");
 }
+
+Finding forces_sum_to_zero(Trial& trial) { return sum_to_zero(trial, moving_sheet()); }
+Finding torques_sum_to_zero(Trial& trial) { return torque_is_zero(trial, moving_sheet()); }
+Finding bent_forces_sum_to_zero(Trial& trial) { return sum_to_zero(trial, bent_sheet()); }
+Finding bent_torques_sum_to_zero(Trial& trial) { return torque_is_zero(trial, bent_sheet()); }
 
 Finding weight_is_mass_times_g(Trial& trial) {
   const PortableScene scene = falling_sheet();
@@ -65,8 +83,7 @@ Finding rest_is_force_free(Trial& trial) {
 }
 
 /// Central difference of the energy along the velocities, against minus the forces' power.
-Finding forces_are_the_energy_gradient(Trial& trial) {
-  const PortableScene scene = moving_sheet();
+Finding are_the_energy_gradient(Trial& trial, const PortableScene& scene) {
   const PerParticle3 f = forces_at_start(trial, scene);
   const double way = std::cbrt(trial.declaration().rounding()) * size_of(scene.x);
   const PerParticle3 along = scene.v / scene.v.colwise().norm().maxCoeff();
@@ -74,14 +91,22 @@ Finding forces_are_the_energy_gradient(Trial& trial) {
     return trial.solver().energy({scene.x + distance * along, scene.v}, 0);
   };
   const double slope = (energy_at(way) - energy_at(-way)) / (2 * way);
-  const double scale = spring_scale(scene);
-  Table measured{{"distance", "m"}, {"slope plus power", "sum of k L"}};
+  const double scale = spring_scale(scene) + bending_scale(scene);
+  Table measured{{"distance", "m"}, {"slope plus power", "sum of k L and B/L"}};
   measured.row(way, std::abs(slope + (f.array() * along.array()).sum()) / scale);
-  // third derivative: k/L^2 at most; rounding: of the energy, over the distance
+  // third derivative: k/L^2 and B/L^3 at most; rounding: of the energy, over the distance
   const double relative = way / rest_lengths(scene.mesh).minCoeff();
   const double bound =
       relative * relative + roundings * trial.declaration().rounding() * size_of(scene.x) / way;
   return judge_worst(measured, bound, "third derivative of the energy, and rounding of it");
+}
+
+Finding forces_are_the_energy_gradient(Trial& trial) {
+  return are_the_energy_gradient(trial, moving_sheet());
+}
+
+Finding bent_forces_are_the_energy_gradient(Trial& trial) {
+  return are_the_energy_gradient(trial, bent_sheet());
 }
 
 }  // namespace
@@ -98,6 +123,15 @@ std::vector<Law> force_laws() {
        rest_is_force_free},
       {"forces.are-minus-the-energy-gradient", "Elastic forces are minus the energy's gradient.",
        "conservative forces", forces_are_the_energy_gradient},
+      {"forces.of-a-bent-sheet-sum-to-zero",
+       "Forces of a free sheet that resists bending sum to zero.", "Newton's third law",
+       bent_forces_sum_to_zero},
+      {"forces.of-a-bent-sheet-exert-no-torque",
+       "Forces of a free sheet that resists bending exert no torque.", "Newton's third law",
+       bent_torques_sum_to_zero},
+      {"forces.of-a-bent-sheet-are-minus-the-energy-gradient",
+       "Forces of a sheet that resists bending are minus its energy's gradient.",
+       "conservative forces", bent_forces_are_the_energy_gradient},
   };
 }
 
