@@ -26,7 +26,7 @@ SUBJECTS = ROOT / "verification" / "subjects"
 PYTHON = "exec /usr/bin/python3"
 TOY = f"{PYTHON} '{SUBJECTS}/adapters/toy_solver.py'"
 SCHEMA = json.loads((SUBJECTS / "protocol.schema.json").read_text(encoding="utf-8"))
-LAWS = 57  # of the portable suite
+LAWS = 58  # of the portable suite
 BYTES = {"f8": 8, "f4": 4, "i4": 4}
 
 # An adapter that writes down every header that comes or goes, and states its settings as its

@@ -82,6 +82,12 @@ TEST_CASE(
                               "forces.of-a-bent-sheet-are-minus-the-energy-gradient"});
 }
 
+TEST_CASE("subject: rest angles that are ignored are found, and declined ones are no failure") {
+  const std::string stays = "rest.curved-sheet-keeps-its-rest-angles";
+  CHECK(failing_laws("bends_to_flat", laws_of({"rest"})) == std::set<std::string>{stays});
+  CHECK(outcome_of_law("bends", stays) == Outcome::not_applicable);
+}
+
 TEST_CASE("subject: wrong contact is found") {
   const std::string rests = "contact.sheet-rests-on-a-plane",
                     still = "contact.resting-sheet-is-still",

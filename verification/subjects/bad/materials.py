@@ -43,6 +43,8 @@ class Bends(ToySolver):
     def prepare(self, scene: Scene) -> dict[str, str]:
         material = scene.header["scene"]["material"]
         given, material["bending_rigidity"] = material["bending_rigidity"], 0
+        if given and np.any(scene.rest_angles):
+            raise Declined("rest angles: it bends to flat")
         mapping = super().prepare(scene)
         self.corners = scene.hinges
         found = [laplacian(scene.rest[hinge]) for hinge in scene.hinges]
@@ -110,6 +112,14 @@ class BendsUnasked(Bends):
         if material["bending_rigidity"] > 0:
             raise Declined("bending")
         material["bending_rigidity"] = material["young"] * np.mean(scene.rest_lengths) ** 2 / 2
+        return super().prepare(scene)
+
+
+class BendsToFlat(Bends):
+    """Takes rest angles, and ignores them."""
+
+    def prepare(self, scene: Scene) -> dict[str, str]:
+        scene.arrays["rest_angles"] = np.zeros_like(scene.rest_angles)
         return super().prepare(scene)
 
 

@@ -320,6 +320,7 @@ KINDS = {
     "bends_unasked": materials.BendsUnasked,
     "springs_pull_alone": materials.SpringsPullAlone,
     "bends_fourfold": materials.BendsFourfold,
+    "bends_to_flat": materials.BendsToFlat,
     "bending_energy_tripled": materials.BendingEnergyTripled,
     "bending_pulls_one_corner_less": materials.BendingPullsOneCornerLess,
     "on_boxes": contact.OnBoxes,

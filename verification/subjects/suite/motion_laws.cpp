@@ -1,4 +1,5 @@
 // Smoke, rest, inertia, gravity, momentum, held particles.
+#include <array>
 #include <cmath>
 
 #include "verification/subjects/suite/laws.h"
@@ -48,6 +49,26 @@ Finding stays_on_every_pattern(Trial& trial) {
     measured.row(scene.name, moved / rounding_error(scene, few, trial.declaration()));
   }
   return judge_worst(measured, 1, "rounding of rest lengths, enlarged by elastic forces");
+}
+
+/// The angle of a hinge as the protocol defines it [rad].
+double angle(const PerParticle3& x, const std::array<int, 4>& hinge) {
+  const Vector3 x1 = x.col(hinge[0]), x2 = x.col(hinge[1]), x3 = x.col(hinge[2]),
+                x4 = x.col(hinge[3]);
+  const Vector3 n1 = (x1 - x3).cross(x1 - x4), n2 = (x2 - x4).cross(x2 - x3);
+  return std::atan2(n1.cross(n2).dot((x4 - x3).normalized()), n1.dot(n2));
+}
+
+Finding stays_curved(Trial& trial) {
+  PortableScene scene = sheets_at_rest().back();
+  scene.name = "curved sheet with rest angles";
+  scene.material.bending_rigidity = 0.005;
+  for (const Hinge& hinge : scene.mesh.hinges)
+    scene.rest_angles.push_back(angle(scene.x, hinge.particles));
+  Table measured{{"steps", "1"}, {"displacement over rounding", "1"}};
+  measured.row(few, largest(trial.after(scene, few).x - scene.x) / size_of(scene.x) /
+                        rounding_error(scene, few, trial.declaration()));
+  return judge_worst(measured, 1, "rounding of rest lengths and angles, enlarged by forces");
 }
 
 Finding keeps_its_velocity(Trial& trial) {
@@ -198,6 +219,8 @@ std::vector<Law> motion_laws() {
       {"rest.no-force-no-motion-on-any-pattern",
        "Sheets of seven meshes, one of them curved, stay in their rest shape.", "equilibrium",
        stays_on_every_pattern},
+      {"rest.curved-sheet-keeps-its-rest-angles",
+       "A curved sheet that resists bending stays in its rest shape.", "equilibrium", stays_curved},
       {"inertia.free-sheet-keeps-its-velocity",
        "A sheet that drifts without forces keeps its velocity.", "Newton's first law",
        keeps_its_velocity},
