@@ -8,9 +8,9 @@ namespace foldproof {
 
 /// The scene as physical constants: Young's modulus, bending rigidity B = ke/4, dampings, held
 /// particles, fixed planes, boxes, spheres and capsules, thickness. `dt` is left to the caller.
-/// What belongs to the reference's own method (bending law, weighting, time integrator) is left
-/// out. Throws InputError naming a part that the protocol cannot say: particles or objects that
-/// move, objects of other shapes, strain limits, sticking.
+/// The reference's own method (bending law, weighting, time integrator) stays out. Throws
+/// InputError naming a part that the protocol cannot say: particles or objects that move, objects
+/// of other shapes, strain limits, sticking.
 PortableScene portable_case(const Scene& scene);
 
 }  // namespace foldproof

@@ -42,7 +42,7 @@ struct SolverStep {
   std::string stopped;
 };
 
-/// What a wanted error costs.
+/// The price of a wanted error.
 struct SolverPrice {
   double wanted;                     // 1
   double step = nan, seconds = nan;  // s; NaN: there is no price

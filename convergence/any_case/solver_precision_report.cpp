@@ -100,13 +100,15 @@ Table price_table(const SolverPrecision& solver, const PrecisionAnswer& referenc
   Table table{{"error wanted", "%"}, {"step", "s"},
               {"clock", "s"},        {"cheapest method of the reference", "1"},
               {"its step", "s"},     {"its processor time", "s"},
-              {"why no price", "1"}};
+              {"note", "1"}};
   for (const SolverPrice& price : solver.prices) {
     const PriceList* list = prices_at(reference, price.wanted);
     const MethodPrice none{"none", {LimitedBy::not_reached, nan, nan, nan, nan}};
     const MethodPrice& best = list ? list->prices.front() : none;
+    const std::string note =
+        price.is_longest_tried ? "the longest step tried: a longer one may do" : price.because;
     table.row(percent * price.wanted, price.step, price.seconds, best.method, best.price.step,
-              best.price.seconds, price.because);
+              best.price.seconds, note);
   }
   return {"prices", "What a position error costs", table};
 }

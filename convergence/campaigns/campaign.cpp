@@ -50,7 +50,7 @@ std::string toml_of(const KeyValue& value) {
   return text_of(value);
 }
 
-/// What reading a block depends on beside its keys.
+/// The surroundings of a block: its file, its command, its limit.
 struct Reading {
   std::string folder;  // of the campaign's file
   std::string run;     // the command
