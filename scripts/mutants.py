@@ -13,8 +13,10 @@ import math
 import os
 import re
 import shlex
+import signal
 import subprocess
 import threading
+import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -23,6 +25,7 @@ BUILD = ROOT / "build"
 PROGRAM = BUILD / "foldproof"
 LISTED = BUILD / "faults/listed.json"  # what the program names
 TESTS = BUILD / "tests"
+SHORT_TESTS = "~[.]~[long]"  # those that ctest runs as `units`
 # test class: its file; each takes --program FILE
 PYTHON_TESTS = {
     "ProgramTest": ROOT / "scripts/tests/test_program.py",
@@ -36,7 +39,7 @@ PYTHON_TESTS = {
     "IndependentTest": ROOT / "verification/independent/test_independent.py",
 }
 APART_FOLDER = BUILD / "faults" / "apart"
-CLOCK = 240  # s: how long a mutant may run
+CLOCK = 240  # s: how long the processor may take for a mutant
 
 
 class Unusable(Exception):
@@ -65,8 +68,17 @@ class Plan(NamedTuple):
 
 
 def run(command: list, folder: Path, clock: float | None = None) -> subprocess.CompletedProcess:
+    """`clock` [s] is of each process's own processor time, so that it says the same on a busy
+    machine; one that only sleeps has ten times as long. Raises TimeoutExpired."""
+    if clock is not None:
+        most = math.ceil(clock)
+        command = ["prlimit", f"--cpu={most}:{most + 5}", "--", *command]
     text = {"capture_output": True, "text": True, "errors": "replace"}
-    return subprocess.run(command, cwd=folder, stdin=subprocess.DEVNULL, timeout=clock, **text)
+    latest = None if clock is None else 10 * clock
+    ran = subprocess.run(command, cwd=folder, stdin=subprocess.DEVNULL, timeout=latest, **text)
+    if ran.returncode == -signal.SIGXCPU:
+        raise subprocess.TimeoutExpired(command, clock)
+    return ran
 
 
 # ---- how the unedited program is made ------------------------------------------------------------
@@ -320,3 +332,27 @@ def margin_of(row: dict) -> float | None:
         return None
     margin = row["measured"] / row["bound"]
     return margin if math.isfinite(margin) else None
+
+
+def unit_tests(program: Path, names: list[str], clock: float | None) -> list[dict]:
+    """The outcomes of Catch2 test cases (all short ones, if there are none); those that a crash or
+    an unknown name kept from running are left out."""
+    escaped = ",".join(re.sub(r'([\\,\[\]"])', r"\\\1", name) for name in names)
+    ran = run([program, escaped or SHORT_TESTS, "-r", "xml"], ROOT, clock)
+    if ran.returncode < 0:
+        raise ChildProcessError(f"died of signal {-ran.returncode}")
+    try:
+        cases = list(ElementTree.fromstring(ran.stdout).iter("TestCase"))
+    except ElementTree.ParseError as error:
+        raise Unusable(f"tests: exit code {ran.returncode}: {error}") from error
+    return [
+        outcome_of_test(case.get("name"), case.find("OverallResult").get("success") == "true")
+        for case in cases
+    ]
+
+
+def outcome_of_test(name: str, passed: bool) -> dict:
+    return {
+        "name": name, "outcome": "holds" if passed else "fails", "measured": None, "bound": None,
+        "margin": None
+    }
