@@ -88,6 +88,7 @@ class Variants:
 class Apart:
     """A case whose last state has other bits on another machine; of the cloth's size [1]."""
     case: str
+    seconds: float             # when [s]
     distance: float
     bound: float               # what a rounding a step explains
 
@@ -210,7 +211,10 @@ def load_machines(file: Path) -> Machines | None:
         machines = [
             Machine(
                 row["machine"], row["cases"],
-                [Apart(case["case"], case["apart"], case["bound"]) for case in row["apart"]]
+                [
+                    Apart(case["case"], case["seconds"], case["apart"], case["bound"])
+                    for case in row["apart"]
+                ]
             )
             for row in content["machines"]
         ]

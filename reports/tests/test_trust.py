@@ -62,8 +62,8 @@ class Beside(unittest.TestCase):
     def test_machines_are_shown_with_the_cases_that_are_apart(self) -> None:
         put_run(self.root)
         self.assertNotIn('id="machines"', self.made())
-        apart = [{"case": HOSTILE, "apart": 3e-14, "bound": 2e-13},
-                 {"case": "fast", "apart": 0.5, "bound": 0.25}]
+        apart = [{"case": HOSTILE, "seconds": 0.1, "apart": 3e-14, "bound": 2e-13},
+                 {"case": "fast", "seconds": 0.0125, "apart": 0.5, "bound": 0.25}]
         rows = [{"machine": "old-libm", "cases": 7, "apart": apart},
                 {"machine": "aarch64", "cases": 7, "apart": []}]
         told = {"seconds": 0.1, "commit": "abc", "machines": rows}

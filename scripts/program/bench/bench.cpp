@@ -56,17 +56,6 @@ Speeds measure(const Load& load) {
   return speeds;
 }
 
-/// Least-squares slope of log y over log x.
-double exponent(const std::vector<double>& x, const std::vector<double>& y) {
-  double sx = 0, sy = 0, sxx = 0, sxy = 0;
-  const double n = double(x.size());
-  for (size_t k = 0; k < x.size(); ++k) {
-    const double a = std::log(x[k]), b = std::log(y[k]);
-    sx += a, sy += b, sxx += a * a, sxy += a * b;
-  }
-  return (n * sxy - sx * sy) / (n * sxx - sx * sx);
-}
-
 std::vector<double> column(const std::vector<Speeds>& all, double Speeds::*member) {
   std::vector<double> values;
   for (const Speeds& speeds : all) values.push_back(speeds.*member);
@@ -140,12 +129,12 @@ std::vector<Record> rates(const std::vector<Speeds>& all, double megabytes) {
             "three springs and three hinges; a million particles then fit 5 GB"}),
       rate("growth-of-iteration",
            "Growth exponent of the time per CG iteration in the number of particles.",
-           exponent(particles, column(all, &Speeds::iteration)),
+           growth_exponent(particles, column(all, &Speeds::iteration)),
            {1.1, "1", "lower",
             "work is proportional to particles: 1; a tenth is left for data that outgrow the "
             "caches"}),
       rate("growth-of-forces", "Growth exponent of the time per evaluation of the elastic forces.",
-           exponent(particles, evaluations),
+           growth_exponent(particles, evaluations),
            {1.1, "1", "lower",
             "work is proportional to particles: 1; a tenth is left for data that outgrow the "
             "caches"}),
@@ -182,6 +171,7 @@ RunRecord bench(int most_particles) {
   run.records.insert(run.records.end(), contact.begin(), contact.end());
   run.records.push_back(self_collision_rate());
   for (const ThreadScaling& scaling : scalings) run.records.push_back(serial_share(scaling));
+  for (Record& record : growth_rates(most_particles)) run.records.push_back(std::move(record));
   for (Record& record : level_set_rates()) run.records.push_back(std::move(record));
   for (Record& record : octree_rates()) run.records.push_back(std::move(record));
   run.records.push_back(crossing_rate());

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <fstream>
 #include <limits>
 
@@ -44,6 +45,16 @@ Record rate(const std::string& name, const std::string& claim, double measured,
   return {
       "bench." + name, "bench",       "", claim, "", {verdict, {}, "one thread, least of repeats"},
       std::nullopt,    target.better, 0,  {}};
+}
+
+double growth_exponent(const std::vector<double>& sizes, const std::vector<double>& seconds) {
+  double sx = 0, sy = 0, sxx = 0, sxy = 0;
+  const double n = double(sizes.size());
+  for (size_t k = 0; k < sizes.size(); ++k) {
+    const double a = std::log(sizes[k]), b = std::log(seconds[k]);
+    sx += a, sy += b, sxx += a * a, sxy += a * b;
+  }
+  return (n * sxy - sx * sy) / (n * sxx - sx * sx);
 }
 
 }  // namespace foldproof

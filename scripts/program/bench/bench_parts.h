@@ -40,8 +40,11 @@ Record contact_rate(const Scene& scene, double step, double step_seconds);
 /// bench_strain.cpp: a sweep of strain limits over the scene's springs, likewise.
 Record strain_rate(const Scene& scene, double step, double step_seconds);
 
-/// Eight sheets of 36 x 36 particles in contact (bench_self.cpp).
-Scene stacked_sheets();
+/// Eight sheets of columns + 1 by columns + 1 particles in contact (bench_self.cpp).
+Scene stacked_sheets(int columns);
+
+/// Least-squares slope of log seconds over log sizes.
+double growth_exponent(const std::vector<double>& sizes, const std::vector<double>& seconds);
 
 /// How a step of scheme C speeds up with threads.
 struct ThreadScaling {
@@ -63,6 +66,8 @@ Table forecast_table(const std::vector<ThreadScaling>& scalings);
 
 Record self_collision_rate();  // bench_self.cpp: a step of cloth that lies on itself
 Record crossing_rate();        // bench_crossings.cpp: the test for crossings of moving features
+/// bench_growth.cpp: exponents of contact, objects and stored frames.
+std::vector<Record> growth_rates(double most_particles);
 std::vector<Record> octree_rates();     // bench_octree.cpp: an octree of a mesh, queries
 std::vector<Record> level_set_rates();  // bench_level_set.cpp: grids about a mesh, queries
 

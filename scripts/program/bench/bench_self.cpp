@@ -9,11 +9,11 @@
 namespace foldproof {
 
 /// 1.8 mm apart, the lowest of them held: `fold_stack` as it lies, without its folds.
-Scene stacked_sheets() {
+Scene stacked_sheets(int columns) {
   Sheet sheet;
   sheet.pattern = SheetPattern::equilateral;
-  sheet.width = sheet.height = 0.28;
-  sheet.columns = sheet.rows = 35;
+  sheet.width = sheet.height = 0.008 * columns;
+  sheet.columns = sheet.rows = columns;
   const TriangleMesh one = make_sheet(sheet);
   const Eigen::Index n = one.rest.cols();
   PerParticle3 rest(3, 8 * n);
@@ -36,7 +36,7 @@ Scene stacked_sheets() {
 }
 
 Record self_collision_rate() {
-  const Scene scene = stacked_sheets();
+  const Scene scene = stacked_sheets(35);
   const System system = build_system(scene);
   const Integrator& integrator = integrator_named("C");
   const double h = 0.5 * elastic_limit(system, start_state(scene));

@@ -80,7 +80,7 @@ std::vector<ThreadScaling> thread_scalings() {
                       .why_target = "16 cores then make a step 8 times as fast"};
   measure(load.system, load.state, load.limit / 2, sheet);
 
-  const Scene layers = stacked_sheets();
+  const Scene layers = stacked_sheets(35);
   const System system = build_system(layers);
   ThreadScaling stack{
       .name = "serial-share-with-self-collision",
