@@ -59,18 +59,18 @@ class Judgement(NamedTuple):
 
 class Batch(NamedTuple):
     """Names to be asked together, and how long the unedited program takes for them."""
-    names: list[str]
+    names: list[str]  # of checks, studies and cases; of unit tests with TEST before
     seconds: float
 
 
 # ---- what is asked, in which order ---------------------------------------------------------------
 
 
-UNIT_TESTS = "unit tests"
+TEST = "test: "
 
 
 def seconds_by_name(plan: Plan, checks_only: bool) -> dict[str, float]:
-    """How long each check, each study and case of the quick tier, and the unit tests together take
+    """How long each check, each study and case of the quick tier, and each short unit test takes
     the unedited program; measured once for each build."""
     stored, build = FOLDER / "seconds.json", key_of(plan)
     known = json.loads(stored.read_text(encoding="utf-8")) if stored.is_file() else {}
@@ -80,9 +80,8 @@ def seconds_by_name(plan: Plan, checks_only: bool) -> dict[str, float]:
         seconds["checks"] = {row["name"]: row["seconds"] for row in sound(findings(PROGRAM, []))}
     if "tests" not in seconds and not checks_only:
         print("baseline: unit tests of the unedited program, once for this build", flush=True)
-        start = time.monotonic()
-        sound(unit_tests(TESTS, [], None))
-        seconds["tests"] = time.monotonic() - start
+        rows = sound(unit_tests(TESTS, [], None))
+        seconds["tests"] = {TEST + row["name"]: row["seconds"] for row in rows}
     if "others" not in seconds and not checks_only:
         print(
             "baseline: studies and cases of the unedited program, once for this build", flush=True
@@ -91,7 +90,7 @@ def seconds_by_name(plan: Plan, checks_only: bool) -> dict[str, float]:
     write_at_once(stored, json.dumps({"build": build, "seconds": seconds}))
     if checks_only:
         return seconds["checks"]
-    return seconds["checks"] | seconds["others"] | {UNIT_TESTS: seconds["tests"]}
+    return seconds["checks"] | seconds["others"] | seconds["tests"]
 
 
 def studies_and_cases() -> list[str]:
@@ -119,7 +118,7 @@ def sound(rows: list[dict]) -> list[dict]:
 
 
 def kind_of(name: str, studies: set[str]) -> str:
-    if name == UNIT_TESTS:
+    if name.startswith(TEST):
         return "test"
     if name.startswith("case."):
         return "case"
@@ -131,27 +130,42 @@ def kind_of(name: str, studies: set[str]) -> str:
 
 
 def batches_of(file: str, seconds: dict[str, float], studies: set[str]) -> list[Batch]:
-    """First the checks that faults name for this file, then all checks, then studies and cases; in
-    each of these the fast ones first; the unit tests last, alone."""
-    lists = (ROOT / "verification/faults").glob("*.toml")
-    rows = [
-        row
-        for path in lists
-        for row in tomllib.loads(path.read_text(encoding="utf-8")).get("fault", [])
-    ]
-    likely = {name for row in rows if row["file"] == file for name in row.get("caught_by", [])}
+    """First what faults name for this file; then all checks, studies and cases, unit tests, or, of
+    what is not the method, the unit tests before the others; the fast ones first in each."""
+    likely = likely_catchers(file)
+    order = ["check", "study", "case", "test"]
+    if not file.startswith("reference/"):
+        order = ["test", *order]
+
     def rank(name: str) -> tuple[int, float]:
-        kind = kind_of(name, studies)
-        first = 0 if kind == "check" and name in likely else {"check": 1, "test": 3}.get(kind, 2)
-        return first, seconds[name]
+        return 0 if name in likely else 1 + order.index(kind_of(name, studies)), seconds[name]
+
     batches, most = [], FIRST_BATCH
     for name in sorted(seconds, key=rank):
-        if batches and name != UNIT_TESTS and batches[-1].seconds + seconds[name] <= most:
+        if batches and batches[-1].seconds + seconds[name] <= most:
             batches[-1] = Batch(batches[-1].names + [name], batches[-1].seconds + seconds[name])
         else:
             most *= GROWTH if batches else 1
             batches.append(Batch([name], seconds[name]))
     return batches
+
+
+@functools.cache
+def faults_listed() -> list[dict]:
+    lists = (ROOT / "verification/faults").glob("*.toml")
+    return [
+        row
+        for path in lists
+        for row in tomllib.loads(path.read_text(encoding="utf-8")).get("fault", [])
+    ]
+
+
+def likely_catchers(file: str) -> set[str]:
+    """Checks, and unit tests with TEST before, that catch a fault of this file."""
+    rows = [row for row in faults_listed() if row["file"] == file]
+    return {name for row in rows for name in row.get("caught_by", [])} | {
+        TEST + name for row in rows for name in row.get("caught_by_tests", [])
+    }
 
 
 # ---- judging -------------------------------------------------------------------------------------
@@ -166,12 +180,10 @@ class Target:
     ) -> None:
         self.file, self.plan, self.batches, self.explained = file, plan, batches, explained
         self.text = (ROOT / file).read_text(encoding="utf-8")
-        name = re.sub(r"\W", "-", file.removeprefix("reference/"))
+        name = re.sub(r"\W", "-", file)
         self.overlay = FOLDER / f"{name}-{seed}"  # another seed may be run at the same time
-        unedited = self.compile(self.text, "unedited")
-        self.code, self.control = code_of(unedited), link_mutant(
-            plan, unedited, "foldproof", self.folder("unedited")
-        )
+        self.unedited = self.compile(self.text, "unedited")
+        self.code = code_of(self.unedited)
 
     def folder(self, name: str) -> Path:
         return self.overlay / name
@@ -203,14 +215,10 @@ class Target:
         """Asks batch by batch, up to the first finding that fails; of one that is declared
         equivalent, only whether the checks that are near say otherwise."""
         is_explained = (mutant.file, mutant.before, mutant.after) in self.explained
-        program = link("foldproof")
+        link = functools.cache(link)
         for batch in self.batches[:1] if is_explained else self.batches:
             try:
-                if batch.names == [UNIT_TESTS]:
-                    failing = first_failing_test(link("tests"), clock_of(batch))
-                    by = "test"
-                else:
-                    failing, by = self.first_failing(batch, program), ""
+                failing = self.first_failing(batch, link)
             except subprocess.TimeoutExpired:
                 limit = (
                     f"{clock_of(batch):.0f} s, where the unedited program takes"
@@ -222,33 +230,36 @@ class Target:
             except Unusable as error:
                 return Judgement(mutant, "killed", "refusal", str(error))
             if failing:
-                return Judgement(mutant, "killed", by, failing)
+                return Judgement(mutant, "killed", "", failing)
         return Judgement(mutant, "equivalent" if is_explained else "SURVIVED")
 
-    def first_failing(self, batch: Batch, program: Path) -> str | None:
-        """The first finding of the batch that surely does not hold."""
-        rows = findings(program, batch.names, clock_of(batch))
-        failing = [row["name"] for row in rows if row["outcome"] in ("fails", "inconclusive")]
-        return next((name for name in failing if self.is_sure(name, program)), None)
+    def first_failing(self, batch: Batch, link: Callable[[str], Path]) -> str | None:
+        """The first of the batch that surely does not hold: that fails again, and holds on the
+        unedited file that was made in the same way. What measures seconds may fail by itself on a
+        busy machine."""
+        tests = [name.removeprefix(TEST) for name in batch.names if name.startswith(TEST)]
+        checks = [name for name in batch.names if not name.startswith(TEST)]
+        clock, once_more = clock_of(batch), clock_of(Batch([], 10.0))
+        for names, prefix, program, ask in (
+            (checks, "", "foldproof", findings), (tests, TEST, "tests", unit_tests)
+        ):
+            for name in does_not_hold(ask(link(program), names, clock)) if names else []:
+                again = does_not_hold(ask(link(program), [name], once_more))
+                if again and not does_not_hold(ask(self.control(program), [name], once_more)):
+                    return prefix + name
+        return None
 
-    def is_sure(self, name: str, program: Path) -> bool:
-        """Does the finding fail again, and hold on the unedited file that was made in the same way?
-        What measures seconds may fail by itself on a busy machine."""
-        clock = clock_of(Batch([name], 10.0))
-        again, unedited = (findings(asked, [name], clock) for asked in (program, self.control))
-        return all(row["outcome"] == "holds" for row in unedited) and any(
-            row["outcome"] != "holds" for row in again
-        )
+    @functools.cache
+    def control(self, program: str) -> Path:
+        """The unedited program, its file compiled as a mutant's is."""
+        try:
+            return link_mutant(self.plan, self.unedited, program, self.folder("unedited"))
+        except Unusable as error:  # says nothing of a mutant
+            raise RuntimeError(f"{self.file}, unedited: {error}") from error
 
 
-def first_failing_test(mutant: Path, clock: float) -> str | None:
-    """The first unit test that fails twice with the mutant, and not with the unedited file."""
-    failing = [row["name"] for row in unit_tests(mutant, [], clock) if row["outcome"] == "fails"]
-    for name in failing:
-        [again], [unedited] = (unit_tests(asked, [name], clock) for asked in (mutant, TESTS))
-        if again["outcome"] == "fails" and unedited["outcome"] == "holds":
-            return name
-    return None
+def does_not_hold(rows: list[dict]) -> list[str]:
+    return [row["name"] for row in rows if row["outcome"] in ("fails", "inconclusive")]
 
 
 def clock_of(batch: Batch) -> float:

@@ -338,17 +338,19 @@ def unit_tests(program: Path, names: list[str], clock: float | None) -> list[dic
     """The outcomes of Catch2 test cases (all short ones, if there are none); those that a crash or
     an unknown name kept from running are left out."""
     escaped = ",".join(re.sub(r'([\\,\[\]"])', r"\\\1", name) for name in names)
-    ran = run([program, escaped or SHORT_TESTS, "-r", "xml"], ROOT, clock)
+    ran = run([program, escaped or SHORT_TESTS, "-r", "xml", "-d", "yes"], ROOT, clock)
     if ran.returncode < 0:
         raise ChildProcessError(f"died of signal {-ran.returncode}")
     try:
         cases = list(ElementTree.fromstring(ran.stdout).iter("TestCase"))
     except ElementTree.ParseError as error:
         raise Unusable(f"tests: exit code {ran.returncode}: {error}") from error
-    return [
-        outcome_of_test(case.get("name"), case.find("OverallResult").get("success") == "true")
-        for case in cases
-    ]
+    rows = []
+    for case in cases:
+        result = case.find("OverallResult")
+        rows.append(outcome_of_test(case.get("name"), result.get("success") == "true"))
+        rows[-1]["seconds"] = float(result.get("durationInSeconds"))
+    return rows
 
 
 def outcome_of_test(name: str, passed: bool) -> dict:
