@@ -1,13 +1,16 @@
 #!/usr/bin/python3
 """Tests of the adapters of other engines, of those that are installed:
-`scripts/engines bullet jolt mujoco` installs them."""
+`scripts/engines bullet jolt mujoco calculix` installs them."""
 from __future__ import annotations
 
 import json
 import shutil
 import subprocess
+import tempfile
 import unittest
 from pathlib import Path
+
+import h5py
 
 ROOT = Path(__file__).resolve().parents[2]
 RECORDED = "3.24"  # the version whose findings adapters/bullet/README.md records
@@ -210,6 +213,31 @@ class Script(unittest.TestCase):
             done.stderr,
             "scripts/engines: unknown engine 'bulet'; known: bullet, jolt, mujoco\n",
         )
+
+
+class Calculix(unittest.TestCase):
+    """Statics by a program of others, beside our oracles."""
+
+    @classmethod
+    def setUpClass(cls) -> None:
+        require_engine("calculix")
+
+    def static(self, what: str, value: float) -> dict[str, float]:
+        script = ROOT / "verification/subjects/adapters/calculix/static.py"
+        ran = run("/usr/bin/python3", script, what, str(value))
+        self.assertEqual(ran.returncode, 0, ran.stderr)
+        return json.loads(ran.stdout)
+
+    def test_the_heavy_cantilever_is_the_elastica_s(self) -> None:
+        told = self.static("cantilever", 10)
+        with tempfile.TemporaryDirectory() as folder:
+            run("build/foldproof", "study", "heavy-cantilever", "--out", folder)
+            with h5py.File(Path(folder) / "run.h5") as file:
+                evidence = file["findings/heavy-cantilever.tip-agrees.gamma-10/evidence"]
+                height, reach = evidence["should be D"][:]
+        # the strip is 0.003 thick, so that it stretches by gamma 0.003^2/12 at the clamp: 8e-6
+        self.assertAlmostEqual(told["height"], height, delta=1e-4)
+        self.assertAlmostEqual(told["reach"], reach, delta=1e-4)
 
 
 if __name__ == "__main__":
