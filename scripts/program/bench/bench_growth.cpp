@@ -51,9 +51,7 @@ Record growth_rate(const Growth& growth) {
 }
 
 /// A step of eight layers that lie on each other.
-double seconds_of_layers(int columns, double& particles) {
-  const Scene scene = stacked_sheets(columns);
-  particles = double(scene.x.cols());
+double seconds_of_layers(const Scene& scene) {
   const System system = build_system(scene);
   const Integrator& scheme = integrator_named("C");
   State start = start_state(scene);
@@ -67,10 +65,10 @@ Growth of_layers(double most_particles) {
   Growth growth{"growth-with-self-collision", "a step of scheme C of eight layers in contact",
                 "particles"};
   for (const int columns : {35, 110, 349}) {  // 10k, 100k, 980k particles
-    double particles = 8.0 * (columns + 1) * (columns + 1);
-    if (particles > 1.1 * most_particles) break;
-    growth.seconds.push_back(seconds_of_layers(columns, particles));
-    growth.sizes.push_back(particles);
+    const Scene scene = stacked_sheets(columns);
+    if (double(scene.x.cols()) > most_particles) break;
+    growth.sizes.push_back(double(scene.x.cols()));
+    growth.seconds.push_back(seconds_of_layers(scene));
   }
   return growth;
 }

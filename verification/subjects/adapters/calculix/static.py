@@ -51,8 +51,8 @@ def solved(text: str) -> dict[str, dict[int, list[float]]]:
     """Runs ccx; the last block of each result, by node."""
     with tempfile.TemporaryDirectory() as folder:
         (Path(folder) / "job.inp").write_text(text, encoding="utf-8")
-        ran = subprocess.run(["ccx", "job"], cwd=folder, capture_output=True, text=True, check=False)
-        frd = Path(folder) / "job.frd"
+        frd, quiet = Path(folder) / "job.frd", {"capture_output": True, "text": True}
+        ran = subprocess.run(["ccx", "job"], cwd=folder, check=False, **quiet)
         if ran.returncode or "*ERROR" in ran.stdout or not frd.is_file():
             raise SystemExit(f"static.py: ccx failed:\n{ran.stdout[-1500:]}")
         return results_of(frd.read_text(encoding="utf-8"))
