@@ -28,9 +28,8 @@ def summary_markdown(summary: Summary) -> str:
                     f"*{markdown_of(one.advice)}*" if one.advice else ""]
             lines.append(f"{number}. {' '.join(part for part in said if part)}")
     if summary.limits:
-        lines += [
-            "", f"## {summary.limits_title}", "", *(f"- {markdown_of(limit)}" for limit in summary.limits)
-        ]
+        lines += ["", f"## {summary.limits_title}", ""]
+        lines += [f"- {markdown_of(limit)}" for limit in summary.limits]
     if summary.margins:
         lines += ["", "## Tightest margins", "", "| finding | left of its bound |", "|---|---:|"]
         lines += [

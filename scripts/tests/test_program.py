@@ -131,6 +131,9 @@ class ProgramTest(ProgramCase):
         self.assertEqual(complete("inspect", "cas"), ["cases/"])
         self.assertEqual(complete("golden", "fri"), ["friction"])
         self.assertEqual(complete("campaign", "sta"), ["status"])
+        self.assertEqual(complete("judge", "--solver", "cmd", "tunn"),
+                         ["tunnelling", "tunnelling.thin-box-stops-a-slow-sheet"])
+        self.assertEqual(complete("judge", "--sol"), ["--solver"])
 
     def test_an_unknown_check_is_refused_with_neighbours(self) -> None:
         done = run("check", "bending.forces-sum-to-zer")
