@@ -1,7 +1,11 @@
 #!/usr/bin/python3
 """Tests of `foldproof judge` and `foldproof subject --check` as an adapter's author meets them, and
 of the protocol's page: its transcript and all that the program really sends
-are what the schema describes."""
+are what the schema describes.
+
+scripts/tests/test_judge.py [--program FILE] [Judge.test_...]
+--program: instead of build/foldproof
+"""
 from __future__ import annotations
 
 import json
@@ -20,8 +24,8 @@ sys.dont_write_bytecode = True
 import h5py  # noqa: E402
 from jsonschema import Draft202012Validator  # noqa: E402
 
-ROOT = Path(__file__).resolve().parents[2]
-PROGRAM = ROOT / "build" / "foldproof"
+from program_case import PROGRAM, ROOT  # noqa: E402
+
 SUBJECTS = ROOT / "verification" / "subjects"
 PYTHON = "exec /usr/bin/python3"
 TOY = f"{PYTHON} '{SUBJECTS}/adapters/toy_solver.py'"
