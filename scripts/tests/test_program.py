@@ -220,7 +220,7 @@ class ProgramTest(ProgramCase):
             "check bending --tier fast": "'fast' is not one of quick, full",
             "check bending --out notes.txt": "notes.txt: cannot make this folder",
             "bench --out notes.txt": "notes.txt: cannot make this folder",
-            "report": "DIR is missing; usage: foldproof report DIR [DIR]",
+            "report": "DIR is missing; usage: foldproof report DIR... [OPTIONS]",
             "film empty.h5": "is empty; give a stored run",
             "film notes.txt --size axb": "'axb' is not WIDTHxHEIGHT",
             "film notes.txt --fps many": "'many' is not a whole number from 1 to 120",

@@ -101,12 +101,12 @@ crossings, depth in objects, strain, folds, energy, and what the case expects.
 CMD starts an adapter that speaks the protocol of verification/subjects/PROTOCOL.md, in a process of
 its own. Simple laws (smoke) come first: if one fails, suspect the adapter. If the solver crashes,
 hangs or answers nonsense, the current law fails and shows its last output; the next law then runs.
-If it cannot be started, or hangs a third time, the laws that are left do not run.
+If it cannot be started, or hangs a third time, the laws that are left do not run. Name laws or
+groups to judge only those, such as: contact symmetry.mirror
 
 Examples:
   foldproof judge --frames my_frames --case drape_sphere --rate 60 --out mine
   foldproof judge --solver ./adapter --name mine --settings iterations=20 --out mine
-  foldproof judge --solver ./adapter contact symmetry.mirror     a group of laws, and one law
 
 Exit codes:
   0    every law holds, or does not apply; with --baseline: nothing got worse
