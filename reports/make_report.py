@@ -31,7 +31,7 @@ from data.command_line import OneLineParser, refuse, require_modules, require_pr
 require_modules("make_report", "numpy", "h5py", "matplotlib", "jinja2")
 from data.fault_record import with_record  # noqa: E402
 from data.history import row_of  # noqa: E402
-from data.trials import is_trial, read_trial  # noqa: E402
+from data.trials import is_trial, read_trial, trial_of_run  # noqa: E402
 from data.results import (
     Case,
     CaseEntry,
@@ -233,6 +233,7 @@ def make_summary(folder: Path, earlier: Path | None) -> list[Path]:
         [CaseView(entry, f"case-{file_name(entry.name)}") for entry in run.cases],
         [StudyView(study, f"study-{file_name(study.name)}", [], [], []) for study in run.studies],
     )
+    page = replace(page, trial=trial_of_run(folder, run))
     since = since_last(row_of(earlier), row_of(folder), str) if earlier else None
     html, markdown = render_summary(page, since)
     outs = [folder / "summary.html", folder / "summary.md", folder / "summary.pdf"]
@@ -280,12 +281,14 @@ def make_page(folder: Path, figures: Path, for_papers: bool, shipped: Path) -> P
     recorded = (
         shipped if run.path and run.provenance.get("subject", REFERENCE) == REFERENCE else None
     )
+    trial = trial_of_run(folder, run)
     beside = {
         "coverage": load_coverage(folder / "coverage.json"),
         "variants": load_variants(folder / "variants.json"),
         "machines": load_machines(folder / "machines.json"),
         "mutation": load_mutation(folder / "mutation.json"),
-        "unended": note_on_unfinished_run(folder / "verdicts.json"),
+        "unended": "" if trial else note_on_unfinished_run(folder / "verdicts.json"),
+        "trial": trial,
         "needs": load_needs(folder / "ablation.json", recorded),
         "errors": load_errors(recorded) if recorded else None,
     }

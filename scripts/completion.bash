@@ -10,7 +10,7 @@ _foldproof_options() { "$@" --help 2>/dev/null | sed -n 's/^  \(-., \)\?\(--[a-z
 _foldproof_names() {
   local program=$1 headings=$2
   "$program" list | awk -v headings="$headings" '
-    /^[a-z]/ { wanted = index(headings, " " $1 " ") }
+    /^[a-z]/ { sub(":", "", $1); wanted = index(headings, " " $1 " ") }
     /^  / && wanted { print $1; if (split($1, part, ".") > 1) print part[1] }' | sort -u
 }
 
@@ -37,9 +37,11 @@ _foldproof() {
   elif [[ $now == -* ]]; then
     words=$(_foldproof_options "$program" "$command")
   elif [[ $command == check ]]; then
-    words="$(_foldproof_names "$program" ' checks: studies: ') case $(_foldproof_case_findings "$program")"
+    words="$(_foldproof_names "$program" ' checks studies ') case $(_foldproof_case_findings "$program")"
   elif [[ $command == study ]]; then
-    words=$(_foldproof_names "$program" ' studies: ')
+    words=$(_foldproof_names "$program" ' studies ')
+  elif [[ $command == judge && ${COMP_WORDS[COMP_CWORD-1]} != --* ]]; then
+    words=$(_foldproof_names "$program" ' laws ')
   elif [[ $command == golden ]]; then
     words='bending springs integrator forecast friction projection sticking'
   elif [[ $command == evaluate && $COMP_CWORD == 2 ]]; then

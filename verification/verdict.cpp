@@ -18,8 +18,12 @@ class Clock {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+Finding finding_without_number(std::string why_bound, std::string note) {
+  return {{nan, nan, nan, "1", std::move(why_bound)}, {}, std::move(note)};
+}
+
 Finding error_finding(const std::string& what) {
-  return {{nan, nan, nan, "1", "it must run to its end"}, {}, "stopped by an error: " + what};
+  return finding_without_number("it must run to its end", "stopped by an error: " + what);
 }
 
 }  // namespace
@@ -72,8 +76,7 @@ Record judge(Record record, const std::function<Finding()>& act) {
     record.finding = act();
     record.outcome = outcome_of(record.finding.verdict);
   } catch (const NotOffered& missing) {
-    record.finding = error_finding("");
-    record.finding.note = "the subject does not offer " + missing.operation;
+    record.finding = finding_without_number("", "the subject does not offer " + missing.operation);
     record.outcome = Outcome::not_applicable;
   } catch (const std::exception& error) {
     record.finding = error_finding(error.what());

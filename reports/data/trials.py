@@ -8,6 +8,7 @@ from math import nan
 from pathlib import Path
 from typing import Any
 
+from data.results import Run
 from data.unreadable import Unreadable, reading
 
 FACTS = "solver.json"
@@ -66,6 +67,16 @@ def read_trial(folder: Path) -> Trial:
             laws=[Law(row["name"], row["claim"], row["source"]) for row in rows],
             answers={row["name"]: _answer(row) for row in rows},
         )
+
+
+def trial_of_run(folder: Path, run: Run) -> Trial | None:
+    """The trial that wrote this run into the folder; None if a later command did. Throws as
+    read_trial does."""
+    if not is_trial(folder):
+        return None
+    trial = read_trial(folder)
+    same = all(trial.program[key] == str(run.provenance.get(key)) for key in ("date", "command"))
+    return trial if same else None
 
 
 def _object(path: Path) -> dict[str, Any]:

@@ -18,6 +18,7 @@ from data import quantities
 from data.fault_record import commits_of
 from data.formulas import GREEK, formula_html
 from data.results import Case, CaseEntry, Column, Fault, Finding, Run, Study
+from data.trials import Trial
 from pages import ledger
 from pages.answers import cheapest_of, lasting_steps
 from pages.compare import Comparison
@@ -31,6 +32,7 @@ from pages.needs import Needs
 from pages.said import bound_html, measured_html, rule_html
 from pages.sentences import Piece, html_of
 from pages.site import Cuts, split
+from pages.solver_words import is_of_frames, repeats, standfirst_of, title_of
 from pages.summary import Judged, Summary, since_last, summary_of
 from pages.summary_markdown import count_words
 from pages.trust import Coverage, Kinds, Machines, Tolerances, Variants
@@ -121,6 +123,7 @@ class Page:
     alone: bool = False  # simulations that no run of the verification made
     unended: str = ""  # why this is not what was run last
     mutation: Mutation | None = None  # what scripts/mutate found, where that lies beside the run
+    trial: Trial | None = None  # of another solver, or of frames
 
     def validations(self) -> list[StudyView]:
         """The studies whose findings compare with something measured, or with the continuum."""
@@ -214,7 +217,12 @@ def render(page: Page, since: list[Piece] | None = None, cuts: Cuts | None = Non
         }.get,
     )
     return environment.get_template("page.html.j2").render(
-        page=page, said=page.provenance, summary=summary_of_page(page, since, environment)
+        page=page,
+        said=page.provenance,
+        summary=summary_of_page(page, since, environment),
+        title=title_of(page.trial) if page.trial else "What was found",
+        standfirst=standfirst_of(page.trial, len(page.checks)) if page.trial else "",
+        of_frames=page.trial is not None and is_of_frames(page.trial),
     )
 
 
@@ -229,8 +237,9 @@ def summary_of_page(page: Page, since: list[Piece] | None, environment: Environm
         faults=page.faults,
         tolerances=page.tolerances,
         results=Results(findings, studies, page.claims, environment.globals["anchor"]),
-        since=since if since is not None else since_last(None, None, str),
+        since=since if since is not None else [] if page.trial else since_last(None, None, str),
         alone=page.alone,
+        trial=page.trial,
     )
     whole = summary_of(judged)
     return whole if count_words(whole) <= MOST_WORDS else summary_of(replace(judged, is_brief=True))
@@ -245,7 +254,10 @@ def program_of(page: Page) -> str:
 
 def commands_of(page: Page) -> dict[str, str]:
     """Commands that repeat findings outside a verification run: of simulations, and of a trial of
-    another solver, which knows no single law."""
+    another solver."""
+    if page.trial:
+        program = program_of(page)
+        return {one.name: repeats(page.trial, program, one.name) for one in page.all_findings()}
     typed = str(page.provenance.get("command", ""))
     if typed.split(" ")[1:2] == ["judge"]:
         return {finding.name: typed for finding in page.all_findings()}

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from data.fault_record import commits_of
 from data.history import Change, MarginChange, RunRow, changes, in_order, margin_changes
 from data.results import Fault, Finding
+from data.trials import Trial
 from pages.conclusions import Results, conclusions_of
 from pages.sentences import Conclusion, Number, Piece, Quoted, in_words
+from pages.solver_words import declined_by, details_of, facts_of, verdict_on
 from pages.trust import Tolerances
 
 MARGINS = 5  # bounds shown
@@ -51,6 +53,8 @@ class Summary:
     attained: list[Piece]  # about bounds that are not among the margins
     faults: list[Piece]
     since: list[Piece]  # what changed since the last run
+    details: list[tuple[str, str]] = field(default_factory=list)  # mapping, settings of a solver
+    limits_title: str = "Known limits"
 
 
 @dataclass(frozen=True)
@@ -66,15 +70,33 @@ class Judged:
     since: list[Piece]
     alone: bool  # simulations that no run of the verification made
     is_brief: bool = False  # claims are named, not told
+    trial: Trial | None = None  # of another solver, or of frames
 
 
 def summary_of(judged: Judged) -> Summary:
     """The summary of one run."""
-    ranked = [
-        entry
-        for entry in judged.tolerances.ranked
-        if entry.used < ATTAINED or entry.finding.outcome != "holds"
-    ]
+    summary = _summary_of_run(judged)
+    return _summary_of_solver(judged, judged.trial, summary) if judged.trial else summary
+
+
+def _summary_of_solver(judged: Judged, trial: Trial, summary: Summary) -> Summary:
+    """The same of another solver: what it says of itself instead of what a verification has."""
+    quoted = {one.name: judged.results.quoted(one) for one in judged.findings}
+    return replace(
+        summary,
+        tested=facts_of(trial),
+        details=[] if judged.is_brief else details_of(trial),
+        verdict=verdict_on(trial, judged.findings, quoted),
+        asked=[],
+        limits=declined_by(judged.findings, quoted),
+        limits_title="Not judged, and why",
+        faults=[],
+    )
+
+
+def _summary_of_run(judged: Judged) -> Summary:
+    holding = [entry for entry in judged.tolerances.ranked if entry.finding.outcome == "holds"]
+    ranked = [entry for entry in holding if entry.used < ATTAINED]
     return Summary(
         tested=_tested(judged.provenance),
         verdict=_verdict(judged),
@@ -89,7 +111,7 @@ def summary_of(judged: Judged) -> Summary:
             )
             for entry in ranked[:MARGINS]
         ],
-        attained=_attained(len(judged.tolerances.ranked) - len(ranked)),
+        attained=_attained(len(holding) - len(ranked)),
         faults=_faults(judged.faults),
         since=judged.since,
     )

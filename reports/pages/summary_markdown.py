@@ -18,6 +18,7 @@ def summary_markdown(summary: Summary) -> str:
     """The same for a pull request."""
     lines = [f"# {TITLE}", "", f"**{markdown_of(summary.verdict)}**", ""]
     lines += [f"- {label}: {escaped_markdown(words)}" for label, words in summary.tested]
+    lines += [f"- {label}: {escaped_markdown(words)}" for label, words in summary.details]
     lines += [f"- asked: {markdown_of(summary.asked)}"] if summary.asked else []
     lines += ["", "## Scope", "", markdown_of(summary.scope)]
     if summary.conclusions:
@@ -27,9 +28,8 @@ def summary_markdown(summary: Summary) -> str:
                     f"*{markdown_of(one.advice)}*" if one.advice else ""]
             lines.append(f"{number}. {' '.join(part for part in said if part)}")
     if summary.limits:
-        lines += [
-            "", "## Known limits", "", *(f"- {markdown_of(limit)}" for limit in summary.limits)
-        ]
+        lines += ["", f"## {summary.limits_title}", ""]
+        lines += [f"- {markdown_of(limit)}" for limit in summary.limits]
     if summary.margins:
         lines += ["", "## Tightest margins", "", "| finding | left of its bound |", "|---|---:|"]
         lines += [
@@ -37,9 +37,11 @@ def summary_markdown(summary: Summary) -> str:
             for margin in summary.margins
         ]
         lines += ["", markdown_of(summary.attained)] if summary.attained else []
-    lines += ["", "## Seeded faults", "", markdown_of(summary.faults)]
-    lines += ["", "## Since the last run", "", markdown_of(summary.since), ""]
-    return "\n".join(lines)
+    if summary.faults:
+        lines += ["", "## Seeded faults", "", markdown_of(summary.faults)]
+    if summary.since:
+        lines += ["", "## Since the last run", "", markdown_of(summary.since)]
+    return "\n".join([*lines, ""])
 
 
 def _name(name: str) -> str:

@@ -11,9 +11,8 @@ from typing import Any
 
 from data.trials import Answer, Law, Trial
 from pages.page import OUTCOMES, new_environment
+from pages.solver_words import APART, DECLINED
 from pages.trial_costs import cost_rows, costs_of
-
-DECLINED = "the subject does not offer "  # begins the note of a law that does not apply
 
 
 @dataclass(frozen=True)
@@ -39,16 +38,16 @@ class Trials:
             (row.law, label, answer)
             for row in self.rows
             for label, answer in zip(self.labels, row.answers)
-            if answer and answer.outcome not in ("holds", "not applicable")
+            if answer and answer.outcome not in ("holds", *APART)
         ]
 
     @property
     def declined(self) -> list[tuple[str, str, list[str]]]:
-        """What a solver does not offer: its label, the reason, the names of the laws."""
+        """What was not judged: the solver's label, the reason, the names of the laws."""
         found: dict[tuple[str, str], list[str]] = {}
         for row in self.rows:
             for label, answer in zip(self.labels, row.answers):
-                if answer and answer.outcome == "not applicable":
+                if answer and answer.outcome in APART:
                     found.setdefault((label, reason(answer)), []).append(row.law.name)
         return [(label, why, names) for (label, why), names in found.items()]
 
@@ -70,7 +69,9 @@ def _labels(trials: list[Trial]) -> list[str]:
 
 
 def reason(answer: Answer) -> str:
-    """Why a law does not apply."""
+    """Why a law was not judged."""
+    if not answer.note.startswith(DECLINED):
+        return answer.note
     return "does not offer " + answer.note.removeprefix(DECLINED)
 
 

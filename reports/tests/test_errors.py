@@ -5,20 +5,19 @@ from __future__ import annotations
 import json
 import re
 import sys
-import tempfile
 import tomllib
 import unittest
 from math import isnan
-from pathlib import Path
 from typing import Any
 
 sys.dont_write_bytecode = True
 
 from data.case_digest import case_digest, case_files  # noqa: E402
 from data.unreadable import Unreadable  # noqa: E402
-from make_report import SHIPPED_CASES, make_report  # noqa: E402
+from make_report import SHIPPED_CASES  # noqa: E402
 from pages.errors import CaseErrors, QuantityError, load_errors  # noqa: E402
 from tests.made_up_run import put_case, put_run  # noqa: E402
+from tests.report_test import ReportTest  # noqa: E402
 
 CASE = b'title = "a"\n[expect.it_stands]\nat_least = 1\nwhy = "b"\n'
 PROGRAM = {"version": "1", "commit": "fedcba9876543210", "date": "2026-01-01T00:00:00Z", "cpu": "c"}
@@ -54,13 +53,11 @@ def answer(case: str, **others: Any) -> dict[str, Any]:
     } | others
 
 
-class ErrorsShown(unittest.TestCase):
+class ErrorsShown(ReportTest):
     """The page of a run, with and without a record."""
 
     def setUp(self) -> None:
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.root = Path(folder.name)
+        super().setUp()
         self.shipped = self.root / "cases"
         self.shipped.mkdir()
 
@@ -74,12 +71,6 @@ class ErrorsShown(unittest.TestCase):
         (self.shipped / "errors.json").write_text(
             json.dumps({"schema": 1, "cases": [row | {"digest": digest} for row in rows]})
         )
-
-    def made(self) -> str:
-        """The text of the folder's report."""
-        return make_report(
-            self.root, self.root / "report.html", self.root / "figures", shipped=self.shipped
-        ).read_text(encoding="utf-8")
 
     def test_errors_are_shown_with_each_case_and_in_a_section(self) -> None:
         put_run(self.root)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import re
 import sys
-import tempfile
 import tomllib
 import unittest
 from pathlib import Path
@@ -17,9 +16,10 @@ sys.dont_write_bytecode = True
 
 from data.case_digest import case_digest, case_files  # noqa: E402
 from data.unreadable import Unreadable  # noqa: E402
-from make_report import SHIPPED_CASES, make_report  # noqa: E402
+from make_report import SHIPPED_CASES  # noqa: E402
 from pages.needs import load_needs  # noqa: E402
 from tests.made_up_run import put_case, put_run  # noqa: E402
+from tests.report_test import ReportTest  # noqa: E402
 
 CASE = b"""title = "a"
 [cloth]
@@ -62,21 +62,13 @@ def told(case: str, commit: str) -> dict[str, Any]:
     }
 
 
-class NeedsShown(unittest.TestCase):
+class NeedsShown(ReportTest):
     """The page of a run, with and without outcomes."""
 
     def setUp(self) -> None:
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.root = Path(folder.name)
+        super().setUp()
         self.shipped = self.root / "cases"
         self.shipped.mkdir()
-
-    def made(self) -> str:
-        """The text of the folder's report."""
-        return make_report(
-            self.root, self.root / "report.html", self.root / "figures", shipped=self.shipped
-        ).read_text(encoding="utf-8")
 
     def put(self, outcomes: dict[str, Any]) -> None:
         """Beside the run."""

@@ -28,6 +28,7 @@ from pages.trust import kinds_of, tolerances_of  # noqa: E402
 from tests.made_up_run import (
     HOSTILE, NAMES, TEXT, put, put_case, put_finding, put_run, put_study
 )  # noqa: E402
+from tests.report_test import ReportTest  # noqa: E402
 
 
 class Seen(HTMLParser):
@@ -206,18 +207,8 @@ class WholeReport(unittest.TestCase):
         self.assertEqual(again, self.text)
 
 
-class PartsMissing(unittest.TestCase):
+class PartsMissing(ReportTest):
     """Runs that lack parts."""
-
-    def setUp(self) -> None:
-        self.folder = tempfile.TemporaryDirectory()
-        self.root = Path(self.folder.name)
-        self.addCleanup(self.folder.cleanup)
-
-    def made(self) -> str:
-        """The text of the folder's report."""
-        page = make_report(self.root, self.root / "report.html", self.root / "figures")
-        return page.read_text(encoding="utf-8")
 
     def test_checks_alone(self) -> None:
         with h5py.File(self.root / "run.h5", "w") as file:

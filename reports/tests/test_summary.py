@@ -127,7 +127,7 @@ class OnePage(unittest.TestCase):
             self.assertNotIn("No integrator is cheapest everywhere", text)
 
     def test_words_between_the_numbers_hold_no_digit(self) -> None:
-        for name in ("conclusions", "summary"):
+        for name in ("conclusions", "solver_words", "summary"):
             tree = ast.parse((REPORTS / "pages" / f"{name}.py").read_text(encoding="utf-8"))
             sources = {
                 id(one)

@@ -2,15 +2,21 @@
 from __future__ import annotations
 
 import json
+import re
 import tempfile
 import unittest
+from math import isnan, nan
 from pathlib import Path
 from typing import Any
 
+import h5py
+
 from data.trials import is_trial, read_trial
 from data.unreadable import Unreadable
-from make_report import compare_trials
+from make_report import compare_trials, make_summary
 from pages.trials import render_trials, trials_of
+from tests.made_up_run import put, put_finding
+from tests.report_test import ReportTest
 
 HOSTILE = "<script>alert(1)</script>"
 
@@ -30,7 +36,7 @@ def finding(name: str, outcome: str, measured: float | None, note: str = "") -> 
 
 
 def put_trial(folder: Path, subject: str, findings: list[dict[str, Any]]) -> Path:
-    folder.mkdir()
+    folder.mkdir(exist_ok=True)
     program = {
         "subject": subject,
         "date": "2026-11-26",
@@ -74,6 +80,93 @@ def put_trial(folder: Path, subject: str, findings: list[dict[str, Any]]) -> Pat
     (folder / "verdicts.json").write_text(json.dumps({"program": program, "findings": findings}))
     (folder / "solver.json").write_text(json.dumps(facts))
     return folder
+
+
+def put_judged_run(folder: Path, findings: list[dict[str, Any]], **about: Any) -> None:
+    """The folder of one judged solver, as `foldproof judge --out` writes it."""
+    put_trial(folder, "mine", findings)
+    program = json.loads((folder / "verdicts.json").read_text())["program"]
+    with h5py.File(folder / "run.h5", "w") as file:
+        put(file, **program, subject_version="3.1", tier="quick", **about)
+        for order, row in enumerate(findings):
+            row = {key: nan if value is None else value for key, value in row.items()}
+            if isnan(row["measured"]):
+                row |= {"bound": nan, "uncertainty": nan, "why_bound": ""}
+            put_finding(file, order, row.pop("name"), "check", **row, faults=[])
+
+
+class OneSolver(ReportTest):
+    """The report of one judged solver."""
+
+    findings = [
+        finding("smoke.one", "holds", 0.25),
+        finding("smoke.two", "fails", 2e4),
+        finding("smoke.three", "fails", None, "stopped by an error: crashed"),
+        finding("ball.four", "not applicable", None, "the subject does not offer capability 'b'"),
+        finding("ball.five", "did not run", None, "the trial ended during smoke.three"),
+    ]
+
+    def test_it_begins_with_the_solver_and_names_foldproof_as_such(self) -> None:
+        put_judged_run(self.root, self.findings)
+        text = self.made()
+        head = text[text.index("<header>"):text.index("</header>")]
+        for words in (
+            "<h1>mine 3.1 on trial</h1>", "<dt>scheme</dt><dd>Euler, no order claimed</dd>",
+            "<dt>precision</dt><dd>f4</dd>", "<dt>level</dt><dd>L1</dd>",
+            "<dt>settings</dt><dd>iterations=20</dd>", "<dt>capabilities</dt><dd>none</dd>",
+            "<dt>adapter</dt><dd>./adapter</dd>",
+            "<dt>judged by</dt><dd>foldproof 0.2.0, its commit c clean</dd>",
+            "<dt>mapping of stretch</dt><dd>&lt;script&gt;",
+        ):
+            self.assertIn(words, head)
+        for words in ("Bridson", "quick", "seeded", "Seeded", "commit</dt>", "earlier run"):
+            self.assertNotIn(words, head)
+        self.assertNotIn(HOSTILE, text)
+
+    def test_what_was_judged_is_counted_apart_from_what_was_not(self) -> None:
+        put_judged_run(self.root, self.findings)
+        head = re.sub(r"<[^>]+>", "", self.made())
+        self.assertIn(
+            "1 of 3 judged laws hold, 2 fail; 1 does not apply; 1 did not run. Look first at"
+            " smoke.two and smoke.three.", head
+        )
+        self.assertIn("does not offer capability &#39;b&#39;: ball.four.", head)
+        self.assertIn("the trial ended during smoke.three: ball.five.", head)
+
+    def test_only_a_law_that_holds_has_a_margin(self) -> None:
+        put_judged_run(self.root, self.findings)
+        margins = re.search(r'<table class="margins">.*?</table>', self.made(), re.DOTALL)[0]
+        self.assertIn("smoke.one", margins)
+        self.assertNotIn("smoke.two", margins)
+
+    def test_a_law_without_a_number_shows_none(self) -> None:
+        put_judged_run(self.root, self.findings)
+        text = self.made()
+        self.assertNotIn("NaN", text)
+        self.assertEqual(text.count("no number"), 1)
+        self.assertEqual(text.count("<dt>Rule</dt>"), 2)
+
+    def test_a_law_is_repeated_alone(self) -> None:
+        put_judged_run(self.root, self.findings)
+        command = "foldproof judge --solver ./adapter --settings iterations=20 smoke.two<"
+        self.assertIn(command, self.made())
+
+    def test_a_later_run_in_the_folder_is_not_the_solver_s(self) -> None:
+        put_judged_run(self.root, self.findings)
+        with h5py.File(self.root / "run.h5", "a") as file:
+            put(file, date="2027-01-01", subject="foldproof reference")
+        self.assertIn("<h1>What was found</h1>", self.made())
+
+    def test_its_summary_says_the_same(self) -> None:
+        put_judged_run(self.root, self.findings)
+        markdown = make_summary(self.root, None)[1].read_text(encoding="utf-8")
+        for words in (
+            "**1 of 3 judged laws hold", "- solver: mine 3.1", "- settings: iterations=20",
+            "## Not judged, and why",
+        ):
+            self.assertIn(words, markdown)
+        for words in ("Seeded", "- commit", "- tier", "earlier"):
+            self.assertNotIn(words, markdown)
 
 
 class JudgedSolvers(unittest.TestCase):

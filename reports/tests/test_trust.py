@@ -3,28 +3,15 @@ reports/tests/test_reports.py."""
 from __future__ import annotations
 
 import json
-import tempfile
-import unittest
-from pathlib import Path
 
 import h5py
 
-from make_report import make_report
 from tests.made_up_run import HOSTILE, put, put_run
+from tests.report_test import ReportTest
 
 
-class Beside(unittest.TestCase):
+class Beside(ReportTest):
     """Files of other scripts beside a run."""
-
-    def setUp(self) -> None:
-        self.folder = tempfile.TemporaryDirectory()
-        self.root = Path(self.folder.name)
-        self.addCleanup(self.folder.cleanup)
-
-    def made(self) -> str:
-        """The text of the folder's report."""
-        page = make_report(self.root, self.root / "report.html", self.root / "figures")
-        return page.read_text(encoding="utf-8")
 
     def read(self, text: str) -> None:
         """No text of a file has become a tag."""

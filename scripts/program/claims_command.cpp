@@ -17,7 +17,7 @@ namespace {
 
 using nlohmann::json;
 
-std::string text_of(const json& row, const char* key) { return row.value(key, std::string()); }
+std::string entry_of(const json& row, const char* key) { return row.value(key, std::string()); }
 
 /// The findings of a finished run. Throws InputError if there is none, or it is of no use.
 json findings_of(const std::string& folder) {
@@ -43,7 +43,7 @@ json findings_of(const std::string& folder) {
 json claims_in(const json& findings, const std::string& folder) {
   json claims = json::array();
   for (const json& row : findings)
-    if (text_of(row, "kind") == "claim") claims.push_back(row);
+    if (entry_of(row, "kind") == "claim") claims.push_back(row);
   if (claims.empty())
     throw InputError(folder + "/verdicts.json: this run decided no claim; `" + program_command() +
                      " verify` decides all");
@@ -56,7 +56,7 @@ json of_paper(const json& claims, const std::string& paper) {
   json chosen = json::array();
   std::string known;
   for (const json& row : claims) {
-    const std::string key = text_of(row, "paper");
+    const std::string key = entry_of(row, "paper");
     if (key == paper) chosen.push_back(row);
     if (!key.empty() && known.find(key) == std::string::npos)
       known += (known.empty() ? "" : ", ") + key;
@@ -68,7 +68,7 @@ json of_paper(const json& claims, const std::string& paper) {
 
 bool has_several_papers(const json& claims) {
   return std::ranges::any_of(claims, [&](const json& row) {
-    return text_of(row, "paper") != text_of(claims.front(), "paper");
+    return entry_of(row, "paper") != entry_of(claims.front(), "paper");
   });
 }
 
@@ -77,7 +77,7 @@ json chosen_of(const json& claims, const std::vector<std::string>& ids) {
   json chosen = json::array();
   for (const std::string& id : ids) {
     const auto found = std::find_if(claims.begin(), claims.end(),
-                                    [&](const json& row) { return text_of(row, "id") == id; });
+                                    [&](const json& row) { return entry_of(row, "id") == id; });
     if (found == claims.end())
       throw InputError("there is no claim '" + id + "' in this run; `foldproof claims` shows all");
     chosen.push_back(*found);
@@ -86,17 +86,17 @@ json chosen_of(const json& claims, const std::vector<std::string>& ids) {
 }
 
 void print_row(const json& claim) {
-  const bool differs = text_of(claim, "ruling") != text_of(claim, "recorded");
-  fmt::print("{:<7} {:<27} {}{}\n", text_of(claim, "id"), text_of(claim, "ruling"),
-             text_of(claim, "statement"),
-             differs ? "  [recorded: " + text_of(claim, "recorded") + "]" : "");
+  const bool differs = entry_of(claim, "ruling") != entry_of(claim, "recorded");
+  fmt::print("{:<7} {:<27} {}{}\n", entry_of(claim, "id"), entry_of(claim, "ruling"),
+             entry_of(claim, "statement"),
+             differs ? "  [recorded: " + entry_of(claim, "recorded") + "]" : "");
 }
 
 /// One finding that decides a claim, with its numbers if the run has it.
 void print_decider(const json& decider, const json& findings) {
-  const std::string name = text_of(decider, "finding");
+  const std::string name = entry_of(decider, "finding");
   const auto found = std::find_if(findings.begin(), findings.end(),
-                                  [&](const json& row) { return text_of(row, "name") == name; });
+                                  [&](const json& row) { return entry_of(row, "name") == name; });
   const auto number = [&](const char* key) {
     return found->value(key, json()).is_number()
                ? fmt::format("{:.4g}", (*found)[key].get<double>())
@@ -104,31 +104,31 @@ void print_decider(const json& decider, const json& findings) {
   };
   std::string numbers;
   if (found != findings.end()) {
-    const std::string unit = text_of(*found, "unit");
+    const std::string unit = entry_of(*found, "unit");
     numbers = fmt::format("{} <= {}{}", number("measured"), number("bound"),
                           unit == "1" ? "" : " " + unit);
   }
-  fmt::print("  {:<12} {:<14} {:<58} {}\n", text_of(decider, "role"), text_of(decider, "outcome"),
+  fmt::print("  {:<12} {:<14} {:<58} {}\n", entry_of(decider, "role"), entry_of(decider, "outcome"),
              name, numbers);
 }
 
 /// Where the paper says it; files of older programs do not know.
 void print_place(const json& claim) {
-  if (text_of(claim, "begins").empty()) return;
-  fmt::print("\n{}, paragraph {}: \"{} ...\"\n", text_of(claim, "source"),
-             claim.value("paragraph", 0), text_of(claim, "begins"));
-  if (!text_of(claim, "printed").empty())
-    fmt::print("printed:  {}\nrestored: {}\n", text_of(claim, "printed"),
-               text_of(claim, "restored"));
+  if (entry_of(claim, "begins").empty()) return;
+  fmt::print("\n{}, paragraph {}: \"{} ...\"\n", entry_of(claim, "source"),
+             claim.value("paragraph", 0), entry_of(claim, "begins"));
+  if (!entry_of(claim, "printed").empty())
+    fmt::print("printed:  {}\nrestored: {}\n", entry_of(claim, "printed"),
+               entry_of(claim, "restored"));
 }
 
 void print_whole(const json& claim, const json& findings) {
   print_row(claim);
   print_place(claim);
-  if (!text_of(claim, "condition").empty())
-    fmt::print("\nCondition: {}.\n", text_of(claim, "condition"));
-  if (!text_of(claim, "why").empty()) fmt::print("\n{}\n", text_of(claim, "why"));
-  if (!text_of(claim, "missing").empty()) fmt::print("\nMissing: {}\n", text_of(claim, "missing"));
+  if (!entry_of(claim, "condition").empty())
+    fmt::print("\nCondition: {}.\n", entry_of(claim, "condition"));
+  if (!entry_of(claim, "why").empty()) fmt::print("\n{}\n", entry_of(claim, "why"));
+  if (!entry_of(claim, "missing").empty()) fmt::print("\nMissing: {}\n", entry_of(claim, "missing"));
   fmt::print("\n");
   for (const json& decider : claim.value("decided_by", json::array()))
     print_decider(decider, findings);
@@ -147,9 +147,9 @@ int show_claims(const Options& options) {
   const bool has_headings = options.names.empty() && has_several_papers(claims);
   std::string paper;
   for (const json& claim : claims) {
-    if (has_headings && text_of(claim, "paper") != paper) {
-      paper = text_of(claim, "paper");
-      fmt::print("{}: {}\n", paper, text_of(claim, "paper_title"));
+    if (has_headings && entry_of(claim, "paper") != paper) {
+      paper = entry_of(claim, "paper");
+      fmt::print("{}: {}\n", paper, entry_of(claim, "paper_title"));
     }
     if (options.names.empty())
       print_row(claim);

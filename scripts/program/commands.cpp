@@ -32,6 +32,7 @@
 #include "verification/seeds.h"
 #include "verification/files/verdicts_file.h"
 #include "verification/subjects/reference_subject.h"
+#include "verification/subjects/suite/laws.h"
 
 namespace foldproof {
 
@@ -158,16 +159,21 @@ RunRecord run_whole_suite(const Options& options) {
   return run;
 }
 
+/// Of checks, studies or laws.
+template <class Asked>
+nlohmann::json names_and_claims(const std::vector<Asked>& all) {
+  nlohmann::json rows = nlohmann::json::array();
+  for (const Asked& one : all)
+    rows.push_back({{"name", one.name}, {"claim", one.claim}, {"source", one.source}});
+  return rows;
+}
+
 }  // namespace
 
 int list(const Options& options) {
-  nlohmann::json json = {{"checks", nlohmann::json::array()}, {"studies", nlohmann::json::array()}};
-  for (const Check& check : all_checks())
-    json["checks"].push_back(
-        {{"name", check.name}, {"claim", check.claim}, {"source", check.source}});
-  for (const Study& study : all_studies())
-    json["studies"].push_back(
-        {{"name", study.name}, {"claim", study.claim}, {"source", study.source}});
+  nlohmann::json json = {{"checks", names_and_claims(all_checks())},
+                         {"studies", names_and_claims(all_studies())},
+                         {"laws", names_and_claims(portable_laws())}};
   json["cases"] = built_in_cases(Tier::full);
   json["cases_folder"] = data_folder() + "/cases";
   json["long_cases"] = long_cases();
@@ -183,8 +189,9 @@ int list(const Options& options) {
     fmt::print("{}\n", json_text(json));
     return all_hold;
   }
-  for (const char* kind : {"checks", "studies"}) {
-    fmt::print("{}:\n", kind);
+  for (const auto& [kind, heading] :
+       {std::pair("checks", "checks"), {"studies", "studies"}, {"laws", "laws for `judge`"}}) {
+    fmt::print("{}:\n", heading);
     for (const auto& row : json[kind])
       fmt::print("  {:<58} {}\n", row["name"].get<std::string>(), row["claim"].get<std::string>());
   }

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "scripts/program/command_line/out_folder.h"
+#include "scripts/program/command_line/suggestions.h"
 #include "scripts/program/commands.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
@@ -24,6 +25,39 @@ namespace foldproof {
 namespace {
 
 constexpr std::string_view law_of_cost = "order.halved-steps-approach-a-limit";
+
+/// The laws of these names or groups, all if there is none. Throws InputError for a name that
+/// chooses nothing, with the nearest known ones.
+std::vector<Law> chosen_laws(const std::vector<std::string>& names) {
+  std::vector<Law> laws = portable_laws();
+  for (const std::string& name : names) {
+    std::vector<std::string> known;
+    for (const Law& law : laws)
+      known.insert(known.end(), {law.name, law.name.substr(0, law.name.find('.'))});
+    const auto is_chosen = [&](const Law& law) { return chooses(name, law.name); };
+    if (std::ranges::any_of(laws, is_chosen)) continue;
+    const std::string meant = did_you_mean(nearest_names(name, known));
+    throw InputError(fmt::format("there is no law '{}' (`foldproof list` shows all){}", name,
+                                 meant.empty() ? "; is CMD in quotes?" : meant));
+  }
+  std::erase_if(laws, [&](const Law& law) {
+    return !names.empty() && std::ranges::none_of(names, [&](const std::string& name) {
+      return chooses(name, law.name);
+    });
+  });
+  return laws;
+}
+
+/// The kept verdicts of these laws alone, so that those that are not asked are not missed.
+std::optional<std::vector<KeptVerdict>> baseline_of(const Options& options,
+                                                    const std::vector<Law>& laws) {
+  auto baseline = baseline_of(options);
+  if (baseline && !options.names.empty())
+    std::erase_if(*baseline, [&](const KeptVerdict& kept) {
+      return std::ranges::find(laws, kept.name, &Law::name) == laws.end();
+    });
+  return baseline;
+}
 
 /// The heading of the table: the solver's own words, the settings, and the mapping.
 std::string heading(const Judgement& judgement, const SolverCommand& command) {
@@ -130,12 +164,13 @@ int judge_another_solver(const Options& options) {
   if (!options.frames.empty()) return judge_frames_of_a_case(options);
   if (options.solver.empty())
     throw InputError("judge needs --solver CMD, or --frames DIR with --case CASE");
-  const auto baseline = baseline_of(options);
+  const std::vector<Law> laws = chosen_laws(options.names);
+  const auto baseline = baseline_of(options, laws);
   const OutFolder folder(options.out);
   const SolverCommand command = solver_command(options);
   const auto start = std::chrono::steady_clock::now();
-  const Judgement judgement = judge_solver(command, portable_laws(), [](const Record& record) {
-    if (record.outcome != Outcome::holds && record.outcome != Outcome::not_applicable)
+  const Judgement judgement = judge_solver(command, laws, [](const Record& record) {
+    if (record.outcome == Outcome::fails || record.outcome == Outcome::inconclusive)
       log_line(fmt::format("{} {}", outcome_text(record), record.name));
   });
   const double seconds =

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "convergence/studies.h"
@@ -15,10 +16,6 @@
 namespace foldproof {
 
 namespace {
-
-bool chooses(const std::string& wanted, const std::string& name) {
-  return name == wanted || name.starts_with(wanted + ".");
-}
 
 /// The findings of a shipped case are named so: "case.twist" for "hard/twist".
 std::string group_of_case(const std::string& built_in) {
@@ -127,7 +124,61 @@ void reject_other_kind(const std::string& name, const std::vector<Check>& checks
         fmt::format("'{0}' names checks or cases, and no study; type `foldproof check {0}`", name));
 }
 
+/// "0.02 <= 0.05 m", true whatever the outcome.
+std::string comparison(const Record& record) {
+  const Verdict& v = record.finding.verdict;
+  const std::string unit = v.unit == "1" ? "" : v.unit;
+  const auto row = [&](const char* word, int digits) {
+    return fmt::format("{:>11.{}g} {:<2} {:<9.{}g} {}", v.measured, digits, word, v.bound, digits,
+                       unit);
+  };
+  if (record.kind == "bench") return row("target", 4);
+  if (std::isnan(v.measured)) return fmt::format("{:>11}", "no number");
+  if (v.measured + v.uncertainty <= v.bound) return row("<=", 4);
+  if (v.measured - v.uncertainty > v.bound && v.uncertainty >= 0) {
+    int digits = 4;  // as many as show the difference
+    while (digits < 17 &&
+           fmt::format("{:.{}g}", v.measured, digits) == fmt::format("{:.{}g}", v.bound, digits))
+      ++digits;
+    return row(">", digits);
+  }
+  return fmt::format("{:>11.4g} +- {:.2g}, allowed {:.4g} {}", v.measured, v.uncertainty, v.bound,
+                     unit);
+}
+
+/// The row of a finding, `count` times if more did not run for the same reason.
+std::string listing_row(const Record& record, long count) {
+  const Finding& finding = record.finding;
+  const auto row = [&](const std::string& name, const std::string& words) {
+    return fmt::format("{:<14} {:<60} {}\n", outcome_text(record), name, words);
+  };
+  if (did_not_run(record) && count > 1)
+    return row(fmt::format("{} and {} more", record.name, count - 1), finding.note);
+  if (did_not_run(record) || record.outcome == Outcome::not_applicable)
+    return row(record.name, finding.note);
+  std::string text = row(record.name, comparison(record));
+  if (record.outcome != Outcome::fails) return text;
+  const auto add = [&](const std::string& line) { text += fmt::format("{:<14} {}\n", "", line); };
+  add(record.claim);
+  const bool has_number = !std::isnan(finding.verdict.measured);
+  add((has_number ? "The bound: " : "Required: ") + finding.verdict.why_bound);
+  if (!finding.note.empty()) add("Note: " + finding.note);
+  return text;
+}
+
+/// The end of the records, from this one on, that did not run for its reason.
+std::vector<Record>::const_iterator end_of_unrun(std::vector<Record>::const_iterator at,
+                                                 std::vector<Record>::const_iterator end) {
+  return std::find_if(at, end, [&](const Record& record) {
+    return !did_not_run(record) || record.finding.note != at->finding.note;
+  });
+}
+
 }  // namespace
+
+bool chooses(const std::string& wanted, const std::string& name) {
+  return name == wanted || name.starts_with(wanted + ".");
+}
 
 Selection select(const NameFilter& wanted, Tier tier) {
   const std::vector<Check> checks = all_checks();
@@ -184,10 +235,12 @@ std::string summary(const RunRecord& run) {
   const auto generic = std::count_if(run.records.begin(), run.records.end(), [](const Record& r) {
     return r.outcome == Outcome::holds && scope_of(r) == FindingScope::generic;
   });
+  const auto unrun = std::ranges::count_if(run.records, did_not_run);
   const std::string of_them = generic > 0 ? fmt::format(" ({} generic)", generic) : "";
-  const std::string findings = fmt::format(
-      "{} hold{}, {} fail, {} inconclusive, {} not applicable", count(Outcome::holds), of_them,
-      count(Outcome::fails), count(Outcome::inconclusive), count(Outcome::not_applicable));
+  std::string findings = fmt::format("{} hold{}, {} fail, {} inconclusive, {} not applicable",
+                                     count(Outcome::holds), of_them, count(Outcome::fails),
+                                     count(Outcome::inconclusive), count(Outcome::not_applicable));
+  if (unrun > 0) findings += fmt::format(", {} did not run", unrun);
   if (run.claims.empty()) return findings;
   const std::string ruled =
       findings + fmt::format("; {} claims ruled as recorded, {} otherwise, {} undecided",
@@ -218,17 +271,10 @@ int exit_code(const RunRecord& run) {
 
 std::string listing(const RunRecord& run) {
   std::string text;
-  for (const Record& r : run.records) {
-    if (r.outcome == Outcome::not_applicable) {
-      text += fmt::format("{:<14} {:<60} {}\n", outcome_text(r), r.name, r.finding.note);
-      continue;
-    }
-    const Verdict& v = r.finding.verdict;
-    text +=
-        fmt::format("{:<14} {:<60} {:>11.4g} {} {:<9.4g} {}\n", outcome_text(r), r.name, v.measured,
-                    r.kind == "bench" ? "target" : "<=", v.bound, v.unit == "1" ? "" : v.unit);
-    if (r.outcome == Outcome::fails)
-      text += fmt::format("{:<14} {}\n{:<14} The bound: {}\n", "", r.claim, "", v.why_bound);
+  for (auto at = run.records.begin(); at != run.records.end();) {
+    const auto end = did_not_run(*at) ? end_of_unrun(at, run.records.end()) : at + 1;
+    text += listing_row(*at, end - at);
+    at = end;
   }
   return text;
 }

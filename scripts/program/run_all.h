@@ -20,6 +20,9 @@ struct Selection {
   std::vector<std::string> findings;
 };
 
+/// Whether `wanted` is the name, or its group: "bending" for "bending.forces-sum-to-zero".
+bool chooses(const std::string& wanted, const std::string& name);
+
 /// Selection by name: checks, studies, single findings of studies, or groups ("bending" for all
 /// that begins with "bending."), "case.NAME" for what is expected of a shipped case, whatever its
 /// tier, and "case" for all shipped cases of the tier. No name: all of the kinds. Without "check"
@@ -39,19 +42,22 @@ std::vector<Job> jobs_of(const Selection& selection, const Subject& subject, Tie
 void run_selection(const Selection& selection, const Subject& subject, Tier tier,
                    const JobSettings& settings, RunRecord& run);
 
-/// "121 hold, 0 fail, 0 inconclusive, 0 not applicable", and the claims if any were ruled.
+/// "121 hold, 0 fail, 0 inconclusive, 0 not applicable", how many did not run if any, and the
+/// claims if any were ruled.
 std::string summary(const RunRecord& run);
 
 /// The run rules claims, so it is of the whole suite, and more of its bounds are empirical than
 /// `most_empirical`.
 bool has_too_many_empirical_bounds(const RunRecord& run);
 
-/// 0 if every finding holds (or is not applicable, or measured only), every claim is ruled as
-/// recorded and few bounds are empirical, else 1. A claim that is undecided, and recorded so, fails
-/// the full tier only, unless it says what no run has.
+/// 0 if every finding holds (or is not applicable, or measured only), every claim is ruled
+/// as recorded and few bounds are empirical, else 1. A claim that is undecided, and recorded so,
+/// fails the full tier only, unless it says what no run has.
 int exit_code(const RunRecord& run);
 
-/// A line for each finding: outcome, name, measured, bound, unit.
+/// A line for each finding: outcome, name, measured, bound, unit; below one that fails, its
+/// claim, the reason of the bound, and its note. Findings in a row that did not run for one
+/// reason share a line.
 std::string listing(const RunRecord& run);
 
 }  // namespace foldproof

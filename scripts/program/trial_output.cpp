@@ -13,15 +13,6 @@ namespace foldproof {
 
 namespace {
 
-/// Failures of the solver itself have words instead of a number.
-std::string failure_notes(const std::vector<Record>& records) {
-  std::string text;
-  for (const Record& record : records)
-    if (record.outcome == Outcome::fails && !record.finding.note.empty())
-      text += fmt::format("{}: {}\n", record.name, record.finding.note);
-  return text;
-}
-
 std::string changes_text(const BaselineChanges& changes) {
   std::string text;
   for (const auto& [word, lines] : {std::pair("worse", &changes.worse),
@@ -59,8 +50,7 @@ int finish_trial(const TrialOutput& trial, const std::optional<std::vector<KeptV
   if (options.json)
     fmt::print("{}", verdicts_json(run));
   else
-    fmt::print("{}{}{}{}{}\n", trial.heading, listing(run), failure_notes(run.records), trial.below,
-               summary(run));
+    fmt::print("{}{}{}{}\n", trial.heading, listing(run), trial.below, summary(run));
   if (!changes) return exit_code(run);
   fmt::print(options.json ? stderr : stdout, "{}", changes_text(*changes));
   return changes->worse.empty() ? all_hold : some_fail;

@@ -1,7 +1,11 @@
 #!/usr/bin/python3
 """Tests of `foldproof judge` and `foldproof subject --check` as an adapter's author meets them, and
 of the protocol's page: its transcript and all that the program really sends
-are what the schema describes."""
+are what the schema describes.
+
+scripts/tests/test_judge.py [--program FILE] [Judge.test_...]
+--program: instead of build/foldproof
+"""
 from __future__ import annotations
 
 import json
@@ -20,8 +24,8 @@ sys.dont_write_bytecode = True
 import h5py  # noqa: E402
 from jsonschema import Draft202012Validator  # noqa: E402
 
-ROOT = Path(__file__).resolve().parents[2]
-PROGRAM = ROOT / "build" / "foldproof"
+from program_case import PROGRAM, ROOT  # noqa: E402
+
 SUBJECTS = ROOT / "verification" / "subjects"
 PYTHON = "exec /usr/bin/python3"
 TOY = f"{PYTHON} '{SUBJECTS}/adapters/toy_solver.py'"
@@ -117,7 +121,11 @@ class Judge(unittest.TestCase):
             self.assertEqual(
                 (file.attrs["subject"], file.attrs["subject_version"]), ("my toy", "1.0")
             )
+            seconds = float(file.attrs["seconds"])
         verdicts = json.loads((out / "verdicts.json").read_text(encoding="utf-8"))
+        of_laws = sum(row["seconds"] for row in verdicts["findings"])
+        self.assertGreater(of_laws, 0)
+        self.assertTrue(of_laws <= seconds < of_laws + 10, (of_laws, seconds))
         declined = {
             row["name"] for row in verdicts["findings"] if row["outcome"] == "not applicable"
         }
@@ -187,6 +195,75 @@ class Judge(unittest.TestCase):
         self.assertIn("exit 3: did not start", done.stdout)
         self.assertIn("suspect the adapter before the engine", done.stdout)
 
+    def test_a_failed_start_is_told_once_and_the_other_laws_did_not_run(self) -> None:
+        out, starts = self.path / "none", self.path / "starts"
+        words = f"echo start >> '{starts}'; echo no licence >&2; exit 3"
+        done = run("judge", "--solver", words, "--out", str(out))
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual(starts.read_text(), "start\n")
+        for told in ("exited with code 3", "its last words: no licence"):
+            self.assertEqual(done.stdout.count(told), 1)
+        self.assertLess(len(done.stdout.splitlines()), 10)
+        self.assertTrue(done.stdout.endswith(
+            f"\n0 hold, 1 fail, 0 inconclusive, 0 not applicable, {LAWS - 1} did not run\n"
+        ))
+        self.assertEqual(done.stderr, "fails smoke.sheet-at-rest-stays\n")
+        rows = json.loads((out / "verdicts.json").read_text(encoding="utf-8"))["findings"]
+        self.assertEqual(
+            [row["outcome"] for row in rows], ["fails"] + ["did not run"] * (LAWS - 1)
+        )
+        self.assertEqual(rows[-1]["note"], "the trial ended during smoke.sheet-at-rest-stays")
+        self.assertEqual((out / "junit.xml").read_text().count("<error "), LAWS - 1)
+        done = run("report", str(out))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        text = (out / "report.html").read_text(encoding="utf-8")
+        self.assertIn("did not start</h1>", text)
+        self.assertNotIn("did not finish", text)
+
+    def test_failing_lines_say_what_is_true(self) -> None:
+        done = run("judge", "--solver", bad("wrong", "gravity_scaled"), "gravity")
+        self.assertRegex(done.stdout, r"fails +gravity\.speed-grows-by-g-t +[\d.e+]+ >  1 ")
+        self.assertNotRegex(done.stdout, r"fails .*<=")
+        done = run("judge", "--solver", bad("broken", "crash"), "smoke")
+        self.assertRegex(done.stdout, r"fails +smoke\.\S+ +no number")
+        self.assertNotIn("nan", done.stdout)
+
+    def test_single_laws_and_groups_are_judged(self) -> None:
+        kept = str(self.keep_baseline(TOY))
+        order = "order.observed-is-as-claimed"
+        done = run("judge", "--solver", TOY, "held", order, "--json", "--baseline", kept)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        names = [row["name"] for row in json.loads(done.stdout)["findings"]]
+        self.assertEqual(names, ["held.particles-stay", order])
+        self.assertEqual(done.stderr, "against the baseline: 0 worse, 0 better\n")
+        for typed, told in {
+            "contcat": "did you mean contact?", "adapter.py": "is CMD in quotes?",
+            "order.observed-is-as-claimd": f"did you mean {order}?", "order.": "there is no law",
+        }.items():
+            done = run("judge", "--solver", TOY, "held", typed)
+            self.assertEqual((done.returncode, done.stdout), (2, ""))
+            self.assertIn(told, done.stderr)
+            self.assertEqual(done.stderr.count("\n"), 1)
+        done = run("judge", "--frames", str(self.path), "--case", "hanging_sheet", "held")
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
+
+    def test_the_laws_are_listed(self) -> None:
+        laws = json.loads(run("list", "--json").stdout)["laws"]
+        self.assertEqual(len(laws), LAWS)
+        lines = run("list").stdout.splitlines()
+        first = lines.index("laws for `judge`:") + 1
+        for law, line in zip(laws, lines[first:first + LAWS], strict=True):
+            self.assertEqual(line.split(maxsplit=1), [law["name"], law["claim"]])
+
+    def test_the_example_of_the_help_works(self) -> None:
+        told = run("subject", "--help").stdout
+        example = re.search(r"^  foldproof (subject --check .*)$", told, re.M).group(1)
+        done = subprocess.run(
+            f"'{PROGRAM}' {example}", shell=True, cwd=ROOT, capture_output=True, text=True,
+            check=False
+        )
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
     def test_a_crash_is_told_with_signal_and_last_words(self) -> None:
         done = run("judge", "--solver", bad("broken", "crash"))
         self.assertEqual(done.returncode, 1)
@@ -216,7 +293,7 @@ class Judge(unittest.TestCase):
         for solver, (command, setting) in zip(said["solvers"], solvers.values()):
             self.assertEqual(solver["command"], command)
             self.assertEqual(solver["settings"], dict([setting.split("=")]))
-        self.assertEqual([one["counts"]["fails"] for one in said["solvers"]], [0, 0, 3, LAWS, 0])
+        self.assertEqual([one["counts"]["fails"] for one in said["solvers"]], [0, 0, 3, 1, 0])
         self.assertEqual(said["solvers"][0]["version"], "1.0")
         for number, name in enumerate(solvers):
             verdicts = json.loads((self.path / name / "verdicts.json").read_text(encoding="utf-8"))
@@ -226,8 +303,7 @@ class Judge(unittest.TestCase):
                 for key in ("outcome", "measured", "bound", "unit", "note"):
                     self.assertEqual(answer[key], row[key])
         text = page.read_text(encoding="utf-8")
-        self.assertIn('Differences from a law <span class="quiet">'
-                      f"{LAWS + 3}</span>", text)
+        self.assertIn('Differences from a law <span class="quiet">4</span>', text)
         rows = said["error_against_cost"]
         self.assertEqual(len(rows), 4 * 4)  # of the four that started
         self.assertTrue(all(row["has_limit"] and row["seconds by the clock"] > 0 for row in rows))

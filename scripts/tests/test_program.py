@@ -131,6 +131,9 @@ class ProgramTest(ProgramCase):
         self.assertEqual(complete("inspect", "cas"), ["cases/"])
         self.assertEqual(complete("golden", "fri"), ["friction"])
         self.assertEqual(complete("campaign", "sta"), ["status"])
+        self.assertEqual(complete("judge", "--solver", "cmd", "tunn"),
+                         ["tunnelling", "tunnelling.thin-box-stops-a-slow-sheet"])
+        self.assertEqual(complete("judge", "--sol"), ["--solver"])
 
     def test_an_unknown_check_is_refused_with_neighbours(self) -> None:
         done = run("check", "bending.forces-sum-to-zer")
@@ -217,7 +220,7 @@ class ProgramTest(ProgramCase):
             "check bending --tier fast": "'fast' is not one of quick, full",
             "check bending --out notes.txt": "notes.txt: cannot make this folder",
             "bench --out notes.txt": "notes.txt: cannot make this folder",
-            "report": "DIR is missing; usage: foldproof report DIR [DIR]",
+            "report": "DIR is missing; usage: foldproof report DIR... [OPTIONS]",
             "film empty.h5": "is empty; give a stored run",
             "film notes.txt --size axb": "'axb' is not WIDTHxHEIGHT",
             "film notes.txt --fps many": "'many' is not a whole number from 1 to 120",

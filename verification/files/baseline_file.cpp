@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <map>
@@ -21,7 +22,9 @@ double number_of(const nlohmann::json& row, const char* key) {
   return value.is_null() ? std::nan("") : value.get<double>();
 }
 
-/// holds 0, inconclusive 1, fails 2; not applicable -1
+constexpr std::string_view unrun = "did not run";  // after the end of a trial
+
+/// holds 0, inconclusive 1, fails or did not run 2; not applicable -1
 int badness(std::string_view outcome) {
   if (outcome == name_of(Outcome::not_applicable)) return -1;
   if (outcome == name_of(Outcome::holds)) return 0;
@@ -48,7 +51,7 @@ Change change_of(const KeptVerdict& kept, const Record& now) {
 
 /// "fails, measured/bound 3.2e+04", "holds"
 std::string phrase(std::string_view outcome, double measured, double bound) {
-  if (badness(outcome) <= 0) return std::string(outcome);
+  if (badness(outcome) <= 0 || outcome == unrun) return std::string(outcome);
   if (std::isnan(measured)) return fmt::format("{} without a number", outcome);
   return bound > 0 ? fmt::format("{}, measured/bound {:.3g}", outcome, measured / bound)
                    : fmt::format("{}, measured {:.3g}", outcome, measured);
@@ -59,7 +62,7 @@ KeptVerdict kept_verdict(const nlohmann::json& row) {
                    number_of(row, "measured"), number_of(row, "bound")};
   for (const Outcome known :
        {Outcome::holds, Outcome::fails, Outcome::inconclusive, Outcome::not_applicable})
-    if (kept.outcome == name_of(known)) return kept;
+    if (kept.outcome == name_of(known) || kept.outcome == unrun) return kept;
   throw InputError(fmt::format("the outcome of {} is '{}'", kept.name, kept.outcome));
 }
 
@@ -78,7 +81,8 @@ std::vector<KeptVerdict> read_baseline(const std::string& path) {
       if (!names.insert(kept.back().name).second)
         throw InputError("it has " + kept.back().name + " twice");
     }
-    if (kept.empty()) throw InputError("it has no findings");
+    const auto ran = [](const KeptVerdict& one) { return one.outcome != unrun; };
+    if (std::ranges::none_of(kept, ran)) throw InputError("it has no findings");
   } catch (const std::exception& error) {
     throw InputError(fmt::format("{}: no verdicts.json of a finished run: {}", path, error.what()));
   }

@@ -15,8 +15,8 @@ struct KeptVerdict {
   double measured = 0, bound = 0;  // NaN: none
 };
 
-/// The findings of a verdicts.json but claims. Throws InputError naming the file if it is
-/// none, or has none.
+/// The findings of a verdicts.json but claims. Throws InputError naming the file if it is none, or
+/// if none of them ran.
 std::vector<KeptVerdict> read_baseline(const std::string& path);
 
 /// A line for each finding that differs; the others are as they were.
@@ -28,7 +28,8 @@ struct BaselineChanges {
 /// Worse is
 ///   - what fails or is inconclusive now, and did not or was not,
 ///   - what held, and is not applicable now,
-///   - what failed, and fails by more than twice as much, or without a number.
+///   - what failed, and fails by more than twice as much, or without a number,
+///   - what did not run, and did before.
 /// A finding that only one of the two has is neither worse nor better.
 BaselineChanges changes_since(const std::vector<KeptVerdict>& kept,
                               const std::vector<Record>& records);

@@ -50,6 +50,18 @@ TEST_CASE("baseline: a change of the outcome is worse, better or neither") {
     }
 }
 
+TEST_CASE("baseline: what no longer runs is worse, and what runs again is better") {
+  Record unrun = record_of("law", holds, std::nan(""));
+  unrun.outcome.reset();
+  const KeptVerdict kept{"law", "did not run", std::nan(""), std::nan("")};
+  for (const Outcome was : {holds, inconclusive, fails, not_applicable})
+    CHECK(change(kept_of(was, 3), unrun) == 'w');
+  CHECK(change(kept, unrun) == '-');
+  for (const Outcome is : {holds, inconclusive, fails})
+    CHECK(change(kept, record_of("law", is, 3)) == 'b');
+  CHECK(changes_since({kept_of(holds, 1)}, {unrun}).worse.at(0) == "law: did not run; was: holds");
+}
+
 TEST_CASE("baseline: a failure is worse if it more than doubled or lost its number") {
   const KeptVerdict kept = kept_of(fails, 30, 3);
   CHECK(change(kept, record_of("law", fails, 60, 3)) == '-');

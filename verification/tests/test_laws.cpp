@@ -40,6 +40,19 @@ TEST_CASE("subject: a strip without bending hangs limp, and the law says so in n
   CHECK(record.finding.note.find("limp, 1.00 of its length low") != std::string::npos);
 }
 
+TEST_CASE("subject: a strip without bending fails the laws of bent strips, and they say why") {
+  const SolverCommand command = python("bad/wrong.py bends_not_at_all");
+  const std::vector<Record> records =
+      judge_solver(command, laws_of({"strip", "buckling"}), ignore).records;
+  CHECK(records.size() == 6);
+  for (const Record& record : records) {
+    INFO(record.name << ": " << record.finding.note);
+    CHECK(record.outcome == Outcome::fails);
+    CHECK(record.finding.note.find("the strip does not resist bending: ") == 0);
+    CHECK(record.finding.verdict.why_bound.find("rigidity") != std::string::npos);
+  }
+}
+
 TEST_CASE("subject: bent strips raise no alarm for bending of another kind or rigidity", "[long]") {
   for (const char* kind : {"bends", "bends_fourfold"}) {
     INFO(kind);

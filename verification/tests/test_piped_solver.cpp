@@ -64,7 +64,7 @@ TEST_CASE("subject: a command without a program is refused, one that starts and 
     CHECK_THROWS_AS(judge_solver({command, {}, {}}, portable_laws(), ignore), InputError);
   }
   const Judgement judgement = judge_solver({"exit 2", {}, {}}, portable_laws(), ignore);
-  CHECK(judgement.records.back().outcome == Outcome::fails);
+  CHECK(judgement.records.front().outcome == Outcome::fails);
 }
 
 TEST_CASE("subject: a solver that ends while its child lives is told by its exit code") {
@@ -125,15 +125,35 @@ TEST_CASE("subject: noise on standard output does no harm") {
   CHECK(failure_of(broken("noise_on_stdout")).cause == "none");
 }
 
-TEST_CASE("subject: a solver that never starts fails every law once, without another start") {
+TEST_CASE("subject: a solver that never starts fails the first law, and the others do not run") {
   SolverCommand command = broken("silent_start");
   command.limits.seconds = 0.5;
   const auto start = std::chrono::steady_clock::now();
-  const Judgement judgement = judge_solver(command, portable_laws(), ignore);
+  const std::vector<Law> laws = portable_laws();
+  const Judgement judgement = judge_solver(command, laws, ignore);
   CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(5));
-  CHECK(judgement.records.size() == portable_laws().size());
+  REQUIRE(judgement.records.size() == laws.size());
   CHECK(!judgement.smoke_holds);
-  for (const Record& record : judgement.records) CHECK(record.outcome == Outcome::fails);
+  CHECK(judgement.declaration.name.empty());
+  CHECK(judgement.records.front().outcome == Outcome::fails);
+  for (size_t k = 1; k < laws.size(); ++k) {
+    const Record& record = judgement.records[k];
+    CHECK((record.name == laws[k].name && did_not_run(record)));
+    CHECK(record.finding.note == "the trial ended during " + laws.front().name);
+  }
+}
+
+TEST_CASE("subject: after a third hang the laws that are left do not run") {
+  SolverCommand command = broken("hang");
+  command.limits.seconds = 1;
+  const Judgement judgement =
+      judge_solver(command, laws_of({"smoke", "inertia", "gravity", "held"}), ignore);
+  REQUIRE(judgement.records.size() == 6);
+  CHECK(judgement.declaration.name == "toy springs (Python)");  // it started
+  for (size_t k = 0; k < 6; ++k) {
+    INFO(judgement.records[k].name << ": " << judgement.records[k].finding.note);
+    CHECK(did_not_run(judgement.records[k]) == (k > 2));
+  }
 }
 
 TEST_CASE("subject: a start that failed is not tried again") {
@@ -141,7 +161,7 @@ TEST_CASE("subject: a start that failed is not tried again") {
   const std::string starts = folder.file("starts");
   const SolverCommand command{"echo start >> '" + starts + "'; exit 3", {}, {}};
   const Judgement judgement = judge_solver(command, portable_laws(), ignore);
-  CHECK(judgement.records.back().finding.note.find("exited with code 3") != std::string::npos);
+  CHECK(judgement.records.front().finding.note.find("exited with code 3") != std::string::npos);
   std::ifstream file(starts);
   CHECK(std::count(std::istreambuf_iterator<char>(file), {}, '\n') == 1);
 }

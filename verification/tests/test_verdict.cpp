@@ -126,6 +126,7 @@ TEST_CASE("a check that throws fails and says why; one that is not offered is no
   const Record absent =
       run_check(check_that([](const Subject&) -> Finding { throw NotOffered{"step"}; }), subject);
   CHECK(absent.outcome == Outcome::not_applicable);
+  CHECK(absent.finding.verdict.why_bound.empty());
 }
 
 TEST_CASE("an operation that a subject lacks is reported by name") {

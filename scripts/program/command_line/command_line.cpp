@@ -32,9 +32,7 @@ std::string wrapped(const std::string& text, size_t width) {
 
 bool takes_value(const CLI::Option& option) { return option.get_expected_max() > 0; }
 
-bool takes_many(const CLI::Option& option) {
-  return option.get_expected_max() >= CLI::detail::expected_max_vector_size;
-}
+bool takes_many(const CLI::Option& option) { return option.get_expected_max() > 1; }
 
 bool is_switch(const CLI::Option* option) {
   return option->nonpositional() && !option->get_positional();
@@ -62,10 +60,7 @@ std::string usage_of(const CLI::App& app) {
   for (const CLI::Option* option : app.get_options()) {
     if (is_switch(option)) continue;
     std::string name = option->get_name(true, false);
-    if (takes_many(*option))
-      name += "...";
-    else if (option->get_expected_max() > 1)
-      name += " [" + name + "]";
+    if (takes_many(*option)) name += "...";
     usage += option->get_required() ? " " + name : " [" + name + "]";
   }
   for (const CLI::Option* option : app.get_options(is_switch))

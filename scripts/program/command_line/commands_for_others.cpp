@@ -46,6 +46,10 @@ void add_judge(CLI::App& app, Options& options) {
   CLI::Option* solver =
       judge->add_option("--solver", options.solver, "Command that starts the solver's adapter");
   solver->type_name("CMD")->check(some_text("a command"));
+  judge
+      ->add_option("LAW", options.names,
+                   "Laws or groups to judge, as `foldproof list` shows them (default: all)")
+      ->needs(solver);
   add_judged_frames(judge, solver, options);
   judge->add_option("--name", options.name, "Name in the report (default: the solver's own)")
       ->type_name("NAME")

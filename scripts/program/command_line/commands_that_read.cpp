@@ -149,11 +149,11 @@ void add_compare(CLI::App& app, Options& options) {
 }  // namespace
 
 void add_readers(CLI::App& app, Options& options) {
-  add_json(
-      add_command(app, options,
-                  {"list", "Show what there is: checks, studies, cases, integrators", help::list},
-                  list),
-      options);
+  add_json(add_command(app, options,
+                       {"list", "Show what there is: checks, studies, laws, cases, integrators",
+                        help::list},
+                       list),
+           options);
   CLI::App* claims = add_command(
       app, options,
       {"claims", "Show the rulings of a finished run on the papers' claims", help::claims},

@@ -9,7 +9,7 @@ constexpr const char* whole_program =
   foldproof verify                                     the quick tier, and results/report.html
   foldproof simulate hanging_sheet                     one case, into results/
   foldproof check bending                              all checks of bending
-  foldproof list                                       names of checks, studies and cases
+  foldproof list                                       names of checks, studies, laws and cases
 `foldproof COMMAND --help` explains a command, with examples.
 
 Exit codes:
@@ -101,6 +101,8 @@ crossings, depth in objects, strain, folds, energy, and what the case expects.
 CMD starts an adapter that speaks the protocol of verification/subjects/PROTOCOL.md, in a process of
 its own. Simple laws (smoke) come first: if one fails, suspect the adapter. If the solver crashes,
 hangs or answers nonsense, the current law fails and shows its last output; the next law then runs.
+If it cannot be started, or hangs a third time, the laws that are left do not run. Name laws or
+groups to judge only those, such as: contact symmetry.mirror
 
 Examples:
   foldproof judge --frames my_frames --case drape_sphere --rate 60 --out mine
@@ -115,7 +117,8 @@ constexpr const char* subject =
     R"(Calls each operation of the declared level once, on a small sheet.
 
 Examples:
-  foldproof subject --check "python3 verification/subjects/adapters/toy_solver.py"
+  foldproof subject --check "/usr/bin/python3 verification/subjects/adapters/toy_solver.py"
+  (in a clone; needs the Debian package python3-numpy)
 
 Exit codes:
   0    the adapter keeps to the protocol

@@ -192,7 +192,7 @@ Finding take_their_shape(Trial& trial, const std::vector<Bent>& strips) {
   trial.require_level(1);
   trial.require("held");
   const double rigidity = measured_rigidity(trial, flat_strip(), shape);
-  require_resistance(rigidity, given);
+  require_resistance("bending", rigidity, given);
   Table shapes = no_shapes();
   for (const Bent& bent : strips) compare(trial, bent, rigidity, shapes);
   return judge_worst(

@@ -112,7 +112,7 @@ Finding falls_at_greenhill_s_load(Trial& trial) {
   trial.require_level(1);
   trial.require("held");
   const double rigidity = measured_rigidity(trial, lying_strip(), shape_of_column);
-  require_resistance(rigidity, given);
+  require_resistance("bending", rigidity, given);
   const double most = falls_under(rigidity, shortest),
                least = (1 - largest_poisson * largest_poisson) * falls_under(rigidity, longest);
   const Bracket bracket = bracket_of(trial, {rigidity, lying_strip().dt});

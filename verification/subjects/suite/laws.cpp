@@ -6,15 +6,32 @@ namespace foldproof {
 
 namespace {
 
-Record judge_law(const Law& law, Trial& trial) {
+Record unjudged(const Law& law) {
   Record record;
   record.name = law.name;
   record.kind = "check";
   record.claim = law.claim;
   record.source = law.source;
-  return judge(std::move(record), [&] {
+  return record;
+}
+
+Finding without_number(const std::string& required, const std::string& note) {
+  return {{nan, nan, nan, "1", required}, {}, note};
+}
+
+/// Of a law after the one during which the trial ended.
+Record not_asked(const Law& law, const std::string& last_law) {
+  Record record = unjudged(law);
+  record.finding = without_number("", "the trial ended during " + last_law);
+  return record;
+}
+
+Record judge_law(const Law& law, Trial& trial) {
+  return judge(unjudged(law), [&] {
     try {
       return law.run(trial);
+    } catch (const FailedWithoutNumber& failure) {
+      return without_number(failure.required, failure.what());
     } catch (const SolverFailure& failure) {
       trial.note(failure);
       throw;
@@ -51,17 +68,17 @@ Judgement judge_solver(const SolverCommand& command, const std::vector<Law>& law
   Trial trial(command);
   require_program(trial);
   Judgement judgement;
+  std::string last_law;
   for (const Law& law : laws) {
-    judgement.records.push_back(judge_law(law, trial));
+    const bool is_asked = last_law.empty() || !trial.has_ended();  // the first tells a failed start
+    if (is_asked) last_law = law.name;
+    judgement.records.push_back(is_asked ? judge_law(law, trial) : not_asked(law, last_law));
     done(judgement.records.back());
   }
   judgement.smoke_holds = std::ranges::all_of(judgement.records, [](const Record& record) {
     return !is_smoke(record) || record.outcome == Outcome::holds;
   });
-  try {
-    judgement.declaration = trial.declaration();
-  } catch (const SolverFailure&) {  // its records say so
-  }
+  judgement.declaration = trial.last_declaration();
   judgement.mapping = trial.mapping();
   return judgement;
 }

@@ -48,6 +48,7 @@ struct Judgement {
 };
 
 /// Asks the laws; a failure of the solver is the finding of its law, and the next one goes on.
+/// After one that ends the trial, the others have no outcome.
 /// Throws InputError if there is no such program.
 ///   done   is called after each law
 Judgement judge_solver(const SolverCommand& command, const std::vector<Law>& laws,

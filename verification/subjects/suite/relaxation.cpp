@@ -71,11 +71,11 @@ Relaxed relaxed(Trial& trial, PortableScene scene, const Relaxation& relaxation)
       trial.restart();
     }
   }
-  throw SolverFailure(
-      "error",
+  throw FailedWithoutNumber(
       fmt::format(
           "what hangs does not come to rest in steps of {:.2g} s, the shortest that are tried: {}",
-          scene.dt, what));
+          scene.dt, what),
+      "a shape at rest is compared");
 }
 
 }  // namespace foldproof::suite

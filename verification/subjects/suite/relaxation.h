@@ -21,7 +21,7 @@ struct Relaxed {
 
 /// Equilibrium by kinetic damping: the motion is stopped whenever its kinetic energy is largest,
 /// until two rounds move it little, or 24 times; in shorter steps where it gains energy otherwise.
-/// Throws SolverFailure "error" if the shortest steps that are tried gain energy, too.
+/// Throws FailedWithoutNumber if the shortest steps that are tried gain energy, too.
 Relaxed relaxed(Trial& trial, PortableScene scene, const Relaxation& relaxation);
 
 }  // namespace foldproof::suite

@@ -58,14 +58,15 @@ double measured_rigidity(Trial& trial, const PortableScene& strip, const StripSh
   return moment / curvature;
 }
 
-void require_resistance(double measured, double given) {
+void require_resistance(std::string_view to_what, double measured, double given) {
   constexpr double least_rigidity = 1e-2;  // of the scene's
   if (measured > least_rigidity * given) return;
-  throw SolverFailure(
-      "error",
-      fmt::format(
-          "the strip does not resist bending: {:.2g} N m are measured, the scene has {:.2g} N m",
-          measured, given));
+  throw FailedWithoutNumber(
+      fmt::format("the strip does not resist {}: {:.2g} N m are measured, the scene has {:.2g} N m",
+                  to_what, measured, given),
+      fmt::format("at least {:.0f} % of the scene's rigidity; a limper strip takes too long to come "
+                  "to rest, or to fall",
+                  100 * least_rigidity));
 }
 
 Bracket bracketed(double expected, const std::function<bool(double)>& falls) {

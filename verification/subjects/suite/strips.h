@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <string_view>
 #include <vector>
 
 #include "verification/subjects/suite/trial.h"
@@ -29,9 +30,9 @@ std::vector<int> rows_at_distance(const PortableScene& strip, const StripShape& 
 /// let go from a cylinder, half of it gains angular momentum by the moment in its middle.
 double measured_rigidity(Trial& trial, const PortableScene& strip, const StripShape& shape);
 
-/// Throws SolverFailure "error" if a measured rigidity is below a hundredth of the scene's [N m]:
-/// such a strip would take too long to come to rest, or to fall.
-void require_resistance(double measured, double given);
+/// Throws FailedWithoutNumber if a measured rigidity, to "bending" or "twisting", is below a
+/// hundredth of the scene's [N m]: such a strip would take too long to come to rest, or to fall.
+void require_resistance(std::string_view to_what, double measured, double given);
 
 struct Bracket {
   double stands, falls;  // gravity [m/s^2]

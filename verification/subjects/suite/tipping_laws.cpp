@@ -162,9 +162,9 @@ Finding tips_at_its_load(Trial& trial) {
   trial.require_level(1);
   trial.require("held");
   const double bending = measured_rigidity(trial, lying_ribbon(), ribbon);
-  require_resistance(bending, given);
+  require_resistance("bending", bending, given);
   const double twisting = measured_twisting(trial);
-  require_resistance(twisting, given);
+  require_resistance("twisting", twisting, given);
   const Rigidities rigidities{bending, twisting};
   const double expected = tips_under(rigidities, longest),
                least = std::sqrt(1 - largest_poisson * largest_poisson) * expected,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,6 +10,13 @@
 #include "verification/subjects/pipe/piped_solver.h"
 
 namespace foldproof {
+
+/// Thrown by a law that fails before it has a number. The text says what was seen.
+struct FailedWithoutNumber : std::runtime_error {
+  std::string required;  // to get a number: the reason in place of that of a bound
+  FailedWithoutNumber(const std::string& seen, std::string required_)
+      : std::runtime_error(seen), required(std::move(required_)) {}
+};
 
 class Trial {
  public:
@@ -22,6 +30,12 @@ class Trial {
   void restart();
 
   const Declaration& declaration();
+
+  /// The latest declaration; unset if the solver never started.
+  const Declaration& last_declaration() const { return declared_; }
+
+  /// Whether the solver will not be asked again.
+  bool has_ended() const { return gave_up_.has_value(); }
 
   /// Throws NotOffered unless the solver declares it.
   void require_level(int level);
