@@ -21,6 +21,20 @@ class SpringsPerLength(ToySolver):
         return mapping
 
 
+class WeftPerLength(ToySolver):
+    """Right along x, whatever the mesh. Along y it is stiffer with shorter edges, and right with
+    those of 0.05 m alone."""
+
+    def prepare(self, scene: Scene) -> dict[str, str]:
+        mapping = super().prepare(scene)
+        self.weft = 0.05 / np.mean(self.length)
+        return mapping
+
+    def forces(self) -> np.ndarray:
+        weight = self.mass[:, None] * self.gravity
+        return weight + (super().forces() - weight) * np.array([1, self.weft, 1])
+
+
 class SpringsOfOneStiffness(ToySolver):
     """Young's modulus as every spring's stiffness."""
 

@@ -306,6 +306,7 @@ KINDS = {
     "on_planes_backward_euler": contact.OnPlanesBackwardEuler,
     "on_planes_backward_euler_single": contact.OnPlanesBackwardEulerInSingle,
     "gravity_scaled_single": GravityScaledInSingle,
+    "weft_per_length": materials.WeftPerLength,
     "springs_per_length": materials.SpringsPerLength,
     "springs_of_one_stiffness": materials.SpringsOfOneStiffness,
     "knows_its_units": KnowsItsUnits,
