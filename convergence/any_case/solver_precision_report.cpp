@@ -20,10 +20,18 @@ const PriceList* prices_at(const PrecisionAnswer& reference, double wanted) {
              : &*list;
 }
 
+/// What limits the step, where it is not the error; "" otherwise.
+std::string limit_in_words(const SolverPrice& price) {
+  if (price.is_whole_frame) return "one step a frame; no longer step can be tried";
+  if (std::isnan(price.unstable_step)) return "";
+  return fmt::format("limited by stability: {:.3g} ms is unstable", price.unstable_step / milli);
+}
+
 std::string price_in_words(const SolverPrice& price) {
   if (!price.because.empty()) return price.because;
-  return fmt::format("h {} {:.3g} ms, {:.2g} s by the clock", price.is_longest_tried ? ">=" : "=",
-                     price.step / milli, price.seconds);
+  const std::string limit = limit_in_words(price);
+  return fmt::format("h {} {:.3g} ms{}, {:.2g} s by the clock", price.is_whole_frame ? ">=" : "=",
+                     price.step / milli, limit.empty() ? "" : " (" + limit + ")", price.seconds);
 }
 
 std::string beside(const PrecisionAnswer& reference, double wanted) {
@@ -105,10 +113,8 @@ Table price_table(const SolverPrecision& solver, const PrecisionAnswer& referenc
     const PriceList* list = prices_at(reference, price.wanted);
     const MethodPrice none{"none", {LimitedBy::not_reached, nan, nan, nan, nan}};
     const MethodPrice& best = list ? list->prices.front() : none;
-    const std::string note =
-        price.is_longest_tried ? "the longest step tried: a longer one may do" : price.because;
     table.row(percent * price.wanted, price.step, price.seconds, best.method, best.price.step,
-              best.price.seconds, note);
+              best.price.seconds, price.because.empty() ? limit_in_words(price) : price.because);
   }
   return {"prices", "What a position error costs", table};
 }

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "convergence/any_case/distances.h"
+#include "convergence/any_case/trial_ladder.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/solver_command.h"
 
@@ -38,7 +39,7 @@ SolverPlan PrecisionOfSolver::plan_of(const PrecisionAnswer& reference) {
   plan.frame = ladder_.steps().interval;
   plan.formal_order = std::max(1, declared.order);
   plan.floor = 1e3 * declared.rounding() * longest_side(scene.x);
-  plan.first = int(ladder_.steps().a_frame);
+  plan.first = first_parts(plan.frame, plan.frame / double(ladder_.steps().a_frame));
   plan.most_seconds = most_seconds_;
   return plan;
 }
@@ -50,7 +51,9 @@ SolverPrecision PrecisionOfSolver::answer(const PrecisionAnswer& reference,
   for (int parts = next_parts(plan, runs); parts > 0; parts = next_parts(plan, runs)) {
     log_line(fmt::format("{}: {} steps a frame", plan.name, parts));
     const LevelRun& run = runs[parts] = ladder_.run_with(parts);
-    if (run.stopped.starts_with("the solver declines")) throw InputError(run.stopped);
+    // a step longer than the case's own may be declined
+    if (parts >= ladder_.steps().a_frame && run.stopped.starts_with("the solver declines"))
+      throw InputError(run.stopped);
   }
   return solver_precision(plan, runs, reference.truth, times);
 }
@@ -76,7 +79,8 @@ json to_json(const SolverPrecision& solver, const PrecisionAnswer& reference) {
     told["prices"].push_back({{"error", price.wanted},
                               {"step", price.step},
                               {"clock", price.seconds},
-                              {"longest_tried", price.is_longest_tried},
+                              {"is_whole_frame", price.is_whole_frame},
+                              {"unstable_step", price.unstable_step},
                               {"because", price.because}});
   return told;
 }

@@ -10,6 +10,19 @@ namespace {
 
 constexpr int most_hangs = 3;  // each takes the whole limit of the clock
 
+/// Adds up the seconds from its start to its end, even if an exception ends it.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
+  ~Stopwatch() {
+    seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  double& seconds_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
 }  // namespace
 
 PipedSolver& Trial::solver() {
@@ -53,13 +66,11 @@ void Trial::prepare(const PortableScene& scene) {
 }
 
 std::vector<Snapshot> Trial::motion(const PortableScene& scene, const std::vector<long>& steps) {
-  using Clock = std::chrono::steady_clock;
+  seconds_of_motion_ = 0;
   const bool whole = declaration().level == 0;
   if (!whole) prepare(scene);
-  const Clock::time_point start = Clock::now();
-  std::vector<Snapshot> states = whole ? solver().run(scene, steps) : advance(scene.dt, steps);
-  seconds_of_motion_ = std::chrono::duration<double>(Clock::now() - start).count();
-  return states;
+  const Stopwatch stopwatch(seconds_of_motion_);
+  return whole ? solver().run(scene, steps) : advance(scene.dt, steps);
 }
 
 std::vector<Snapshot> Trial::advance(double dt, const std::vector<long>& steps) {

@@ -34,8 +34,8 @@ class Trial {
   std::vector<Snapshot> motion(const PortableScene& scene, const std::vector<long>& steps);
   Snapshot after(const PortableScene& scene, long steps) { return motion(scene, {steps}).front(); }
 
-  /// By the clock, how long the answers of the latest motion took [s]: its steps and the pipe, and
-  /// at level 0 the scene's setup, too.
+  /// By the clock, how long the answers of the latest motion took [s], to its failure if it failed:
+  /// its steps and the pipe, and at level 0 the scene's setup, too.
   double seconds_of_motion() const { return seconds_of_motion_; }
 
   /// To be called when a law has thrown: the process has ended, the next law starts another.
