@@ -92,7 +92,7 @@ TEST_CASE(
   CHECK(std::abs(answer.prices[1].step / (0.3 / std::sqrt(5.0)) - 1) < 0.1);
 }
 
-TEST_CASE("solver's precision: the longest stable step is found to a third") {
+TEST_CASE("solver's precision: the longest stable step is found to a quarter") {
   const auto error = [](int parts) { return parts < 21 ? nan : 0.02 * std::pow(parts, -1.0); };
   const SolverPrecision answer = answer_of(plan_of(1), error);
   const SolverPrice& price = answer.prices[0];

@@ -66,7 +66,7 @@ class PrecisionSolverTest(ProgramCase):
             price for price in told["prices"][0]["methods"] if price["method"] == "C"
         )
         self.assertGreater(there["step"], 20e-4)  # the search begins at four times the case's step
-        # both searches narrow steps to a third
+        # both searches narrow it to a quarter
         self.assertLess(abs(there["step"] / here["step"] - 1), 0.35)
         self.assertFalse(there["is_whole_frame"])
 
