@@ -43,7 +43,7 @@ std::vector<SolverStep> steps_of(const SolverPlan& plan, const SolverRuns& runs,
   const auto whole = whole_runs(runs);
   std::vector<SolverStep> steps;
   for (const auto& [parts, run] : runs) {
-    SolverStep step{parts, plan.frame / parts, nan, run.seconds, run.stopped};
+    SolverStep step{parts, plan.frame / parts, nan, {run.seconds, run.clock}, run.stopped};
     if (came_to_end(run) && !whole.empty() && bar.reading != Reading::inconclusive)
       step.error = (distance(plan, run, *whole.back().second) + bar.half_width) / plan.motion;
     steps.push_back(step);
@@ -111,14 +111,15 @@ SolverPrice price_of(const SolverPlan& plan, const ErrorBar& bar,
     price.because = "no step that was tried reaches it; a shorter one would take too long";
   } else {
     const SolverStep& fine = steps[first];
-    price.step = fine.step, price.seconds = fine.seconds;
+    price.step = fine.step, price.spent = fine.spent;
     price.is_whole_frame = first == 0;
     const SolverStep* coarse = first > 0 ? &steps[first - 1] : nullptr;
     if (coarse && is_unstable(*coarse)) price.unstable_step = coarse->step;
     if (coarse && !is_unstable(*coarse)) {
       const double part = std::log(wanted / fine.error) / std::log(coarse->error / fine.error);
       price.step *= std::pow(coarse->step / fine.step, part);
-      price.seconds *= std::pow(coarse->seconds / fine.seconds, part);
+      price.spent.processor *= std::pow(coarse->spent.processor / fine.spent.processor, part);
+      price.spent.clock *= std::pow(coarse->spent.clock / fine.spent.clock, part);
     }
   }
   return price;
@@ -144,7 +145,7 @@ int next_parts(const SolverPlan& plan, const SolverRuns& runs) {
   while (!is_halving(finest->first)) ++finest;
   const auto& [parts, run] = *finest;
   const bool may_halve = parts < plan.first << most_doublings &&
-                         (!came_to_end(run) || 2 * run.seconds <= plan.most_seconds);
+                         (!came_to_end(run) || 2 * run.clock <= plan.most_seconds);
   if (may_halve && !is_exact_enough(plan, runs)) return 2 * parts;
   if (needs_longer_step(plan, runs)) return runs.begin()->first / 2;
   return between_unstable(plan, runs);

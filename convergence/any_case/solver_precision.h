@@ -34,22 +34,29 @@ struct SolverPlan {
 /// wanted error. Where the next longer step is unstable, steps between are tried.
 int next_parts(const SolverPlan& plan, const SolverRuns& runs);
 
+/// What a run takes [s].
+struct Seconds {
+  double processor = nan;  // of the solver's processes; NaN: not known, or it came to no end
+  double clock = nan;      // through the pipe
+};
+
 /// One step of the solver.
 struct SolverStep {
-  int parts;       // steps a frame
-  double step;     // s
-  double error;    // over the motion, the finest run's bar included [1]; NaN: no end, or no bar
-  double seconds;  // of the run, by the clock
+  int parts;      // steps a frame
+  double step;    // s
+  double error;   // over the motion, the finest run's bar included [1]; NaN: no end, or no bar
+  Seconds spent;  // on the run
   std::string stopped;
 };
 
 /// The price of a wanted error.
 struct SolverPrice {
-  double wanted;                     // 1
-  double step = nan, seconds = nan;  // s; NaN: there is no price
-  bool is_whole_frame = false;       // one step a frame reaches it: none is longer
-  double unstable_step = nan;        // the next longer one, if it is not stable [s]
-  std::string because = "";          // why there is none; or ""
+  double wanted;                // 1
+  double step = nan;            // s; NaN: there is no price
+  Seconds spent = {};           // on a run with this step
+  bool is_whole_frame = false;  // one step a frame reaches it: none is longer
+  double unstable_step = nan;   // the next longer one, if it is not stable [s]
+  std::string because = "";     // why there is none; or ""
 };
 
 struct SolverPrecision {

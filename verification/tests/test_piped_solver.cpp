@@ -280,6 +280,19 @@ TEST_CASE("subject: processor time is that of the solver and its children") {
   }
 }
 
+TEST_CASE("subject: a motion has seconds by the clock and of the processor") {
+  const PortableScene scene = suite::moving_sheet();
+  Trial sleeps(python("bad/wrong.py sleeps"));  // for a millisecond a step
+  sleeps.after(scene, 500);
+  CHECK(sleeps.seconds_of_motion() > 0.5);
+  CHECK(sleeps.processor_seconds_of_motion() > 0);
+  CHECK(sleeps.processor_seconds_of_motion() < sleeps.seconds_of_motion() - 0.4);
+  Trial crashes(broken("crash"));
+  CHECK_THROWS_AS(crashes.after(scene, 5), SolverFailure);
+  CHECK(crashes.seconds_of_motion() > 0);
+  CHECK(std::isnan(crashes.processor_seconds_of_motion()));
+}
+
 TEST_CASE("subject: states that are not restored are found") {
   CHECK(failing_laws("state_not_restored") ==
         std::set<std::string>{"repeat.step-depends-on-its-state-alone"});

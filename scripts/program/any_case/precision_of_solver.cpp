@@ -73,12 +73,14 @@ json to_json(const SolverPrecision& solver, const PrecisionAnswer& reference) {
     told["runs"].push_back({{"steps_a_frame", step.parts},
                             {"step", step.step},
                             {"error", step.error},
-                            {"clock", step.seconds},
+                            {"processor", step.spent.processor},
+                            {"clock", step.spent.clock},
                             {"stopped", step.stopped}});
   for (const SolverPrice& price : solver.prices)
     told["prices"].push_back({{"error", price.wanted},
                               {"step", price.step},
-                              {"clock", price.seconds},
+                              {"processor", price.spent.processor},
+                              {"clock", price.spent.clock},
                               {"is_whole_frame", price.is_whole_frame},
                               {"unstable_step", price.unstable_step},
                               {"because", price.because}});
@@ -89,11 +91,14 @@ void print(const SolverPrecision& solver, const PrecisionAnswer& reference) {
   fmt::print("\n");
   for (const std::string& sentence : solver_sentences(solver, reference))
     fmt::print("{}\n", sentence);
-  fmt::print("\n{:>14} {:>12} {:>12} {:>12}\n", "steps a frame", "step [s]", "error [%]",
-             "clock [s]");
+  fmt::print("\n{:>14} {:>12} {:>12} {:>14} {:>12}\n", "steps a frame", "step [s]", "error [%]",
+             "processor [s]", "clock [s]");
+  const auto number = [](double value) {
+    return std::isnan(value) ? std::string("-") : fmt::format("{:.3g}", value);
+  };
   for (const SolverStep& step : solver.steps)
-    fmt::print("{:>14} {:>12.3g} {:>12} {:>12.3g}  {}\n", step.parts, step.step,
-               std::isnan(step.error) ? "-" : fmt::format("{:.3g}", 100 * step.error), step.seconds,
+    fmt::print("{:>14} {:>12.3g} {:>12} {:>14} {:>12}  {}\n", step.parts, step.step,
+               number(100 * step.error), number(step.spent.processor), number(step.spent.clock),
                step.stopped);
 }
 

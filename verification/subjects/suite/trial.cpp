@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <limits>
 
 namespace foldproof {
 
@@ -66,11 +67,21 @@ void Trial::prepare(const PortableScene& scene) {
 }
 
 std::vector<Snapshot> Trial::motion(const PortableScene& scene, const std::vector<long>& steps) {
-  seconds_of_motion_ = 0;
-  const bool whole = declaration().level == 0;
-  if (!whole) prepare(scene);
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  seconds_of_motion_ = 0, processor_seconds_of_motion_ = unknown;
+  if (declaration().level > 0) prepare(scene);
+  const double before = solver().processor_time().computing;
+  std::vector<Snapshot> states = timed_motion(scene, steps);
+  const double spent = solver().processor_time().computing - before;
+  // less than nothing: of processes that have ended meanwhile
+  processor_seconds_of_motion_ = spent >= 0 ? spent : unknown;
+  return states;
+}
+
+std::vector<Snapshot> Trial::timed_motion(const PortableScene& scene,
+                                          const std::vector<long>& steps) {
   const Stopwatch stopwatch(seconds_of_motion_);
-  return whole ? solver().run(scene, steps) : advance(scene.dt, steps);
+  return declared_.level > 0 ? advance(scene.dt, steps) : solver().run(scene, steps);
 }
 
 std::vector<Snapshot> Trial::advance(double dt, const std::vector<long>& steps) {
