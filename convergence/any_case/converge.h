@@ -66,7 +66,8 @@ struct LadderAnswer {
   std::vector<std::string> warnings = {};  // a sentence each
   // that the method, or the mesh, should have; NaN: no order is known
   double formal_order = std::numeric_limits<double>::quiet_NaN();
-  std::string work_name = "operator applications", seconds_name = "processor time";
+  std::string work_name = "operator applications";
+  std::vector<double> clock = {};  // of each level, of another solver: through the pipe [s]
 
   /// Visits of all forces to all particles, of level k: what its run costs.
   double cost(size_t k) const { return work[k] * particles[k]; }

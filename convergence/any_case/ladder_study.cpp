@@ -93,11 +93,12 @@ Table levels_table(const LadderAnswer& answer) {
               {answer.in == "time" ? "mean step" : "size", answer.in == "time" ? "s" : "m"},
               {"particles", "1"},
               {answer.work_name, "1"},
-              {answer.seconds_name, "s"},
+              {"processor time", "s"},
               {"stopped", ""}};
   for (size_t k = 0; k < answer.sizes.size(); ++k)
     table.row(k + 1, answer.sizes[k], answer.particles[k], answer.work[k], answer.seconds[k],
               answer.stopped[k].empty() ? std::string("no") : answer.stopped[k]);
+  if (!answer.clock.empty()) table.add({"by the clock, through the pipe", "s", answer.clock});
   return {"levels", "Levels, and their cost", table};
 }
 
@@ -199,7 +200,8 @@ StudyRecord study_of(const LadderAnswer& answer, const std::string& predictable)
       refined(answer));
   if (!predictable.empty()) study.about += " " + as_sentence(predictable);
   for (const std::string& warning : answer.warnings) study.about += " " + as_sentence(warning);
-  for (const double seconds : answer.seconds) study.seconds += seconds;
+  for (const double seconds : answer.seconds)
+    if (std::isfinite(seconds)) study.seconds += seconds;
   study.figures = {positions_figure(answer)};
   if (Figure others = values_figure(answer); !others.curves.empty())
     study.figures.push_back(std::move(others));

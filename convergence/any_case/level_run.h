@@ -18,6 +18,7 @@ struct LevelRun : FramedRun {
   std::vector<double> kinetic, elastic;  // energies in each frame [J]
   std::vector<double> contacts;   // in each frame: points that objects corrected in the last step
   std::vector<double> step_ends;  // s
+  double clock = nan;             // by the clock [s]; of another solver only, through the pipe
   double work = 0;                // evaluations, preparations and products of all forces [1]
 };
 

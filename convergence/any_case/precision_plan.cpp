@@ -41,12 +41,6 @@ double limit_of(const BuiltScene& built, const Integrator& integrator) {
                                          built.system.inverse_mass));
 }
 
-int first_parts(double frame, double limit) {
-  int parts = 1;
-  while (parts < most_parts && frame / parts > beyond_limit * limit) parts *= 2;
-  return parts;
-}
-
 }  // namespace
 
 PrecisionPlan precision_plan(const Case& input_case, std::vector<std::string> methods,

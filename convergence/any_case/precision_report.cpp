@@ -141,8 +141,9 @@ Table longer_run_table(const PrecisionAnswer& answer) {
       table.row(curve.method, run.step, run.with_step.added, run.with_half.added,
                 run.with_half.largest, energy_gain(run), lasts(run) ? "yes" : "no");
   return {"longer-runs",
-          "Are the steps of the cheapest methods stable in a run three times as long? The gain is "
-          "the energy over that with half the step; no energy: the run came to no end",
+          "Every step that was tried in a run three times as long; those that do not last get no "
+          "price. The gain is the energy over that with half the step; no energy: the run came to "
+          "no end",
           table};
 }
 
@@ -170,6 +171,17 @@ std::vector<std::string> precision_sentences(const PrecisionAnswer& answer) {
   std::vector<std::string> sentences;
   for (const PriceList& list : answer.lists) sentences.push_back(sentence_of(answer, list));
   return sentences;
+}
+
+std::string for_truth_in_words(const PrecisionAnswer& answer) {
+  const std::vector<std::string>& methods = answer.plan.for_truth;
+  if (methods.empty()) return "";
+  const bool is_one = methods.size() == 1;
+  return fmt::format(
+      "{} {} not requested: {} only to find the truth, for which methods of all families run, and "
+      "{} no price",
+      fmt::join(methods, " and "), is_one ? "was" : "were", is_one ? "it serves" : "they serve",
+      is_one ? "gets" : "get");
 }
 
 std::string truth_in_words(const PrecisionAnswer& answer) {
@@ -200,10 +212,16 @@ StudyRecord precision_record(const PrecisionAnswer& answer, double seconds) {
       "constant steps, halved from run to run. Work is counted in applications of force operators; "
       "contact and strain limits are not among them; seconds include them. Prices are interpolated "
       "in logarithms between the two runs that bracket the error, never beyond them. The steps of "
-      "the cheapest methods are stable in a run three times as long: its kinetic energy there is "
-      "at most twice that with half the step. " +
+      "the cheapest methods are tried again in a run three times as long. One that does not last "
+      "there gets no price, and a shorter one is tried in its place: see the table of longer runs. "
+      "A step lasts if the kinetic energy of the added time is at most twice that with half the "
+      "step. " +
       truth_in_words(answer) + ".";
   for (const CostAxis& cost : cost_axes()) record.figures.push_back(figure_of(answer, cost));
+  if (const std::string why = for_truth_in_words(answer); !why.empty()) {
+    record.about += " " + why + ".";
+    for (Figure& figure : record.figures) figure.caption += " " + why + ".";
+  }
   record.tables = {price_table(answer), method_table(answer), longer_run_table(answer),
                    run_table(answer)};
   return record;

@@ -16,6 +16,9 @@ std::vector<std::string> precision_sentences(const PrecisionAnswer& answer);
 /// How the truth is known, in a sentence.
 std::string truth_in_words(const PrecisionAnswer& answer);
 
+/// Why methods appear that nobody requested; "" if none does.
+std::string for_truth_in_words(const PrecisionAnswer& answer);
+
 /// As the built-in studies are recorded, under the name precision.CASE. seconds: that it took [s].
 StudyRecord precision_record(const PrecisionAnswer& answer, double seconds);
 

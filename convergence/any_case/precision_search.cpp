@@ -16,7 +16,6 @@ constexpr double hopeless_step = 1. / 16;
 constexpr double truth_budget = 2.5;  // of a run for the truth over that of others [1]
 constexpr double least_solve = 8;     // applications of an implicit step, at least [1]
 constexpr int levels_wanted = 3;      // of a method that finish
-constexpr double narrow = 1.3;        // of steps between which a price lies
 constexpr double contender = 2.5;     // of a price over the cheapest whose bracket is narrowed
 
 /// The input of next_trials.

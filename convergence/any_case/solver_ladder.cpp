@@ -88,7 +88,8 @@ LevelRun SolverLadder::run_with(long a_frame) {
     run.stopped = "the solver declines: " + declined.operation;
   }
   run.values.resize(plan_.measurements.size(), nan);
-  run.seconds = solver_.seconds_of_motion();
+  run.seconds = solver_.processor_seconds_of_motion();
+  run.clock = solver_.seconds_of_motion();
   run.work = double(steps_.frames * a_frame);
   return run;
 }
@@ -121,7 +122,8 @@ LadderAnswer SolverLadder::answer(const std::vector<LevelRun>& runs) {
   const Declaration& declared = solver_.declaration();
   LadderAnswer answer = answer_in_time(plan_, runs, std::max(1, declared.order));
   answer.method = declared.name + (declared.version.empty() ? "" : " " + declared.version);
-  answer.work_name = "steps", answer.seconds_name = "clock";
+  answer.work_name = "steps";
+  for (const LevelRun& run : runs) answer.clock.push_back(run.clock);
   if (declared.order < 1)
     answer.warnings.emplace_back(
         "the solver claims no order; its steps are read as of first order");

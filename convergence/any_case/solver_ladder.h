@@ -33,7 +33,7 @@ class SolverLadder {
   SolverLadder(LadderPlan plan, Trial& solver, const LevelSetProvider& level_sets);
 
   /// The run with 2^k times the steps of the first level. If the solver fails, `stopped` says why.
-  /// Seconds are of the clock, through the pipe; work counts steps.
+  /// Seconds are of the solver's processes; work counts steps.
   LevelRun run(int k);
 
   /// Likewise, with so many steps a frame.

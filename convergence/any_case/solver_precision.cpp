@@ -5,41 +5,37 @@
 #include <utility>
 
 #include "convergence/any_case/distances.h"
+#include "convergence/any_case/trial_ladder.h"
 
 namespace foldproof {
 
 namespace {
 
-constexpr int most_doublings = 10;  // of steps a frame, beyond the first that was tried
+constexpr int most_doublings = 12;  // of steps a frame, beyond the first that was tried
 
 bool came_to_end(const LevelRun& run) { return run.stopped.empty() && !run.x.empty(); }
 
 double distance(const SolverPlan& plan, const LevelRun& a, const LevelRun& b) {
-  return a.x.size() == b.x.size() ? largest_difference(a.x, b.x, plan.mass) : nan;
+  return frame_distance(a.x, b.x, plan.mass);
 }
 
-/// Whole runs at the fine end, coarse to fine; each has twice the steps of the one before.
+/// Whole runs at the fine end of the ladder, coarse to fine; each has twice the steps of
+/// the one before.
 std::vector<std::pair<int, const LevelRun*>> whole_runs(const SolverRuns& runs) {
   std::vector<std::pair<int, const LevelRun*>> whole;
-  for (auto run = runs.rbegin(); run != runs.rend() && came_to_end(run->second); ++run)
+  for (auto run = runs.rbegin(); run != runs.rend(); ++run) {
+    if (!is_halving(run->first)) continue;
+    if (!came_to_end(run->second)) break;
     whole.emplace_back(run->first, &run->second);
+  }
   std::ranges::reverse(whole);
   return whole;
 }
 
 ErrorBar bar_of(const SolverPlan& plan, const SolverRuns& runs) {
-  const auto whole = whole_runs(runs);
-  ErrorBar bar;
-  if (whole.size() < 3) {
-    bar.reason = "fewer than three halved steps came to an end";
-    return bar;
-  }
-  Ladder ladder;
-  for (size_t k = 0; k + 1 < whole.size(); ++k)
-    ladder.differences.push_back(distance(plan, *whole[k].second, *whole[k + 1].second));
-  ladder.formal_order = plan.formal_order;
-  ladder.floor = plan.floor;
-  return error_bar(ladder);
+  std::vector<const std::vector<PerParticle3>*> frames;
+  for (const auto& [parts, run] : whole_runs(runs)) frames.push_back(&run->x);
+  return halved_steps_bar(frames, plan.mass, plan.formal_order, plan.floor);
 }
 
 std::vector<SolverStep> steps_of(const SolverPlan& plan, const SolverRuns& runs,
@@ -47,7 +43,7 @@ std::vector<SolverStep> steps_of(const SolverPlan& plan, const SolverRuns& runs,
   const auto whole = whole_runs(runs);
   std::vector<SolverStep> steps;
   for (const auto& [parts, run] : runs) {
-    SolverStep step{parts, plan.frame / parts, nan, run.seconds, run.stopped};
+    SolverStep step{parts, plan.frame / parts, nan, {run.seconds, run.clock}, run.stopped};
     if (came_to_end(run) && !whole.empty() && bar.reading != Reading::inconclusive)
       step.error = (distance(plan, run, *whole.back().second) + bar.half_width) / plan.motion;
     steps.push_back(step);
@@ -71,18 +67,42 @@ bool is_exact_enough(const SolverPlan& plan, const SolverRuns& runs) {
          bar.half_width / plan.motion <= truth_part * plan.wanted.back();
 }
 
+/// The longest step that was tried reaches the largest wanted error; or shorter ones, of which
+/// three are needed, would take too long.
 bool needs_longer_step(const SolverPlan& plan, const SolverRuns& runs) {
   const auto& [parts, run] = *runs.begin();
+  if (!came_to_end(run) || parts % 2 != 0) return false;
   const auto whole = whole_runs(runs);
-  return came_to_end(run) && parts % 2 == 0 && whole.size() > 1 &&
+  return whole.size() < 3 ||
          distance(plan, run, *whole.back().second) / plan.motion <= plan.wanted.front();
+}
+
+/// The first step from which on all errors are small enough; their number if there is none.
+size_t first_exact(const std::vector<SolverStep>& steps, double wanted) {
+  size_t first = steps.size();
+  while (first > 0 && steps[first - 1].error <= wanted) --first;
+  return first;
+}
+
+bool is_unstable(const SolverStep& step) { return !(step.error <= diverged_error); }
+
+/// Steps a frame between a step that reaches a wanted error and the next longer one, which is
+/// unstable; 0: all such steps are close.
+int between_unstable(const SolverPlan& plan, const SolverRuns& runs) {
+  const std::vector<SolverStep> steps = steps_of(plan, runs, bar_of(plan, runs));
+  for (const double wanted : plan.wanted) {
+    const size_t first = first_exact(steps, wanted);
+    if (first == 0 || first == steps.size() || !is_unstable(steps[first - 1])) continue;
+    const int few = steps[first - 1].parts, many = steps[first].parts;
+    if (many > narrow * few && many - few > 1) return (few + many) / 2;
+  }
+  return 0;
 }
 
 SolverPrice price_of(const SolverPlan& plan, const ErrorBar& bar,
                      const std::vector<SolverStep>& steps, double wanted) {
   SolverPrice price{wanted};
-  size_t first = steps.size();  // from which on all errors are small enough
-  while (first > 0 && steps[first - 1].error <= wanted) --first;
+  const size_t first = first_exact(steps, wanted);
   if (!(plan.motion > 0)) {
     price.because = "how far the reference moves is not known";
   } else if (bar.reading == Reading::inconclusive) {
@@ -91,13 +111,15 @@ SolverPrice price_of(const SolverPlan& plan, const ErrorBar& bar,
     price.because = "no step that was tried reaches it; a shorter one would take too long";
   } else {
     const SolverStep& fine = steps[first];
-    price.step = fine.step, price.seconds = fine.seconds;
-    price.is_longest_tried = first == 0;
+    price.step = fine.step, price.spent = fine.spent;
+    price.is_whole_frame = first == 0;
     const SolverStep* coarse = first > 0 ? &steps[first - 1] : nullptr;
-    if (coarse && coarse->error <= diverged_error) {
+    if (coarse && is_unstable(*coarse)) price.unstable_step = coarse->step;
+    if (coarse && !is_unstable(*coarse)) {
       const double part = std::log(wanted / fine.error) / std::log(coarse->error / fine.error);
       price.step *= std::pow(coarse->step / fine.step, part);
-      price.seconds *= std::pow(coarse->seconds / fine.seconds, part);
+      price.spent.processor *= std::pow(coarse->spent.processor / fine.spent.processor, part);
+      price.spent.clock *= std::pow(coarse->spent.clock / fine.spent.clock, part);
     }
   }
   return price;
@@ -119,11 +141,14 @@ std::vector<PerParticle3> frames_at(const LevelRun& run, const std::vector<doubl
 
 int next_parts(const SolverPlan& plan, const SolverRuns& runs) {
   if (runs.empty()) return plan.first;
-  const auto& [finest, run] = *runs.rbegin();
-  const bool may_halve =
-      finest < plan.first << most_doublings && 2 * run.seconds <= plan.most_seconds;
-  if (may_halve && !is_exact_enough(plan, runs)) return 2 * finest;
-  return needs_longer_step(plan, runs) ? runs.begin()->first / 2 : 0;
+  auto finest = runs.rbegin();
+  while (!is_halving(finest->first)) ++finest;
+  const auto& [parts, run] = *finest;
+  const bool may_halve = parts < plan.first << most_doublings &&
+                         (!came_to_end(run) || 2 * run.clock <= plan.most_seconds);
+  if (may_halve && !is_exact_enough(plan, runs)) return 2 * parts;
+  if (needs_longer_step(plan, runs)) return runs.begin()->first / 2;
+  return between_unstable(plan, runs);
 }
 
 bool SolverPrecision::is_answered() const {

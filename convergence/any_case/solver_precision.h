@@ -24,30 +24,39 @@ struct SolverPlan {
   double end = nan, frame = nan;   // of the run, and between two frames [s]
   double formal_order = 1;         // as it claims
   double floor = 0;                // of rounding, in differences of positions [m]
-  int first = 1;                   // steps a frame to begin with
+  int first = 1;                   // steps a frame to begin with, a power of two
   double most_seconds = INFINITY;  // by the clock, of one run
 };
 
-/// The steps a frame to run next; 0: none. Steps are doubled while they reach the largest wanted
-/// error, and halved until three runs came to an end and the error bar of the finest is a tenth of
-/// the smallest wanted error, or rounding; or until a run would take more than most_seconds.
+/// The steps a frame to run next; 0: none. Steps are halved until three runs came to an end and the
+/// error bar of the finest is a tenth of the smallest wanted error, or rounding; or until a run
+/// would take more than most_seconds. They are doubled, up to a frame, while they reach the largest
+/// wanted error. Where the next longer step is unstable, steps between are tried.
 int next_parts(const SolverPlan& plan, const SolverRuns& runs);
+
+/// What a run takes [s].
+struct Seconds {
+  double processor = nan;  // of the solver's processes; NaN: not known, or it came to no end
+  double clock = nan;      // through the pipe
+};
 
 /// One step of the solver.
 struct SolverStep {
-  int parts;       // steps a frame
-  double step;     // s
-  double error;    // over the motion, the finest run's bar included [1]; NaN: no end, or no bar
-  double seconds;  // of the run, by the clock
+  int parts;      // steps a frame
+  double step;    // s
+  double error;   // over the motion, the finest run's bar included [1]; NaN: no end, or no bar
+  Seconds spent;  // on the run
   std::string stopped;
 };
 
 /// The price of a wanted error.
 struct SolverPrice {
-  double wanted;                     // 1
-  double step = nan, seconds = nan;  // s; NaN: there is no price
-  bool is_longest_tried = false;     // a longer step may do, too
-  std::string because = "";          // why there is none; or ""
+  double wanted;                // 1
+  double step = nan;            // s; NaN: there is no price
+  Seconds spent = {};           // on a run with this step
+  bool is_whole_frame = false;  // one step a frame reaches it: none is longer
+  double unstable_step = nan;   // the next longer one, if it is not stable [s]
+  std::string because = "";     // why there is none; or ""
 };
 
 struct SolverPrecision {

@@ -20,10 +20,20 @@ const PriceList* prices_at(const PrecisionAnswer& reference, double wanted) {
              : &*list;
 }
 
+/// What limits the step, where it is not the error; "" otherwise.
+std::string limit_in_words(const SolverPrice& price) {
+  if (price.is_whole_frame) return "one step a frame; no longer step can be tried";
+  if (std::isnan(price.unstable_step)) return "";
+  return fmt::format("limited by stability: {:.3g} ms is unstable", price.unstable_step / milli);
+}
+
 std::string price_in_words(const SolverPrice& price) {
   if (!price.because.empty()) return price.because;
-  return fmt::format("h {} {:.3g} ms, {:.2g} s by the clock", price.is_longest_tried ? ">=" : "=",
-                     price.step / milli, price.seconds);
+  const std::string limit = limit_in_words(price);
+  return fmt::format("h {} {:.3g} ms{}, {:.2g} s of the processor, {:.2g} s by the clock",
+                     price.is_whole_frame ? ">=" : "=", price.step / milli,
+                     limit.empty() ? "" : " (" + limit + ")", price.spent.processor,
+                     price.spent.clock);
 }
 
 std::string beside(const PrecisionAnswer& reference, double wanted) {
@@ -55,9 +65,7 @@ struct CostAxis {
 };
 
 const CostAxis cost_axes[] = {
-    {"time",
-     "seconds: the solver's by the clock, through the pipe; the reference's of its processor",
-     [](const SolverStep& step) { return step.seconds; },
+    {"time", "processor time", [](const SolverStep& step) { return step.spent.processor; },
      [](const PrecisionRun& run, double) { return run.seconds; }},
     {"step", "step", [](const SolverStep& step) { return step.step; },
      [](const PrecisionRun& run, double end) { return end / run.steps; }}};
@@ -97,27 +105,35 @@ Figure figure_of(const SolverPrecision& solver, const PrecisionAnswer& reference
 }
 
 Table price_table(const SolverPrecision& solver, const PrecisionAnswer& reference) {
-  Table table{{"error wanted", "%"}, {"step", "s"},
-              {"clock", "s"},        {"cheapest method of the reference", "1"},
-              {"its step", "s"},     {"its processor time", "s"},
+  Table table{{"error wanted", "%"},
+              {"step", "s"},
+              {"processor time", "s"},
+              {"by the clock, through the pipe", "s"},
+              {"cheapest method of the reference", "1"},
+              {"its step", "s"},
+              {"its processor time", "s"},
               {"note", "1"}};
   for (const SolverPrice& price : solver.prices) {
     const PriceList* list = prices_at(reference, price.wanted);
     const MethodPrice none{"none", {LimitedBy::not_reached, nan, nan, nan, nan}};
     const MethodPrice& best = list ? list->prices.front() : none;
-    const std::string note =
-        price.is_longest_tried ? "the longest step tried: a longer one may do" : price.because;
-    table.row(percent * price.wanted, price.step, price.seconds, best.method, best.price.step,
-              best.price.seconds, note);
+    table.row(percent * price.wanted, price.step, price.spent.processor, price.spent.clock,
+              best.method, best.price.step, best.price.seconds,
+              price.because.empty() ? limit_in_words(price) : price.because);
   }
   return {"prices", "What a position error costs", table};
 }
 
 Table step_table(const SolverPrecision& solver) {
-  Table table{
-      {"steps a frame", "1"}, {"step", "s"}, {"error", "%"}, {"clock", "s"}, {"stopped", "1"}};
+  Table table{{"steps a frame", "1"},
+              {"step", "s"},
+              {"error", "%"},
+              {"processor time", "s"},
+              {"by the clock, through the pipe", "s"},
+              {"stopped", "1"}};
   for (const SolverStep& step : solver.steps)
-    table.row(step.parts, step.step, percent * step.error, step.seconds, step.stopped);
+    table.row(step.parts, step.step, percent * step.error, step.spent.processor, step.spent.clock,
+              step.stopped);
   return {"runs", "Every run; no error where it came to no end, or without an order", table};
 }
 
@@ -145,7 +161,7 @@ StudyRecord solver_precision_record(const SolverPrecision& solver,
       "equal from frame to frame, and halved from run to run. Its error is the distance from its "
       "finest run, and that run's error bar; both over the reference's motion. Prices are "
       "interpolated in logarithms between the two steps that bracket the error.";
-  for (const SolverStep& step : solver.steps) record.seconds += step.seconds;
+  for (const SolverStep& step : solver.steps) record.seconds += step.spent.clock;
   for (const CostAxis& cost : cost_axes)
     record.figures.push_back(figure_of(solver, reference, cost));
   record.tables = {price_table(solver, reference), step_table(solver)};

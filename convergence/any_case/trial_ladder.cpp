@@ -7,11 +7,13 @@
 
 namespace foldproof {
 
-namespace {
+int first_parts(double frame, double limit) {
+  int parts = 1;
+  while (parts < most_parts && frame / parts > beyond_limit * limit) parts *= 2;
+  return parts;
+}
 
 bool is_halving(int parts) { return (parts & (parts - 1)) == 0; }
-
-}  // namespace
 
 bool is_whole(const TrialRun& run) { return run.stopped.empty() && !run.x.empty(); }
 
@@ -46,24 +48,26 @@ std::pair<int, const TrialRun*> finest(const TrialLevels& levels) {
   return {0, nullptr};
 }
 
+ErrorBar halved_steps_bar(const std::vector<const std::vector<PerParticle3>*>& runs,
+                          const PerParticle& mass, double formal_order, double floor) {
+  Ladder ladder;
+  for (size_t k = 1; k < runs.size(); ++k)
+    ladder.differences.push_back(frame_distance(*runs[k - 1], *runs[k], mass));
+  ladder.formal_order = formal_order;
+  ladder.floor = floor;
+  if (runs.size() >= 3) return error_bar(ladder);
+  ErrorBar bar;
+  bar.reason = "fewer than three halved steps came to an end";
+  if (runs.size() == 2) bar.half_width = 3 * ladder.differences.back();
+  return bar;
+}
+
 ErrorBar ladder_bar(const PrecisionPlan& plan, const std::string& method,
                     const TrialLevels& levels) {
-  const auto ladder = fine_end(levels);
-  ErrorBar bar;
-  if (ladder.size() < 2) {
-    bar.reason = "fewer than three halved steps came to an end";
-    return bar;
-  }
-  Ladder differences;
-  for (size_t k = 0; k + 1 < ladder.size(); ++k)
-    differences.differences.push_back(
-        frame_distance(ladder[k].second->x, ladder[k + 1].second->x, plan.mass));
-  differences.formal_order = integrator_named(method).order;
-  differences.floor = 1e3 * epsilon * longest_side(plan.input_case.scene.x);
-  if (ladder.size() >= 3) return error_bar(differences);
-  bar.reason = "fewer than three halved steps came to an end";
-  bar.half_width = 3 * differences.differences.back();
-  return bar;
+  std::vector<const std::vector<PerParticle3>*> runs;
+  for (const auto& [parts, run] : fine_end(levels)) runs.push_back(&run->x);
+  return halved_steps_bar(runs, plan.mass, integrator_named(method).order,
+                          1e3 * epsilon * longest_side(plan.input_case.scene.x));
 }
 
 Family family_of(const std::string& method) { return integrator_named(method).family; }

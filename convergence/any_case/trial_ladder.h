@@ -16,6 +16,16 @@ constexpr double beyond_limit = 4;
 
 constexpr int most_parts = 1 << 20;  // steps a frame
 
+/// A price lies between two steps: no run is made between two that are closer than this [1].
+constexpr double narrow = 1.3;
+
+/// Steps a frame to begin with: a power of two whose step is at most beyond_limit times `limit`
+/// [s], and at most a frame [s].
+int first_parts(double frame, double limit);
+
+/// Whether so many steps a frame belong to the ladder of halved steps: a power of two.
+bool is_halving(int parts);
+
 /// Runs of one method, by steps a frame.
 using TrialLevels = std::map<int, TrialRun>;
 
@@ -36,8 +46,16 @@ std::vector<std::pair<int, const TrialRun*>> fine_end(const TrialLevels& levels)
 /// The finest of the halved steps, whole or not; parts 0: there is none.
 std::pair<int, const TrialRun*> finest(const TrialLevels& levels);
 
-/// Of the positions of the finest whole run; with two runs three times their difference, as a
-/// spread; with fewer none.
+/// Error bar of the positions of the last of these runs, coarse to fine, each with half the
+/// step of the one before. With two runs it is three times their difference, a spread; with
+/// fewer there is none.
+///   runs          kept frames of each, 3 x N [m]
+///   formal_order  of the method
+///   floor         of rounding, in differences of positions [m]
+ErrorBar halved_steps_bar(const std::vector<const std::vector<PerParticle3>*>& runs,
+                          const PerParticle& mass, double formal_order, double floor);
+
+/// halved_steps_bar of the method's finest whole run.
 ErrorBar ladder_bar(const PrecisionPlan& plan, const std::string& method,
                     const TrialLevels& levels);
 

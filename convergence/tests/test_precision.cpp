@@ -279,6 +279,20 @@ TEST_CASE("opinions on the truth are of two families, however well their own agr
   CHECK(one.for_truth == std::vector<std::string>{"RK4", "implicit-midpoint"});
 }
 
+TEST_CASE("methods that only serve the truth are named as such, and steps that do not last, too") {
+  MadeUp made = made_by(two_good_methods, {1e-2});
+  CHECK(for_truth_in_words(precision_answer(made.plan, made.trials)).empty());
+  made.plan.methods = {"B"};
+  made.plan.for_truth = {"RK4"};
+  const PrecisionAnswer answer = precision_answer(made.plan, made.trials);
+  const std::string why = "RK4 was not requested: it serves only to find the truth";
+  CHECK(for_truth_in_words(answer).starts_with(why));
+  const StudyRecord record = precision_record(answer, 1);
+  CHECK(record.about.find(why) != std::string::npos);
+  CHECK(record.about.find("One that does not last there gets no price") != std::string::npos);
+  for (const Figure& figure : record.figures) CHECK(figure.caption.find(why) != std::string::npos);
+}
+
 TEST_CASE("methods whose prices are closer than the steps tried are tied") {
   std::map<std::string, Law> laws = two_good_methods;
   laws["A"] = {0.33, 2, 1, 5};

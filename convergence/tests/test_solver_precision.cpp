@@ -19,7 +19,7 @@ LevelRun run_of_error(double error, double seconds) {
   run.times = {0, 0.3};
   run.x = {PerParticle3::Zero(3, 1), PerParticle3::Zero(3, 1)};
   run.x[1](0, 0) = motion + error;
-  run.seconds = seconds;
+  run.seconds = seconds, run.clock = 1.5 * seconds;
   return run;
 }
 
@@ -64,8 +64,10 @@ TEST_CASE("solver's precision: prices follow its law of error") {
       const double parts = std::pow(0.9 / price.wanted, 1 / order);
       // its errors include a bar of at most a tenth of the least error
       CHECK(std::abs(price.step * parts / 0.3 - 1) < 0.1);
-      CHECK(std::abs(price.seconds / (1e-3 * parts) - 1) < 0.1);
-      CHECK_FALSE(price.is_longest_tried);
+      CHECK(std::abs(price.spent.processor / (1e-3 * parts) - 1) < 0.1);
+      CHECK(std::abs(price.spent.clock / (1.5e-3 * parts) - 1) < 0.1);
+      CHECK_FALSE(price.is_whole_frame);
+      CHECK(std::isnan(price.unstable_step));
     }
   }
 }
@@ -78,12 +80,48 @@ TEST_CASE("solver's precision: longer steps are tried where the first is better 
   CHECK(std::isfinite(solver_precision(plan, runs, {}, {}).prices[0].step));
 }
 
-TEST_CASE("solver's precision: a step that is unstable is no price") {
-  const auto error = [](int parts) { return parts < 32 ? nan : 0.02 * std::pow(parts, -1.0); };
+TEST_CASE(
+    "solver's precision: a step of a whole frame that is exact enough is a bound, and says so") {
+  const SolverPlan plan = plan_of(2);
+  const SolverRuns runs = all_runs(plan, [](int parts) { return 5e-3 * std::pow(parts, -2); });
+  CHECK(runs.begin()->first == 1);
+  const SolverPrecision answer = solver_precision(plan, runs, {}, {});
+  CHECK(answer.prices[0].step == plan.frame);
+  CHECK(answer.prices[0].is_whole_frame);
+  CHECK(solver_sentences(answer, {})[0].find("h >= 300 ms (one step a frame") != std::string::npos);
+  CHECK_FALSE(answer.prices[1].is_whole_frame);
+  CHECK(std::abs(answer.prices[1].step / (0.3 / std::sqrt(5.0)) - 1) < 0.1);
+}
+
+TEST_CASE("solver's precision: the longest stable step is found to a quarter") {
+  const auto error = [](int parts) { return parts < 21 ? nan : 0.02 * std::pow(parts, -1.0); };
   const SolverPrecision answer = answer_of(plan_of(1), error);
-  CHECK(answer.prices[0].step == 0.3 / 32);
+  const SolverPrice& price = answer.prices[0];
+  CHECK(price.step <= 0.3 / 21);
+  CHECK(price.unstable_step > 0.3 / 21);
+  CHECK(price.unstable_step / price.step <= 1.34);
+  CHECK_FALSE(price.is_whole_frame);
+  CHECK(solver_sentences(answer, {})[0].find("limited by stability") != std::string::npos);
   CHECK(answer.steps.front().stopped == "unstable");
   CHECK(std::isnan(answer.steps.front().error));
+}
+
+TEST_CASE("solver's precision: a long step that hangs does not end the search") {
+  SolverPlan plan = plan_of(1);
+  plan.most_seconds = 10;
+  SolverRuns runs;
+  runs[4].stopped = "no answer within 60 s";
+  runs[4].clock = 60;
+  CHECK(next_parts(plan, runs) == 8);
+}
+
+TEST_CASE("solver's precision: where short steps are dear, longer ones show the order") {
+  SolverPlan plan = plan_of(1);
+  plan.first = 256;
+  plan.most_seconds = 0.4;  // of 1.5 ms a step: 256 steps take 0.38 s, 512 too much
+  const SolverPrecision answer = answer_of(plan, [](int parts) { return 0.9 / parts; });
+  CHECK(answer.bar.reading == Reading::asymptotic);
+  CHECK(std::abs(answer.prices[0].step * 90 / 0.3 - 1) < 0.5);
 }
 
 TEST_CASE("solver's precision: what takes too long, or has no order, has no price but a reason") {

@@ -223,8 +223,9 @@ Table longer_runs(const std::vector<PrecisionScene>& scenes) {
                   run.step / scene.truth.elastic_limit, run.with_step.added, run.with_half.added,
                   run.with_half.largest, energy_gain(run), lasts(run) ? "yes" : "no");
   return {"longer-runs",
-          "Are the steps of the cheapest methods stable in a run three times as long? The gain is "
-          "the energy over that with half the step; no energy: the run came to no end",
+          "Every step that was tried in a run three times as long; those that do not last get no "
+          "price. The gain is the energy over that with half the step; no energy: the run came to "
+          "no end",
           table};
 }
 

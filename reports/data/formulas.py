@@ -41,6 +41,7 @@ _PLAIN: list[tuple[re.Pattern[str], str | Callable[[re.Match[str]], str]]] = [
     (re.compile(r"(?<=\s[a-z])\.(?=[a-z]_[a-z]\b)"), "·"),
     (re.compile(r"\b([a-z])\^(?![\w({-])"), "\\1\u0302"),  # t^ is the unit vector along t
     (re.compile(r"(?<![\w.=])\.(?=\d)"), "0."),
+    (re.compile(r"(?:^|(?<=[\s(\[]))-(?=\d)"), MINUS),
 ]
 _POWER = re.compile(r"\^(?:\(([^()]*)\)|\{([^{}]*)\}|(-?\d+\.\d+|-?\w+?)(?=th\b|\b))")
 _INDEX = re.compile(rf"\b(kd|ke|[A-Za-z{_LETTERS}])_([A-Za-z0-9]{{1,5}})\b")

@@ -150,7 +150,7 @@ class Jolt(Npm):
 
 
 class MuJoCo(Npm):
-    name, version, applicable = "mujoco", "3.14.0", 44
+    name, version, applicable = "mujoco", "3.14.0", 45
     failing = {
         "": {MODULUS, "capstan.slips-at-euler-s-ratio"},
         "integrator=RK4": {MODULUS, "tunnelling.thin-box-stops-a-slow-sheet"},

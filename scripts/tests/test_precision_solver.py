@@ -56,6 +56,30 @@ class PrecisionSolverTest(ProgramCase):
         self.assertIn("the reference with C h = ", told["solver"]["sentences"][0])
         self.assertIn("steps may explain it", told["solver"]["sentences"][-1])
 
+    def test_steps_longer_than_the_case_s_are_tried(self) -> None:
+        told = self.answer(
+            f"'{PROGRAM}' serve --integrator C", "--method", "A,C", "--errors", "1e-2", "--set",
+            "time.step=1e-4"
+        )
+        there = told["solver"]["prices"][0]
+        here = next(
+            price for price in told["prices"][0]["methods"] if price["method"] == "C"
+        )
+        self.assertGreater(there["step"], 20e-4)  # the search begins at four times the case's step
+        # both searches narrow it to a quarter
+        self.assertLess(abs(there["step"] / here["step"] - 1), 0.35)
+        self.assertFalse(there["is_whole_frame"])
+
+    def test_a_bound_is_told_as_a_bound(self) -> None:
+        told = self.answer(
+            f"'{PROGRAM}' serve --integrator RK4", "--method", "A,C", "--errors", "1e-1", "--set",
+            "time.frames_per_second=500"
+        )
+        price = told["solver"]["prices"][0]
+        self.assertTrue(price["is_whole_frame"])
+        self.assertAlmostEqual(price["step"], 0.002)
+        self.assertIn("h >= 2 ms (one step a frame", told["solver"]["sentences"][0])
+
     def test_a_limit_beside_the_truth_is_told_from_steps(self) -> None:
         told = self.answer(
             f"{WRONG} gravity_scaled", "--method", "A,C", *SPRINGS, "--errors", "1e-2"

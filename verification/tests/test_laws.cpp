@@ -15,6 +15,7 @@ TEST_CASE("subject: parameters that mean something else are found") {
   const std::vector<Law> laws = laws_of({"calibration"});
   CHECK(failing_laws("springs_of_one_stiffness", laws).contains(young));
   CHECK(failing_laws("springs_per_length", laws) == std::set<std::string>{young, refined});
+  CHECK(failing_laws("weft_per_length", laws) == std::set<std::string>{refined});
   CHECK(failing_laws("bends_upright_only", laws_of({"calibration", "cantilever"})) ==
         std::set<std::string>{"cantilever.heavy-strip-hangs-as-the-elastica"});
   CHECK(failing_laws("bends_fourfold", laws) ==

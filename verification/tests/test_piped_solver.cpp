@@ -191,6 +191,8 @@ TEST_CASE("subject: correct solvers raise no alarm, in single and double precisi
   const std::vector<Law> laws = laws_of({"smoke", "rest", "inertia", "gravity", "momentum", "held",
                                          "symmetry.r", "order", "vibration"});
   CHECK(failing_laws("trapezoidal", laws) == std::set<std::string>{});
+  for (const char* kind : {"damped_backward_euler", "damped_trapezoidal"})
+    CHECK(failing_laws(kind, laws_of({"order", "vibration"})) == std::set<std::string>{});
 }
 
 TEST_CASE("subject: wrong masses and gravity are found") {
@@ -228,6 +230,15 @@ TEST_CASE("subject: false claims of precision and order are found") {
         std::set<std::string>{"gravity.fall-is-as-exact-as-the-order-claims",
                               "order.observed-is-as-claimed", "vibration.undamped-goes-on"});
   require_law_fails("first_order_as_second_single", "order.observed-is-as-claimed");
+}
+
+TEST_CASE("subject: an order that damping lowers is found, by its own law") {
+  const std::string order = "order.with-damping-is-as-claimed";
+  CHECK(failing_laws("damped_verlet") == std::set<std::string>{order});
+  require_law_fails("damped_verlet_single", order);
+  for (const char* kind : {"damped", "damped_backward_euler", "damped_trapezoidal"})
+    CHECK(outcome_of_law(kind, order) == Outcome::holds);
+  CHECK(outcome_of_law("none", order) == Outcome::not_applicable);
 }
 
 TEST_CASE("subject: an order is judged where errors of the step stand out of rounding alone") {
@@ -287,6 +298,19 @@ TEST_CASE("subject: processor time is that of the solver and its children") {
     CHECK(spent(busy) > 1000 * 52 * 52 * 3e-9);  // a few ns a pair at least
     CHECK(spent(idle) < 0.5);                    // it sleeps for 1 s
   }
+}
+
+TEST_CASE("subject: a motion has seconds by the clock and of the processor") {
+  const PortableScene scene = suite::moving_sheet();
+  Trial sleeps(python("bad/wrong.py sleeps"));  // for a millisecond a step
+  sleeps.after(scene, 500);
+  CHECK(sleeps.seconds_of_motion() > 0.5);
+  CHECK(sleeps.processor_seconds_of_motion() > 0);
+  CHECK(sleeps.processor_seconds_of_motion() < sleeps.seconds_of_motion() - 0.4);
+  Trial crashes(broken("crash"));
+  CHECK_THROWS_AS(crashes.after(scene, 5), SolverFailure);
+  CHECK(crashes.seconds_of_motion() > 0);
+  CHECK(std::isnan(crashes.processor_seconds_of_motion()));
 }
 
 TEST_CASE("subject: states that are not restored are found") {
@@ -353,6 +377,7 @@ TEST_CASE("subject: the toy in C++ meets every law that it does not decline") {
         !record.name.starts_with("capstan.") && !record.name.starts_with("forces.of-a-bent-") &&
         record.name != "rest.curved-sheet-keeps-its-rest-angles" &&
         !record.name.starts_with("buckling.") && !record.name.starts_with("strip.") &&
+        record.name != "order.with-damping-is-as-claimed" &&
         record.name != "vibration.damped-decays-as-its-damping-says" &&
         record.name != "calibration.bending-rigidity-is-the-scene-s" &&
         record.name != "cantilever.heavy-strip-hangs-as-the-elastica";

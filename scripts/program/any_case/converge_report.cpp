@@ -144,6 +144,7 @@ json to_json(const LadderAnswer& answer) {
                       {"warnings", answer.warnings},
                       {"halving", how_to_halve(answer)},
                       {"quantities", json::array()}};
+  if (!answer.clock.empty()) answer_json["clock"] = answer.clock;
   if (is_in_space(answer)) {
     answer_json["refined_by"] = answer.refined_by;
     answer_json["formal_order"] = 2;

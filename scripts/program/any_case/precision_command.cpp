@@ -118,6 +118,7 @@ void print_missing_prices(const PrecisionAnswer& answer) {
 void print(const PrecisionAnswer& answer) {
   for (const std::string& sentence : precision_sentences(answer)) fmt::print("{}\n", sentence);
   fmt::print("{}\n", truth_in_words(answer));
+  if (const std::string why = for_truth_in_words(answer); !why.empty()) fmt::print("{}\n", why);
   print_methods(answer);
   print_unstable(answer);
   print_missing_prices(answer);
@@ -195,7 +196,8 @@ json to_json(const PrecisionAnswer& answer) {
                  {"second", to_json(answer.truth.second)},
                  {"motion", answer.truth.motion},
                  {"uncertainty", answer.truth.uncertainty},
-                 {"good_down_to", least_error(answer.truth)}}},
+                 {"good_down_to", least_error(answer.truth)},
+                 {"methods_for_it_alone", answer.plan.for_truth}}},
                {"methods", json::array()},
                {"prices", json::array()}};
   for (const MethodCurve& curve : answer.curves) told["methods"].push_back(to_json(curve));

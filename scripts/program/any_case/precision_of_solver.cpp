@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "convergence/any_case/distances.h"
+#include "convergence/any_case/trial_ladder.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/solver_command.h"
 
@@ -38,7 +39,7 @@ SolverPlan PrecisionOfSolver::plan_of(const PrecisionAnswer& reference) {
   plan.frame = ladder_.steps().interval;
   plan.formal_order = std::max(1, declared.order);
   plan.floor = 1e3 * declared.rounding() * longest_side(scene.x);
-  plan.first = int(ladder_.steps().a_frame);
+  plan.first = first_parts(plan.frame, plan.frame / double(ladder_.steps().a_frame));
   plan.most_seconds = most_seconds_;
   return plan;
 }
@@ -50,7 +51,9 @@ SolverPrecision PrecisionOfSolver::answer(const PrecisionAnswer& reference,
   for (int parts = next_parts(plan, runs); parts > 0; parts = next_parts(plan, runs)) {
     log_line(fmt::format("{}: {} steps a frame", plan.name, parts));
     const LevelRun& run = runs[parts] = ladder_.run_with(parts);
-    if (run.stopped.starts_with("the solver declines")) throw InputError(run.stopped);
+    // a step longer than the case's own may be declined
+    if (parts >= ladder_.steps().a_frame && run.stopped.starts_with("the solver declines"))
+      throw InputError(run.stopped);
   }
   return solver_precision(plan, runs, reference.truth, times);
 }
@@ -70,13 +73,16 @@ json to_json(const SolverPrecision& solver, const PrecisionAnswer& reference) {
     told["runs"].push_back({{"steps_a_frame", step.parts},
                             {"step", step.step},
                             {"error", step.error},
-                            {"clock", step.seconds},
+                            {"processor", step.spent.processor},
+                            {"clock", step.spent.clock},
                             {"stopped", step.stopped}});
   for (const SolverPrice& price : solver.prices)
     told["prices"].push_back({{"error", price.wanted},
                               {"step", price.step},
-                              {"clock", price.seconds},
-                              {"longest_tried", price.is_longest_tried},
+                              {"processor", price.spent.processor},
+                              {"clock", price.spent.clock},
+                              {"is_whole_frame", price.is_whole_frame},
+                              {"unstable_step", price.unstable_step},
                               {"because", price.because}});
   return told;
 }
@@ -85,11 +91,14 @@ void print(const SolverPrecision& solver, const PrecisionAnswer& reference) {
   fmt::print("\n");
   for (const std::string& sentence : solver_sentences(solver, reference))
     fmt::print("{}\n", sentence);
-  fmt::print("\n{:>14} {:>12} {:>12} {:>12}\n", "steps a frame", "step [s]", "error [%]",
-             "clock [s]");
+  fmt::print("\n{:>14} {:>12} {:>12} {:>14} {:>12}\n", "steps a frame", "step [s]", "error [%]",
+             "processor [s]", "clock [s]");
+  const auto number = [](double value) {
+    return std::isnan(value) ? std::string("-") : fmt::format("{:.3g}", value);
+  };
   for (const SolverStep& step : solver.steps)
-    fmt::print("{:>14} {:>12.3g} {:>12} {:>12.3g}  {}\n", step.parts, step.step,
-               std::isnan(step.error) ? "-" : fmt::format("{:.3g}", 100 * step.error), step.seconds,
+    fmt::print("{:>14} {:>12.3g} {:>12} {:>14} {:>12}  {}\n", step.parts, step.step,
+               number(100 * step.error), number(step.spent.processor), number(step.spent.clock),
                step.stopped);
 }
 

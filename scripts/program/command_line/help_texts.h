@@ -315,9 +315,11 @@ price   interpolated between the two runs that bracket the error. Methods are ti
 
 --solver CMD also finds step and price of another solver (verification/subjects/PROTOCOL.md).
 Its steps are equal from frame to frame, and halved until the error bar of the finest run is a tenth
-of the least wanted error, or a run would take 10 s (times --effort) by the clock. Its error is the
-distance from its finest run, and that run's error bar, over the reference's motion. Says how far
-its limit is from the reference's truth, and whether steps explain it. Its runs are not kept.
+of the least wanted error, or a run would take 10 s (times --effort) by the clock. Longer steps are
+tried, up to a frame, until they miss the largest wanted error or are unstable; if a whole frame
+reaches an error, its step is a lower bound, printed as >=. The error is the distance from the
+finest run, and that run's error bar, over the reference's motion. Says how far the solver's limit
+is from the reference's truth, and whether steps explain it. Its runs are not kept.
 
 Examples:
   foldproof precision hanging_sheet --until 0.2 --solver ./adapter --settings iterations=20

@@ -11,6 +11,7 @@ import numpy as np  # noqa: E402
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "adapters"))
 from foldproof_solver import Scene  # noqa: E402
+from materials import Damped  # noqa: E402
 from toy_solver import ToySolver  # noqa: E402
 
 
@@ -68,7 +69,7 @@ class Implicit(ToySolver):
         known, new, blocks = self.forces(), v.copy(), self.blocks()
         size = np.inf
         for _ in range(60):  # the matrix is that of the step's start
-            self.x = x + dt * (self.theta * new + (1 - self.theta) * v)
+            self.x, self.v = x + dt * (self.theta * new + (1 - self.theta) * v), new
             mean = self.theta * self.forces() + (1 - self.theta) * known
             residual = (mass * (new - v) - dt * mean) * self.is_free[:, None]
             change = self.solve(blocks, (dt * self.theta) ** 2, residual)
@@ -94,6 +95,20 @@ class BackwardEulerInSingle(BackwardEuler):
 
 
 class Trapezoidal(Implicit):
+    theta, scheme, order = 0.5, "trapezoidal rule", 2
+
+
+class DampedBackwardEuler(Damped, BackwardEuler):
+    """Its damping is that of the velocities that it solves for."""
+
+    def forces(self) -> np.ndarray:
+        return super().forces() + self.damping()
+
+    def advance(self, dt: float, steps: int) -> None:
+        Implicit.advance(self, dt, steps)
+
+
+class DampedTrapezoidal(DampedBackwardEuler):
     theta, scheme, order = 0.5, "trapezoidal rule", 2
 
 

@@ -3,8 +3,8 @@
 physics or one claim: wrong.py KIND
 
 The portable suite must find each by the laws that it breaks. "none" is the unspoiled toy;
-"backward_euler" and "trapezoidal" are other correct schemes, which must raise no alarm, at f8;
-"single", "backward_euler_single" and "substeps_in_single" are some at f4,
+"backward_euler" and "trapezoidal", alone or after "damped_", are other correct schemes, which must
+raise no alarm, at f8; "single", "backward_euler_single" and "substeps_in_single" are some at f4,
 and "sleeps" is right but slow.
 """
 from __future__ import annotations
@@ -26,6 +26,8 @@ from foldproof_solver import Scene, serve  # noqa: E402
 from schemes import (  # noqa: E402
     BackwardEuler,
     BackwardEulerInSingle,
+    DampedBackwardEuler,
+    DampedTrapezoidal,
     Single,
     Trapezoidal,
 )
@@ -304,6 +306,7 @@ KINDS = {
     "on_planes_backward_euler": contact.OnPlanesBackwardEuler,
     "on_planes_backward_euler_single": contact.OnPlanesBackwardEulerInSingle,
     "gravity_scaled_single": GravityScaledInSingle,
+    "weft_per_length": materials.WeftPerLength,
     "springs_per_length": materials.SpringsPerLength,
     "springs_of_one_stiffness": materials.SpringsOfOneStiffness,
     "knows_its_units": KnowsItsUnits,
@@ -315,6 +318,10 @@ KINDS = {
     "held_strips_weigh_twice": materials.HeldStripsWeighTwice,
     "damped": materials.Damped,
     "damping_halved": materials.DampingHalved,
+    "damped_backward_euler": DampedBackwardEuler,
+    "damped_trapezoidal": DampedTrapezoidal,
+    "damped_verlet": materials.DampedVerlet,
+    "damped_verlet_single": materials.DampedVerletInSingle,
     "damped_unasked": materials.DampedUnasked,
     "bends_not_at_all": materials.BendsNotAtAll,
     "bends_unasked": materials.BendsUnasked,

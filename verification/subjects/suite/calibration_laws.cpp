@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "reference/mesh/shapes.h"
 #include "verification/subjects/suite/laws.h"
@@ -113,23 +114,31 @@ Finding modulus_is_the_scene_s(Trial& trial) {
   return judge_worst(measured, 0.05, relaxed);
 }
 
+/// The larger of both directions' changes [1].
+double change_of(const Moduli& fine, const Moduli& coarsest) {
+  return std::max(std::abs(fine.along_x / coarsest.along_x - 1),
+                  std::abs(fine.along_y / coarsest.along_y - 1));
+}
+
 Finding modulus_survives_refinement(Trial& trial) {
   Table measured{{"pattern", ""},          {"columns", "1"},
                  {"along x", "N/m"},       {"along y", "N/m"},
-                 {"Poisson's ratio", "1"}, {"change over the coarsest along x", "1"}};
+                 {"Poisson's ratio", "1"}, {"change from the coarsest mesh, x or y", "1"}};
   for (const auto& [name, pattern] : {std::pair("equilateral", SheetPattern::equilateral),
                                       std::pair("one diagonal", SheetPattern::one_diagonal)}) {
-    double coarsest = nan;
+    std::optional<Moduli> coarsest;
     for (const int columns : {4, 8, 12}) {
       const Moduli found = moduli_of(trial, {pattern, columns});
-      if (std::isnan(coarsest)) coarsest = found.along_x;
+      if (!coarsest) coarsest = found;
       measured.row(name, columns, found.along_x, found.along_y, found.poisson,
-                   std::abs(found.along_x / coarsest - 1));
+                   change_of(found, *coarsest));
     }
   }
-  return judge_worst(measured, 0.05,
-                     "an even strain is exact on every mesh; what waves and steps add is at most "
-                     "as much as in the law of the modulus itself");
+  return judge_worst(
+      measured, 0.05,
+      "an even strain is exact on every mesh, but along y the half triangles at the sides are 39 % "
+      "stiffer, on 1/8 of the area of 4 columns and 1/24 of 12: the modulus changes by 3.2 %; "
+      "waves and steps, which are much alike on all meshes, add the rest (empirical, 1.8 %)");
 }
 
 /// Bent to a cylinder about the y axis.
@@ -183,7 +192,8 @@ std::vector<Law> calibration_laws() {
        "On equilateral meshes the effective Young's modulus is the scene's.",
        "Newton's second law of half a strained sheet", modulus_is_the_scene_s},
       {"calibration.modulus-survives-refinement",
-       "The effective Young's modulus does not depend on the mesh's resolution.",
+       "The effective Young's modulus, along x and along y, does not depend on the mesh's "
+       "resolution.",
        "Newton's second law of half a strained sheet", modulus_survives_refinement},
       {"calibration.bending-rigidity-is-the-scene-s",
        "On equilateral meshes the effective bending rigidity is the scene's.",

@@ -55,15 +55,14 @@ Finding step_depends_on_its_state_alone(Trial& trial) {
                            "the state that was set is all that a step depends on");
 }
 
-/// The moving sheet, which takes so many steps to 0.04 s.
-PortableScene moving_sheet_in(long count) {
-  PortableScene scene = moving_sheet();
+/// The scene, whose `steps` steps are divided into so many of the same total time.
+PortableScene in_steps(PortableScene scene, long count) {
   scene.dt *= double(steps) / double(count);
   return scene;
 }
 
-PerParticle3 positions_after(Trial& trial, long count) {
-  return trial.after(moving_sheet_in(count), count).x;
+PerParticle3 positions_after(Trial& trial, const PortableScene& scene, long count) {
+  return trial.after(in_steps(scene, count), count).x;
 }
 
 /// Measures what rounding leaves in the positions after a run [m], as a norm, or several times
@@ -72,14 +71,13 @@ PerParticle3 positions_after(Trial& trial, long count) {
 /// substeps, and velocities from differences of positions, which no bound on the steps covers.
 /// Solves may add their tolerance a step. A solver that depends on the place looks rounded here,
 /// and fails symmetry.translation.
-double rounding_of(Trial& trial, long count, const PerParticle3& x) {
+double rounding_of(Trial& trial, PortableScene scene, long count, const PerParticle3& x) {
   const Vector3 shift(2.3, -2.9, 2.7);  // m; no coordinate of the sheet is beyond 0.7 m
-  PortableScene scene = moving_sheet_in(count);
   const double solves = double(count) * trial.declaration().solve_tolerance;
   const double unfinished = solves * (x - scene.x).norm();
   scene.mesh.rest.colwise() += shift;
   scene.x.colwise() += shift;
-  return ((trial.after(scene, count).x.colwise() - shift) - x).norm() + unfinished;
+  return ((positions_after(trial, scene, count).colwise() - shift) - x).norm() + unfinished;
 }
 
 /// The difference that halving the step makes, and the rounding in that difference: norms [m].
@@ -107,13 +105,14 @@ oracles::Estimate order_of(const Change& coarse, const Change& fine) {
   return {std::log2(coarse.size / fine.size), -std::log2(kept)};
 }
 
-Finding order_is_as_claimed(Trial& trial) {
+/// Halves the step of the scene three times.
+Finding order_is_as_claimed(Trial& trial, const PortableScene& scene) {
   const int claimed = trial.declaration().order;
   if (claimed == 0) throw NotOffered{"a claimed order"};
   std::vector<Run> runs;
   for (const long count : {steps, 2 * steps, 4 * steps, 8 * steps}) {
-    const PerParticle3 x = positions_after(trial, count);
-    runs.push_back({count, x, rounding_of(trial, count, x), nan});
+    const PerParticle3 x = positions_after(trial, scene, count);
+    runs.push_back({count, x, rounding_of(trial, scene, count, x), nan});
   }
   std::vector<Change> changes;
   for (size_t k = 1; k < runs.size(); ++k) changes.push_back(change_between(runs[k - 1], runs[k]));
@@ -136,6 +135,15 @@ Finding order_is_as_claimed(Trial& trial) {
                      "halved steps see the next term of the series as a third of an order at most");
 }
 
+Finding order_of_the_moving_sheet(Trial& trial) {
+  return order_is_as_claimed(trial, moving_sheet());
+}
+
+Finding order_with_damping(Trial& trial) {
+  trial.require("damping");
+  return order_is_as_claimed(trial, damped_moving_sheet());
+}
+
 constexpr int most_readings = 5;
 constexpr double enough_seconds = 0.2;  // of readings; slow solvers are read once
 
@@ -143,11 +151,11 @@ Run timed_run(Trial& trial, long count) {
   Run run{count, {}, nan, std::numeric_limits<double>::infinity()};
   double spent = 0;
   for (int k = 0; k < most_readings && spent < enough_seconds; ++k) {
-    run.x = positions_after(trial, count);
+    run.x = positions_after(trial, moving_sheet(), count);
     spent += trial.seconds_of_motion();
     run.seconds = std::min(run.seconds, trial.seconds_of_motion());
   }
-  run.rounding = rounding_of(trial, count, run.x);
+  run.rounding = rounding_of(trial, moving_sheet(), count, run.x);
   return run;
 }
 
@@ -173,7 +181,7 @@ Table errors_and_costs(const std::vector<Run>& runs, const Declaration& declared
               {"rounding", "motion"},
               {"error", "motion"}};
   for (size_t k = 0; k < runs.size(); ++k)
-    table.row(runs[k].count, moving_sheet_in(runs[k].count).dt, runs[k].seconds,
+    table.row(runs[k].count, in_steps(moving_sheet(), runs[k].count).dt, runs[k].seconds,
               k == 0 ? nan : (runs[k].x - runs[k - 1].x).norm() / motion, runs[k].rounding / motion,
               (runs[k].x - limit).norm() / motion);
   return table;
@@ -235,7 +243,10 @@ std::vector<Law> repeat_laws() {
       {"repeat.step-depends-on-its-state-alone", "A state that is set again gives the same step.",
        "determinism", step_depends_on_its_state_alone},
       {"order.observed-is-as-claimed", "Halving the step reduces the error as claimed.",
-       "Richardson", order_is_as_claimed},
+       "Richardson", order_of_the_moving_sheet},
+      {"order.with-damping-is-as-claimed",
+       "Halving the step reduces the error as claimed where edges are damped, too.", "Richardson",
+       order_with_damping},
       {"order.halved-steps-approach-a-limit",
        "Each halving of the step changes the motion less than the one before.", "Cauchy",
        halved_steps_approach_a_limit},

@@ -96,6 +96,17 @@ PortableScene moving_sheet() {
   return scene;
 }
 
+PortableScene damped_moving_sheet() {
+  PortableScene scene = moving_sheet();
+  scene.name = "damped moving sheet";
+  scene.dt = 1.5 * step;  // long enough for errors of second order to stand out of single precision
+  // The highest frequency omega is 2 over the explicit limit, that is 2/(3 step). With dampers of
+  // tau times the springs' stiffness its damping ratio is omega tau/2.
+  constexpr double tau = step;  // s
+  scene.material.stretch_damping = tau * scene.material.young;
+  return scene;
+}
+
 PortableScene moving_sheet_of_unequal_masses() {
   PortableScene scene = moving_sheet();
   scene.name = "moving sheet of unequal masses";

@@ -29,7 +29,11 @@ PortableScene drifting_sheet();
 /// for longer than the 0.04 s that the laws ask.
 PortableScene moving_sheet();
 
-/// The same, its masses multiplied by factors between 0.6 and 1.7.
+/// The moving sheet with dampers along its edges, a third of critical damping for the highest
+/// frequency, and steps of half the explicit limit.
+PortableScene damped_moving_sheet();
+
+/// The moving sheet, its masses multiplied by factors between 0.6 and 1.7.
 PortableScene moving_sheet_of_unequal_masses();
 
 /// Two corners held, under gravity.

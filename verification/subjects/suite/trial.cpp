@@ -3,12 +3,26 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <limits>
 
 namespace foldproof {
 
 namespace {
 
 constexpr int most_hangs = 3;  // each takes the whole limit of the clock
+
+/// Adds up the seconds from its start to its end, even if an exception ends it.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
+  ~Stopwatch() {
+    seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  double& seconds_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
 
 }  // namespace
 
@@ -53,13 +67,21 @@ void Trial::prepare(const PortableScene& scene) {
 }
 
 std::vector<Snapshot> Trial::motion(const PortableScene& scene, const std::vector<long>& steps) {
-  using Clock = std::chrono::steady_clock;
-  const bool whole = declaration().level == 0;
-  if (!whole) prepare(scene);
-  const Clock::time_point start = Clock::now();
-  std::vector<Snapshot> states = whole ? solver().run(scene, steps) : advance(scene.dt, steps);
-  seconds_of_motion_ = std::chrono::duration<double>(Clock::now() - start).count();
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  seconds_of_motion_ = 0, processor_seconds_of_motion_ = unknown;
+  if (declaration().level > 0) prepare(scene);
+  const double before = solver().processor_time().computing;
+  std::vector<Snapshot> states = timed_motion(scene, steps);
+  const double spent = solver().processor_time().computing - before;
+  // less than nothing: of processes that have ended meanwhile
+  processor_seconds_of_motion_ = spent >= 0 ? spent : unknown;
   return states;
+}
+
+std::vector<Snapshot> Trial::timed_motion(const PortableScene& scene,
+                                          const std::vector<long>& steps) {
+  const Stopwatch stopwatch(seconds_of_motion_);
+  return declared_.level > 0 ? advance(scene.dt, steps) : solver().run(scene, steps);
 }
 
 std::vector<Snapshot> Trial::advance(double dt, const std::vector<long>& steps) {

@@ -48,9 +48,13 @@ class Trial {
   std::vector<Snapshot> motion(const PortableScene& scene, const std::vector<long>& steps);
   Snapshot after(const PortableScene& scene, long steps) { return motion(scene, {steps}).front(); }
 
-  /// By the clock, how long the answers of the latest motion took [s]: its steps and the pipe, and
-  /// at level 0 the scene's setup, too.
+  /// By the clock, how long the answers of the latest motion took [s], to its failure if it failed:
+  /// its steps and the pipe, and at level 0 the scene's setup, too.
   double seconds_of_motion() const { return seconds_of_motion_; }
+
+  /// Likewise of the processor, of all processes and threads of the solver; NaN where the system
+  /// does not say, and after a failure.
+  double processor_seconds_of_motion() const { return processor_seconds_of_motion_; }
 
   /// To be called when a law has thrown: the process has ended, the next law starts another.
   void note(const SolverFailure& failure);
@@ -58,6 +62,7 @@ class Trial {
   const std::vector<std::pair<std::string, std::string>>& mapping() const { return mapping_; }
 
  private:
+  std::vector<Snapshot> timed_motion(const PortableScene& scene, const std::vector<long>& steps);
   std::vector<Snapshot> advance(double dt, const std::vector<long>& steps);
 
   SolverCommand command_;
@@ -66,7 +71,7 @@ class Trial {
   Declaration declared_;
   std::vector<std::pair<std::string, std::string>> mapping_;
   int hangs_ = 0;
-  double seconds_of_motion_ = 0;
+  double seconds_of_motion_ = 0, processor_seconds_of_motion_ = 0;
 };
 
 }  // namespace foldproof
