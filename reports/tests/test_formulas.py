@@ -37,7 +37,10 @@ class Formulas(unittest.TestCase):
                 "(h / 2 s)<sup>1.99</sup>, x<sup>−0.86</sup>, x<sup>2</sup>. "
                 "4\u200a×\u200a10<sup>−7</sup>",
             ),
-            ("-0.5, a rate of -1.55 (-2e-3)", "−0.5, a rate of −1.55 (−2\u200a×\u200a10<sup>−3</sup>)"),
+            (
+                "-0.5, a rate of -1.55 (-2e-3)",
+                "−0.5, a rate of −1.55 (−2\u200a×\u200a10<sup>−3</sup>)",
+            ),
             ("t^ and d^.", "t\u0302 and d\u0302."),
             ("m E_kin, h/h_limit", "m E<sub>kin</sub>, h/h<sub>limit</sub>"),
         ):

@@ -128,7 +128,8 @@ void print_whole(const json& claim, const json& findings) {
   if (!entry_of(claim, "condition").empty())
     fmt::print("\nCondition: {}.\n", entry_of(claim, "condition"));
   if (!entry_of(claim, "why").empty()) fmt::print("\n{}\n", entry_of(claim, "why"));
-  if (!entry_of(claim, "missing").empty()) fmt::print("\nMissing: {}\n", entry_of(claim, "missing"));
+  if (!entry_of(claim, "missing").empty())
+    fmt::print("\nMissing: {}\n", entry_of(claim, "missing"));
   fmt::print("\n");
   for (const json& decider : claim.value("decided_by", json::array()))
     print_decider(decider, findings);

@@ -50,9 +50,9 @@ std::string summary(const RunRecord& run);
 /// `most_empirical`.
 bool has_too_many_empirical_bounds(const RunRecord& run);
 
-/// 0 if every finding holds (or is not applicable, or measured only), every claim is ruled
-/// as recorded and few bounds are empirical, else 1. A claim that is undecided, and recorded so,
-/// fails the full tier only, unless it says what no run has.
+/// 0 if every finding holds (or is not applicable, or measured only), every claim is ruled as
+/// recorded and few bounds are empirical, else 1. A claim that is undecided, and recorded so, fails
+/// the full tier only, unless it says what no run has.
 int exit_code(const RunRecord& run);
 
 /// A line for each finding: outcome, name, measured, bound, unit; below one that fails, its

@@ -64,8 +64,8 @@ void require_resistance(std::string_view to_what, double measured, double given)
   throw FailedWithoutNumber(
       fmt::format("the strip does not resist {}: {:.2g} N m are measured, the scene has {:.2g} N m",
                   to_what, measured, given),
-      fmt::format("at least {:.0f} % of the scene's rigidity; a limper strip takes too long to come "
-                  "to rest, or to fall",
+      fmt::format("at least {:.0f} % of the scene's rigidity; a limper strip takes too long to "
+                  "come to rest, or to fall",
                   100 * least_rigidity));
 }
 
