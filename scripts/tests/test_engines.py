@@ -211,7 +211,7 @@ class Script(unittest.TestCase):
         self.assertEqual((done.returncode, done.stdout), (2, ""))
         self.assertEqual(
             done.stderr,
-            "scripts/engines: unknown engine 'bulet'; known: bullet, jolt, mujoco\n",
+            "scripts/engines: unknown engine 'bulet'; known: bullet, jolt, mujoco, calculix\n",
         )
 
 

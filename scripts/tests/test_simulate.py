@@ -328,7 +328,7 @@ step = 0.001
         self.assertRegex(
             done.stdout,
             (
-                r"fails +case\.mine\.takes-steps +\S+ <= 0 +steps short of 1e\+09\n +The run takes"
+                r"fails +case\.mine\.takes-steps +\S+ > +0 +steps short of 1e\+09\n +The run takes"
                 r" as many .*\n +The bound: a trial"
             ),
         )
