@@ -224,8 +224,8 @@ std::string in_words(const Predictability& p) {
         p.rounding.horizon < p.error.horizon ? p.rounding.disturbance : p.error.disturbance,
         p.fraction * p.motion, p.fraction, p.motion, growth);
   return fmt::format(
-      "predictable to its end (t = {:.3g} s): runs that start {:.2g} and {:.2g} m apart are at "
-      "most {:.2g} and {:.2g} m apart, the motion being {:.2g} m; {}",
+      "predictable to its end (t = {:.3g} s): runs that start {:.2g} and {:.2g} m apart never "
+      "differ by more than {:.2g} and {:.2g} m, while the motion is {:.2g} m; {}",
       p.end, p.rounding.disturbance, p.error.disturbance, std::ranges::max(p.rounding.distances),
       std::ranges::max(p.error.distances), p.motion, growth);
 }

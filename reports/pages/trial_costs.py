@@ -21,7 +21,7 @@ CAPTION = (
     "The same 0.04 s of a moving sheet, a mark for each number of steps. Seconds are a clock of "
     "one machine, read through a pipe: the least of a few readings. The error is against the "
     "solver's own limit, extrapolated: it is an error of the time step, not of the model. Where a "
-    "curve turns up, its changes are within its rounding, as measured a few metres away."
+    "curve turns up, rounding, measured a few metres from the origin, hides the changes."
 )
 
 

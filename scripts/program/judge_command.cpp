@@ -131,13 +131,14 @@ std::optional<StudyRecord> error_against_cost(const Judgement& judgement) {
   study.about =
       "The error of the time step, not of the model: its limit is the solver's own. Seconds are "
       "the clock of one machine, through the pipe: the least of up to five readings.";
-  study.figures.push_back({"error_against_cost",
-                           "Error against cost",
-                           {"seconds of 0.04 s of motion, by the clock", "s", Scale::log},
-                           {"error of the step, over the motion", "1", Scale::log},
-                           nan,
-                           "A mark for each step; its error is against the extrapolated end.",
-                           {curve}});
+  study.figures.push_back(
+      {"error_against_cost",
+       "Error against cost",
+       {"seconds of 0.04 s of motion, by the clock", "s", Scale::log},
+       {"error of the step, over the motion", "1", Scale::log},
+       nan,
+       "One mark for each step size; the error is that of the end, against the extrapolated one.",
+       {curve}});
   study.tables.emplace_back("steps", "Each step", rows);
   return study;
 }

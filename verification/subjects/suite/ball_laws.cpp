@@ -65,10 +65,11 @@ Finding falling_sheet_stays_outside(Trial& trial) {
   Table measured{{"of", ""}, {"measured", "m"}, {"largest part of what is allowed", "1"}};
   measured.row("deepest particle", deepest, ratio);
   measured.row("nearest approach", nearest, nearest / allowed);
-  return judge_worst(measured, 1,
-                     "a contact that is found after the step lets a particle in by the way of a "
-                     "step, at the largest speed so far; a tenth of an edge above is left for a "
-                     "thickness, and L^2/(6 r) for triangles that stay outside");
+  return judge_worst(
+      measured, 1,
+      "a contact that is found after the step lets a particle in by at most what it travels in a "
+      "step, at the largest speed so far; above the ball, a tenth of an edge is allowed for a "
+      "thickness, and L^2/(6 r) for triangles that stay outside");
 }
 
 Finding fall_gains_no_energy(Trial& trial) {
@@ -100,10 +101,11 @@ Finding comes_to_rest(Trial& trial) {
   measured.row("deepest particle", deepest, 0.01 * edge, deepest / (0.01 * edge));
   measured.row("nearest particle", nearest, allowed_clearance(scene),
                nearest / allowed_clearance(scene));
-  return judge_worst(measured, 1,
-                     "empirical: a thousandth of the size is no motion, a hundredth of an edge "
-                     "deep is not seen in a picture; a tenth of one above is left for a thickness, "
-                     "and L^2/(6 r) for triangles that stay outside");
+  return judge_worst(
+      measured, 1,
+      "empirical: a thousandth of the size does not count as motion, and a depth of a hundredth of "
+      "an edge cannot be seen in a picture; above the ball, a tenth of an edge is allowed for a "
+      "thickness, and L^2/(6 r) for triangles that stay outside");
 }
 
 //        .  phi      a point that slides down a ball of radius r, way r phi:
@@ -173,10 +175,10 @@ Finding slides_as_coulomb_says(Trial& trial) {
     const double without = way_of_a_point(start, 0, large, time);
     measured.row(degrees, friction, way, expected, std::abs(way - expected) / without);
   }
-  return judge_worst(
-      measured, 0.03,
-      "a step in which contact begins is 1 % of the way, 200 steps of a first order method err by "
-      "0.5 %, the sheet's own waves by 1 %; and that it is no point, by (0.2/2)^2/2, 0.5 %");
+  return judge_worst(measured, 0.03,
+                     "the step in which contact begins is 1 % of the way; 200 steps of a first "
+                     "order method err by 0.5 %, and the sheet's own waves by 1 %; that the sheet "
+                     "is not a point adds (0.2/2)^2/2 = 0.5 %");
 }
 
 }  // namespace
@@ -184,7 +186,7 @@ Finding slides_as_coulomb_says(Trial& trial) {
 std::vector<Law> ball_laws() {
   return {
       {"ball.falling-sheet-stays-outside",
-       "A sheet that falls on a ball meets it, and enters it by the way of a step at most.",
+       "A sheet that falls on a ball meets it, and sinks in by no more than it travels in a step.",
        "impenetrability", falling_sheet_stays_outside},
       {"ball.fall-gains-no-energy",
        "A sheet that falls on a ball never moves faster than its fall allows.",

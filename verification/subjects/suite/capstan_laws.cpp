@@ -138,7 +138,7 @@ Finding slips_at_euler_s_ratio(Trial& trial) {
       measured, 0.021,
       "the strip turns by d = edge/r from row to row, so that its ratio errs by (1 + mu^2) d^2 (mu "
       "pi/12 + 1/8), 1.1 % of mu pi; half of the last bracket is 0.5 %; 1500 steps of a first "
-      "order method and the strip's own waves, as much");
+      "order method and the strip's own waves are allowed as much");
 }
 
 Finding strip_lies_on_the_capsule(Trial& trial) {
@@ -158,10 +158,10 @@ Finding strip_lies_on_the_capsule(Trial& trial) {
   const double above = edge / 10 + edge * edge / (8 * radius), below = edge / 100;
   measured.row("deepest particle", deepest, below, deepest / below);
   measured.row("highest particle", highest, above, highest / above);
-  return judge_worst(
-      measured, 1,
-      "empirical: a hundredth of an edge deep is not seen in a picture; a tenth of one above is "
-      "left for a thickness, and L^2/(8 r) for edges that stay outside");
+  return judge_worst(measured, 1,
+                     "empirical: a depth of a hundredth of an edge cannot be seen in a picture; "
+                     "above the capsule, a tenth of an edge is allowed for a thickness, and L^2/(8 "
+                     "r) for edges that stay outside");
 }
 
 }  // namespace

@@ -39,8 +39,8 @@ Finding rests_on_the_plane(Trial& trial) {
                  std::max(deepest / (0.01 * edge), highest / (0.1 * edge)));
   }
   return judge_worst(measured, 1,
-                     "empirical: a hundredth of an edge deep is not seen in a picture; a tenth of "
-                     "one above leaves room for a thickness");
+                     "empirical: a depth of a hundredth of an edge cannot be seen in a picture; "
+                     "above the plane, a tenth of an edge is allowed for a thickness");
 }
 
 Finding resting_sheet_is_still(Trial& trial) {
@@ -95,8 +95,8 @@ Finding slides_as_coulomb_says(Trial& trial) {
     measured.row(slope.degrees, slope.friction, way, expected, std::abs(way - expected) / without);
   }
   return judge_worst(measured, 0.05,
-                     "2 % of a first order method, as much for a step in which contact begins, and "
-                     "1 % of the sheet's own waves");
+                     "a first order method errs by 2 %, the step in which contact begins by as "
+                     "much, and the sheet's own waves by 1 %");
 }
 
 constexpr long long_steps = 200;
@@ -126,10 +126,10 @@ Finding slips_at_coulomb_s_slope(Trial& trial) {
     const double found = (rests + moves) / 2, expected = friction / (1 - share_of_way);
     measured.row(friction, found, expected, std::abs(found - expected) / friction);
   }
-  return judge_worst(measured, 0.03,
-                     "of the way without friction a step in which contact begins is 1 %, 200 steps "
-                     "of a first order method err by 0.5 %, the sheet's own waves by 1 %; and half "
-                     "of the last bracket, 0.5 %");
+  return judge_worst(
+      measured, 0.03,
+      "as shares of the frictionless way: the step in which contact begins, 1 %; 200 steps of a "
+      "first order method, 0.5 %; the sheet's own waves, 1 %; half of the last bracket, 0.5 %");
 }
 
 }  // namespace

@@ -20,7 +20,8 @@ Finding stays_roughly(Trial& trial) {
   const double edge = rest_lengths(scene.mesh).mean();
   Table measured{{"steps", "1"}, {"largest displacement", "mean edge"}};
   measured.row(few, largest(trial.after(scene, few).x - scene.x) / edge);
-  return judge_worst(measured, 0.01, "a hundredth of an edge: a solver that is driven rightly");
+  return judge_worst(measured, 0.01,
+                     "a hundredth of an edge: any correctly driven solver stays below it");
 }
 
 Finding falls_roughly(Trial& trial) {
@@ -30,7 +31,7 @@ Finding falls_roughly(Trial& trial) {
   const PerParticle3 moved = trial.after(scene, many).x - scene.x;
   Table measured{{"steps", "1"}, {"error of the fall", "g t^2/2"}};
   measured.row(many, largest(moved.colwise() - fall) / fall.norm());
-  return judge_worst(measured, 0.05, "2 % of a first order method, and as much again and a half");
+  return judge_worst(measured, 0.05, "a first order method errs by 2 %; two and a half times that");
 }
 
 Finding stays_exactly(Trial& trial) {
