@@ -215,7 +215,7 @@ StudyRecord precision_record(const PrecisionAnswer& answer, double seconds) {
       "the cheapest methods are tried again in a run three times as long. One that does not last "
       "there gets no price, and a shorter one is tried in its place: see the table of longer runs. "
       "A step lasts if the kinetic energy of the added time is at most twice that with half the "
-      "step. " +
+      "step. The " +
       truth_in_words(answer) + ".";
   for (const CostAxis& cost : cost_axes()) record.figures.push_back(figure_of(answer, cost));
   if (const std::string why = for_truth_in_words(answer); !why.empty()) {

@@ -67,8 +67,8 @@ bool is_exact_enough(const SolverPlan& plan, const SolverRuns& runs) {
          bar.half_width / plan.motion <= truth_part * plan.wanted.back();
 }
 
-/// The longest step that was tried reaches the largest wanted error; or shorter ones, of which
-/// three are needed, would take too long.
+/// Whether to try a step twice as long: the longest so far reaches the largest wanted error, or an
+/// error bar still lacks one of its three runs.
 bool needs_longer_step(const SolverPlan& plan, const SolverRuns& runs) {
   const auto& [parts, run] = *runs.begin();
   if (!came_to_end(run) || parts % 2 != 0) return false;

@@ -34,7 +34,7 @@ struct SolverPlan {
 /// wanted error. Where the next longer step is unstable, steps between are tried.
 int next_parts(const SolverPlan& plan, const SolverRuns& runs);
 
-/// What a run takes [s].
+/// The time a run takes [s].
 struct Seconds {
   double processor = nan;  // of the solver's processes; NaN: not known, or it came to no end
   double clock = nan;      // through the pipe
@@ -54,7 +54,7 @@ struct SolverPrice {
   double wanted;                // 1
   double step = nan;            // s; NaN: there is no price
   Seconds spent = {};           // on a run with this step
-  bool is_whole_frame = false;  // one step a frame reaches it: none is longer
+  bool is_whole_frame = false;  // the step is a whole frame, the longest there is
   double unstable_step = nan;   // the next longer one, if it is not stable [s]
   std::string because = "";     // why there is none; or ""
 };

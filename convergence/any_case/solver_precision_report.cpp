@@ -20,7 +20,8 @@ const PriceList* prices_at(const PrecisionAnswer& reference, double wanted) {
              : &*list;
 }
 
-/// What limits the step, where it is not the error; "" otherwise.
+/// Why no longer step has a price although its error is not known to be too large; "" if the
+/// error is the limit.
 std::string limit_in_words(const SolverPrice& price) {
   if (price.is_whole_frame) return "one step a frame; no longer step can be tried";
   if (std::isnan(price.unstable_step)) return "";

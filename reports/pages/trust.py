@@ -90,10 +90,10 @@ class Apart:
     case: str
     seconds: float             # when [s]
     distance: float
-    bound: float               # what a rounding a step explains
+    bound: float | None        # what a rounding a step explains; None: not judged
 
     def is_explained(self) -> bool:
-        return self.distance <= self.bound
+        return self.bound is None or self.distance <= self.bound
 
 
 @dataclass

@@ -50,14 +50,15 @@ class Beside(ReportTest):
         put_run(self.root)
         self.assertNotIn('id="machines"', self.made())
         apart = [{"case": HOSTILE, "seconds": 0.1, "apart": 3e-14, "bound": 2e-13},
-                 {"case": "fast", "seconds": 0.0125, "apart": 0.5, "bound": 0.25}]
+                 {"case": "fast", "seconds": 0.0125, "apart": 0.5, "bound": 0.25},
+                 {"case": "tangle", "seconds": 0.1, "apart": 0.5, "bound": None}]
         rows = [{"machine": "old-libm", "cases": 7, "apart": apart},
                 {"machine": "aarch64", "cases": 7, "apart": []}]
         told = {"seconds": 0.1, "commit": "abc", "machines": rows}
         (self.root / "machines.json").write_text(json.dumps(told))
         text = self.made()
         section = text[text.index('id="machines"'):]
-        self.assertIn("5 of 7", section)
+        self.assertIn("4 of 7", section)
         self.assertIn("7 of 7", section)
         self.assertIn("1 of 14 is further apart", section)
         self.read(text)

@@ -124,7 +124,7 @@ void reject_other_kind(const std::string& name, const std::vector<Check>& checks
         fmt::format("'{0}' names checks or cases, and no study; type `foldproof check {0}`", name));
 }
 
-/// "0.02 <= 0.05 m", true whatever the outcome.
+/// Measured and bound with the sign that holds between them, as "0.02 <= 0.05 m".
 std::string comparison(const Record& record) {
   const Verdict& v = record.finding.verdict;
   const std::string unit = v.unit == "1" ? "" : v.unit;

@@ -22,8 +22,8 @@ class SpringsPerLength(ToySolver):
 
 
 class WeftPerLength(ToySolver):
-    """Right along x, whatever the mesh. Along y it is stiffer with shorter edges, and right with
-    those of 0.05 m alone."""
+    """Its modulus along x is right on every mesh. Along y it grows as edges get shorter, and is
+    right only with edges of 0.05 m."""
 
     def prepare(self, scene: Scene) -> dict[str, str]:
         mapping = super().prepare(scene)
