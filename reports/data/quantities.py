@@ -109,12 +109,23 @@ def quantity_html(value: float, unit: str) -> Markup:
     return Markup('{}\u2009<span class="unit">{}</span>').format(written, unit_text(unit))
 
 
+_WRITTEN = re.compile(r"-?\d+(?:\.\d+)?|-?\d(?:\.\d+)?e[-+]?\d+")
+
+
+def _text_html(text: str) -> Markup:
+    """A text of a table; a number that was written with its own digits keeps them."""
+    if not _WRITTEN.fullmatch(text):
+        return escape(text)
+    mantissa, _, exponent = text.partition("e")
+    return _mark_up(float("nan"), mantissa.replace("-", MINUS), int(exponent) if exponent else None)
+
+
 def cells_html(values: Iterable[object]) -> list[Markup]:
     """The cells of one column: texts, or numbers written in one
     manner (all whole, or all rounded)."""
     values = list(values)
     if any(isinstance(value, str) for value in values):
-        return [escape(value) for value in values]
+        return [_text_html(str(value)) for value in values]
     numbers = [float(value) for value in values]  # type: ignore[arg-type]
     if all(is_count(value) or not math.isfinite(value) for value in numbers):
         return [known_html(value) for value in numbers]
@@ -137,8 +148,8 @@ def seconds_html(value: float) -> Markup:
 
 
 def order_html(value: float) -> Markup:
-    """An observed order of convergence, to two decimals."""
-    written = "NaN" if math.isnan(value) else f"{value:.2f}".replace("-", MINUS).replace("inf", "∞")
+    """An observed order of convergence, to two decimals; a dash where there is none."""
+    written = "–" if math.isnan(value) else f"{value:.2f}".replace("-", MINUS).replace("inf", "∞")
     return Markup('<span class="n">{}</span>').format(written)
 
 

@@ -2,13 +2,22 @@
 reports/tests/test_reports.py."""
 from __future__ import annotations
 
+import re
 import tempfile
 import unittest
 from pathlib import Path
 
 import numpy as np
 
-from data.quantities import number_text, quantity_html, quantity_text, seconds_html, unit_text
+from data.quantities import (
+    cells_html,
+    number_text,
+    order_html,
+    quantity_html,
+    quantity_text,
+    seconds_html,
+    unit_text,
+)
 from data.results import Column, load_run
 from pages.page import margin_percent, select_rows
 from plots.contact_maps import flatten_to_plane
@@ -33,6 +42,18 @@ class Pieces(unittest.TestCase):
         self.assertEqual(unit_text("of (1 + a^2) times the size"), "of (1 + a²) times the size")
         self.assertIn("<sup>−9</sup>", quantity_html(1e-9, "N"))
         self.assertEqual((quantity_text(0.5, "m/s"), quantity_text(0.5, "1")), ("0.5 m/s", "0.5"))
+
+    def test_numbers_that_were_written_keep_their_digits(self) -> None:
+        for text, shown in (
+            ("-0.0424239822", "−0.0424239822"),
+            ("1.50e-05", "1.50\u200a×\u200a10<sup>−5</sup>"),
+            ("0.10", "0.10"),
+            ("12345e67", "12345e67"),  # may be a commit
+            ("-", "-"),
+        ):
+            said = str(cells_html([text, "a word"])[0])
+            self.assertEqual(re.sub("</?span[^>]*>", "", said), shown)
+        self.assertIn("–", order_html(float("nan")))
 
     def test_short_durations_are_not_zero(self) -> None:
         for value in (0.0, 0.004):
