@@ -106,6 +106,10 @@ constexpr Comparison comparisons[] = {
      "The oracle's heights of wrinkles beyond their onset are the same by a series and by "
      "shooting, and tend to a closed form far beyond it.",
      deep_wrinkles_agree},
+    {"oracle.clamped-stresses-agree",
+     "The oracle's stress across a stretched, clamped sheet is the same from stresses of least "
+     "complementary energy and from displacements of least strain energy.",
+     clamped_stresses_agree},
     {"oracle.hung-cones-agree",
      "The oracle's cone that hangs from its tip is the same by a series and by shooting, and tends "
      "to that of small slopes.",

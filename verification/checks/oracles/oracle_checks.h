@@ -38,6 +38,7 @@ Table free_folds_agree();
 Table tipping_ribbons_agree();
 Table stretched_wrinkles_agree();
 Table deep_wrinkles_agree();
+Table clamped_stresses_agree();
 Table hung_cones_agree();
 Table hung_chains_agree();
 Table depth_maps_agree();

@@ -8,6 +8,7 @@
 #include "verification/oracles/chains_and_ribbons.h"
 #include "verification/oracles/folds.h"
 #include "verification/oracles/homogenised_bending.h"
+#include "verification/oracles/sheets/clamped_stress.h"
 #include "verification/oracles/sheets/deep_wrinkles.h"
 #include "verification/oracles/sheets/hung_cone.h"
 #include "verification/oracles/sheets/stretched_wrinkles.h"
@@ -125,6 +126,25 @@ Table deep_wrinkles_agree() {
   compare(answers, "height far beyond" + at(deep),
           oracles::deep_wrinkles_by_series(deep, {}).middle,
           {std::sqrt(1 - std::pow(deep.reach * k, 2) / deep.compression), 1e-8});
+  return answers;
+}
+
+Table clamped_stresses_agree() {
+  Table answers = no_answers();
+  const std::array<double, 4> places{0.1, 0.25, 0.4, 0.5};
+  for (const oracles::ClampedRectangle& sheet :
+       {oracles::ClampedRectangle{1.3, 0.45}, {2, 1.0 / 3}, {3.7, 0.2}}) {
+    const auto one = oracles::clamped_stress_by_stresses(sheet, places),
+               other = oracles::clamped_stress_by_displacements(sheet, places);
+    for (std::size_t i = 0; i < places.size(); ++i)
+      compare(answers,
+              "at " + std::to_string(places[i]) + " of a length of " +
+                  std::to_string(sheet.length_over_width) + " widths",
+              one[i], other[i]);
+  }
+  // what does not narrow is not held back
+  compare(answers, "no Poisson effect",
+          oracles::clamped_stress_by_stresses({2, 0}, std::array<double, 1>{0.2})[0], {0, 1e-12});
   return answers;
 }
 
