@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "convergence/validation/clamped_sheet.h"
+#include "verification/oracles/sheets/clamped_stress.h"
 #include "verification/subjects/reference_subject.h"
 
 using namespace foldproof;
@@ -36,4 +37,14 @@ TEST_CASE("clamps compress a long sheet across, not a short one, and wrinkle it"
   const ClampedFlat wide = clamped_flat(reference_subject(), sheet);
   CHECK(std::ranges::min(wide.stresses) > 0);
   CHECK(std::isnan(wide.onset));
+}
+
+TEST_CASE("a coarse clamped sheet is compressed as a continuum, within a tenth") {
+  const ClampedSheet sheet{0.1, 2000, 0.1, 1e-4, 18, 64};
+  const ClampedFlat flat = clamped_flat(reference_subject(), sheet);
+  const double places[] = {0.5}, ratio = length_of(sheet) / sheet.width;
+  const double stress = oracles::clamped_stress_by_stresses({ratio, 1.0 / 3}, places)[0].value;
+  CHECK(flat.stresses.back() / flat.tension == Approx(stress).epsilon(0.1));
+  CHECK_THROWS_WITH(oracles::clamped_stress_by_displacements({0.4, 1.0 / 3}, places),
+                    Catch::Contains("out of range"));
 }

@@ -315,6 +315,7 @@ StudyResult run_stretched_wrinkles(const Subject& subject, Tier tier, const Prog
   result.findings.push_back(tension_stiffens(subject, ladders.back().sheet, tier, coarse));
   result.figures = {wavelength_figure(ladders), profile_figure(ladders.front()), coarse};
   result.tables.push_back({"meshes", "Every sheet on every mesh", levels});
+  add_clamped_continuum(subject, result);
   add_deep_wrinkles(subject, tier, progress, result);
   if (tier == Tier::full) add_clamped_wrinkles(subject, result);
   return result;
@@ -330,29 +331,17 @@ Study stretched_wrinkles_study() {
       "shorter than (D/T)^(1/2). On longer edges the tension stiffens the mesh. Beyond the onset "
       "its waves are as high as a plate's.",
       "Cerda and Mahadevan, Phys. Rev. Lett. 90 (2003) 074302",
-      "A sheet is clamped at both ends, stretched, and compressed across by a force b per length. "
-      "It is endless across: forces on a few columns of triangles give the stiffness against waves "
-      "across of any length. The wavelength sought is the one that leaves the plane under the "
-      "least b. S is that of the finest of three meshes, with the error bar of the ladder; D is a "
-      "plate under tension, by functions, which a check holds against a series. The uncertainty of "
-      "the law is its distance from the plate: it leaves out bending along the tension and the "
-      "clamps. Beyond the onset the width is prescribed, shorter by Delta/W in every section. One "
-      "half wave settles, with mirror images on either side; its wavelength is that of the law. A "
-      "sine of amplitude A across folds away pi^2 A^2/wavelength^2 of the width. If the profile "
-      "along is a sine, too, and the mean along the length is to be Delta/W, A is (2^(1/2)/pi) "
-      "wavelength (Delta/W)^(1/2) in the middle, the amplitude of Cerda and Mahadevan's law. But "
-      "here every section must be as narrow as the others: springs across push until each has "
-      "folded away its own part, or keeps it as stress close to the clamps. So the profile is flat "
-      "where it is deep, and A tends to (1/pi) wavelength (Delta/W)^(1/2). The wavelength is not "
-      "sought anew there, and deeper waves, whose rests were found not to be stable, are left out. "
-      "In an experiment the clamps compress the sheet, since they keep the ends from narrowing. "
-      "The full tier has such a sheet, twice as long as wide, with free long edges and springs "
-      "whose Poisson's ratio is 1/3: flat, to see where it is compressed (Nayyar, Ravi-Chandar and "
-      "Huang, Int. J. Solids Struct. 48 (2011) 3471, find where hyperelastic sheets are); then at "
-      "the strain at which it leaves its plane; then at four times that. A quarter of it is "
-      "computed, so its waves have a crest on the middle line. Strains are below 0.001, where only "
-      "the ratio of lengths and the onset matter; wrinkles that vanish again under large strains "
-      "are not seen, and no measured sheet is compared.",
+      "A sheet is clamped at both ends, stretched, and compressed across by a force b per length; "
+      "across it is endless. The wavelength is the one that leaves the plane under the least b. S "
+      "is that of the finest of three meshes, with the ladder's error bar; D is a plate under "
+      "tension, whose distance from the law is the law's uncertainty. For the height of deep "
+      "wrinkles every section is made shorter by Delta/W, at the law's wavelength: then the "
+      "profile along the tension is flat where it is deep, and the amplitude tends to (1/pi) "
+      "wavelength (Delta/W)^(1/2), not to the law's (2^(1/2)/pi) wavelength (Delta/W)^(1/2), which "
+      "is for a sine. In an experiment the clamps compress the sheet. Such sheets are compared, "
+      "flat, with a continuum (both tiers), and wrinkled with the law (full tier). Strains are "
+      "below 0.001: wrinkles that vanish again under large strains (Nayyar, Ravi-Chandar and "
+      "Huang, Int. J. Solids Struct. 48 (2011) 3471) are not seen. No measured sheet is compared.",
       run_stretched_wrinkles,
       "validation"};
 }

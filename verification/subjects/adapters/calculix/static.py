@@ -20,6 +20,7 @@ Node = tuple[int, int]  # indices of the half-edges along and across
 THICKNESS = 0.003  # of the cantilever's length
 POISSON = 1 / 3  # of the stretched sheet
 STRAIN = 1e-3
+THIN = 0.001  # of the width: elements of plane stress are solids, which resist as such if thick
 
 
 def mesh_of(columns: int, rows: int, x: list[float], y: list[float], kind: str) -> str:
@@ -119,7 +120,7 @@ def clamped(aspect: float, cells: int = 48) -> dict[str, float | None]:
 *ELASTIC
 1., {POISSON:.12g}
 *SOLID SECTION, ELSET=SHEET, MATERIAL=CLOTH
-1.
+{THIN:.12g}
 *STEP
 *STATIC
 *BOUNDARY
