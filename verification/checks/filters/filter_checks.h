@@ -16,6 +16,7 @@ std::vector<Check> friction_checks();         // slopes, a belt, a turntable
 std::vector<Check> capstan_checks();          // a strip round a drum
 std::vector<Check> repulsion_checks();        // layers within the thickness
 std::vector<Check> impact_checks();           // motion without crossings, rigid zones
+std::vector<Check> untangling_checks();       // cloth that starts crossing itself
 std::vector<Check> impulse_checks();          // impulses: limits, no effect, conservation
 std::vector<Check> crossing_checks();         // distance between two features of a cloth
 std::vector<Check> strain_limit_checks();     // one correction
