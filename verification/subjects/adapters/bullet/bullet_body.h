@@ -50,8 +50,7 @@ struct BulletBody : Solver {
       throw Declined("a bending rigidity in N m: Bullet bends by springs two edges apart");
     clear();
     x = scene.numbers.at("x"), v = scene.numbers.at("v");
-    const Json& g = scene.header["scene"]["gravity"];
-    gravity = {g[0], g[1], g[2]};
+    gravity = vector(scene.header["scene"]["gravity"]);
     broadphase = std::make_unique<btDbvtBroadphase>();
     info.m_broadphase = broadphase.get(), info.m_dispatcher = &dispatcher;
     info.m_gravity = gravity, info.air_density = 0, info.water_density = 0;
@@ -63,8 +62,7 @@ struct BulletBody : Solver {
   }
 
   void add_body(const Scene& scene) {
-    const std::vector<int>& edges = scene.integers.at("edges");
-    const std::vector<int>& triangles = scene.integers.at("triangles");
+    const auto &edges = scene.integers.at("edges"), &triangles = scene.integers.at("triangles");
     body = new btSoftBody(&info, int(x.size() / 3), nullptr, nullptr);
     for (int i = 0; i < body->m_nodes.size(); ++i) {
       body->m_nodes[i].index = i;
@@ -90,6 +88,7 @@ struct BulletBody : Solver {
   }
 
   static btVector3 vector(const Json& list) { return {list[0], list[1], list[2]}; }
+  static btTransform at(const Json& p) { return btTransform(btQuaternion(0, 0, 0, 1), vector(p)); }
 
   void place_box(const btVector3& half_extents, const btTransform& pose, double friction) {
     auto box = std::make_unique<btBoxShape>(half_extents);
@@ -112,22 +111,18 @@ struct BulletBody : Solver {
     const Json& constants = scene.header["scene"];
     for (const Json& plane : constants.value("planes", Json::array())) {
       const btVector3 normal = vector(plane["normal"]);
-      const btQuaternion turn = shortestArcQuat(btVector3(0, 0, 1), normal);
-      const btTransform pose(turn, vector(plane["point"]) - far * normal);
+      const btTransform pose(shortestArcQuat(btVector3(0, 0, 1), normal),
+                             vector(plane["point"]) - far * normal);
       place_box({far, far, far}, pose, plane["friction"]);
     }
-    const auto at = [](const Json& place) {
-      return btTransform(btQuaternion::getIdentity(), vector(place));
-    };
     for (const Json& box : constants.value("boxes", Json::array()))
       place_box(vector(box["half_extents"]), at(box["centre"]), box["friction"]);
     for (const Json& s : constants.value("spheres", Json::array()))
       place(std::make_unique<btSphereShape>(s["radius"]), at(s["centre"]), s["friction"]);
     for (const Json& c : constants.value("capsules", Json::array())) {
       const btVector3 a = vector(c["a"]), axis = vector(c["b"]) - a;
-      const btQuaternion turn = shortestArcQuat(btVector3(0, 1, 0), axis.normalized());
-      place(std::make_unique<btCapsuleShape>(c["radius"], axis.length()),
-            btTransform(turn, a + axis / 2), c["friction"]);
+      const btTransform pose(shortestArcQuat(btVector3(0, 1, 0), axis.normalized()), a + axis / 2);
+      place(std::make_unique<btCapsuleShape>(c["radius"], axis.length()), pose, c["friction"]);
     }
   }
 
