@@ -183,33 +183,51 @@ Finding shares_finding(const Subject&) {
                      "three divisions and sums of numbers near 1, shares up to 15 apart");
 }
 
-/// Triangles that lie across a ridge that none of their corners touches.
-Finding centres_finding(const Subject& subject) {
+/// A sheet of loose particles that comes down on a spike which none of them touches, with
+/// the points of this kind kept out: how deep the spike gets into the means of these
+/// groups of particles.
+template <class Groups>
+Finding spike_finding(const Subject& subject, const Groups& groups, const Vector3& place,
+                      PointKind needed) {
+  constexpr double radius = 0.02, below = 0.015, h = 0.01;  // m, m, s
+  const Vector3 middle = place - below * Vector3::UnitZ();
   Scene scene = loose_particles(5);
-  scene.objects.push_back(object_at(
-      "spike", Sphere{0.02}, {Eigen::Quaterniond::Identity(), Vector3(1. / 6, 1. / 12, -0.015)}));
+  scene.objects.push_back(
+      object_at("spike", Sphere{radius}, {Eigen::Quaterniond::Identity(), middle}));
   State state{0, scene.x, PerParticle3::Zero(3, scene.x.cols())};
-  const double h = 0.01;
   state.v.row(2).setConstant(-1);
-  Table depths{{"points", ""}, {"depth of a centre", "m"}};
+  Table depths{{"points", ""}, {"depth of a mean", "m"}};
   for (const auto& [name, kind] : {std::pair{"particles", PointKind::particles},
                                    {"edges", PointKind::edges},
                                    {"faces", PointKind::faces}}) {
+    if (kind != PointKind::particles && kind != needed) continue;
     scene.collision.points = kind;
     const PerParticle3 x = state.x + h * corrected_by_objects(subject, scene, {0, h, h}, state);
     Worst deepest;
-    for (const Triangle& t : scene.mesh.triangles) {
-      const Vector3 centre = (x.col(t[0]) + x.col(t[1]) + x.col(t[2])) / 3;
-      deepest.observe(0.02 - (centre - Vector3(1. / 6, 1. / 12, -0.015)).norm());
+    for (const auto& group : groups) {
+      Vector3 mean = Vector3::Zero();
+      for (const int i : group) mean += x.col(i) / double(std::size(group));
+      deepest.observe(radius - (mean - middle).norm());
     }
     depths.row(name, deepest.value());
   }
-  const std::vector<double>& depth = depths.numbers("depth of a centre");
+  const std::vector<double>& depth = depths.numbers("depth of a mean");
   const double too_easy = std::numeric_limits<double>::quiet_NaN();
-  return {{depth[0] > 1e-3 ? depth[2] : too_easy, 20 * epsilon, 0, "m",
-           "the centre comes down on the spike's top and is held there, up to rounding"},
+  return {{depth[0] > 1e-3 ? depth[1] : too_easy, 20 * epsilon, 0, "m",
+           "the point comes down on the spike's top and is held there, up to rounding"},
           depths,
-          "not a number if the particles alone keep the centre out"};
+          "not a number if the particles alone keep the spike out"};
+}
+
+Finding centres_finding(const Subject& subject) {
+  return spike_finding(subject, loose_particles(5).mesh.triangles, {1. / 6, 1. / 12, 0},
+                       PointKind::faces);
+}
+
+Finding midpoints_finding(const Subject& subject) {
+  std::vector<std::array<int, 2>> ends;
+  for (const Edge& edge : loose_particles(5).mesh.edges) ends.push_back({edge.a, edge.b});
+  return spike_finding(subject, ends, {1. / 8, 0, 0}, PointKind::edges);
 }
 
 /// A triangle of unlike particles whose centre alone is to be kept out of a ball that
@@ -300,6 +318,9 @@ std::vector<Check> pinch_checks() {
       {"contact.triangle-centres-stay-outside",
        "With centres of triangles as points, a spike between the particles does not come through.",
        "BMF03 section 5.2", centres_finding},
+      {"contact.edge-midpoints-stay-outside",
+       "With midpoints of edges as points, a spike between the particles does not come through.",
+       "BMF03 section 5.2", midpoints_finding},
   };
 }
 
