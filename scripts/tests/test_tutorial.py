@@ -56,7 +56,7 @@ def answer(command: str, folder: Path) -> str:
 
 def prepare(folder: Path) -> None:
     """Sets up the folder in which the tutorial runs."""
-    for name in ("build", "cases", "reports"):
+    for name in ("build", "cases", "reports", "verification"):
         (folder / name).symlink_to(ROOT / name)
 
 
@@ -68,7 +68,7 @@ def main() -> int:
         prepare(folder)
         for block in BLOCK.finditer(text):
             kind, content = block.groups()
-            if kind == "toml":  # its first line is a comment that names the file
+            if kind in ("toml", "python"):  # its first line is a comment that names the file
                 (folder / content.splitlines()[0].removeprefix("# ")).write_text(
                     content, encoding="utf-8"
                 )
