@@ -272,3 +272,27 @@ class HeldStripsWeighTwice(Bends):
         if len(self.held):
             self.gravity = 2 * self.gravity
         return mapping
+
+
+class BendsOneWayAlone(Bends):
+    """Woven cloth whose edges within 25 degrees of y bend freely, as rods of one direction. A strip
+    along y, with which rigidities are measured, has none of them."""
+
+    def prepare(self, scene: Scene) -> dict[str, str]:
+        mapping = super().prepare(scene)
+        along = scene.rest[self.corners[:, 3]] - scene.rest[self.corners[:, 2]]
+        self.over_area[np.abs(along[:, 0]) < 0.42 * np.linalg.norm(along, axis=1)] = 0
+        return mapping
+
+
+class WeightIsLimited(ToySolver):
+    """Gravity beyond that of the earth is cut."""
+
+    def prepare(self, scene: Scene) -> dict[str, str]:
+        mapping = super().prepare(scene)
+        self.gravity = self.gravity * min(1, 9.81 / max(9.81, np.linalg.norm(self.gravity)))
+        return mapping
+
+
+class BendsWithLimitedWeight(WeightIsLimited, Bends):
+    """The same, with bending."""
