@@ -92,7 +92,8 @@ TEST_CASE(
   const std::string sags = "drape.stiff-ring-sags-as-a-plate",
                     lower = "drape.heavier-ring-hangs-lower";
   CHECK(failing_laws("bends", laws_of({sags, lower})) == std::set<std::string>{});
-  CHECK(outcome_of_law("bends_fourfold", sags) == Outcome::holds);
+  for (const char* kind : {"bends_fourfold", "clamps_where_held"})
+    CHECK(outcome_of_law(kind, sags) == Outcome::holds);
   require_law_fails("held_strips_weigh_twice", sags);
   CHECK(failing_laws("bends_one_way_alone", laws_of({"calibration", sags})) ==
         std::set<std::string>{sags});

@@ -285,6 +285,16 @@ class BendsOneWayAlone(Bends):
         return mapping
 
 
+class ClampsWhereHeld(Bends):
+    """Right, with another clamp: cloth hardly bends along an edge between held particles, so that
+    bending begins behind it."""
+
+    def prepare(self, scene: Scene) -> dict[str, str]:
+        mapping = super().prepare(scene)
+        self.over_area[np.isin(self.corners[:, 2:], self.held).all(axis=1)] *= 10
+        return mapping
+
+
 class WeightIsLimited(ToySolver):
     """Gravity beyond that of the earth is cut."""
 

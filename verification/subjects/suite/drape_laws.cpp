@@ -181,10 +181,10 @@ Finding sags_as_a_plate(Trial& trial) {
                (std::abs(sag - (least + most) / 2) + 3.3 * moved * sag) / ((most - least) / 2));
   return judge_worst(
       measured, 1,
-      "the range: both rigidities as far off as halving the time changes them; after the same "
-      "extrapolation, three times what these two meshes leave of hinges, or of a plate clamped at "
-      "the second circle (Roache's factor for two meshes); stretch without any motion sideways. "
-      "The extrapolation takes 3.3 moves at most");
+      "half the range: both rigidities as far off as halving the time of their measurement changes "
+      "them; three times (Roache's factor for two meshes) what the same extrapolation leaves of "
+      "hinges, or of a plate clamped at the second circle; stretch if nothing moves sideways. "
+      "Moves that are left count 3.3 times, as the extrapolation takes them at most");
 }
 
 // --- a soft ring, under one weight and another ---
