@@ -267,11 +267,17 @@ class StiffensWhenSharp(Bends):
 class HeldStripsWeighTwice(Bends):
     """Gravity is added once more where particles are held."""
 
+    weight = 2.0  # over the scene's
+
     def prepare(self, scene: Scene) -> dict[str, str]:
         mapping = super().prepare(scene)
         if len(self.held):
-            self.gravity = 2 * self.gravity
+            self.gravity = self.weight * self.gravity
         return mapping
+
+
+class HeldStripsWeighATenthMore(HeldStripsWeighTwice):
+    weight = 1.1
 
 
 class BendsOneWayAlone(Bends):

@@ -316,6 +316,7 @@ KINDS = {
     "bends_face_up_alone": materials.BendsFaceUpAlone,
     "stiffens_when_sharp": materials.StiffensWhenSharp,
     "held_strips_weigh_twice": materials.HeldStripsWeighTwice,
+    "held_strips_weigh_a_tenth_more": materials.HeldStripsWeighATenthMore,
     "bends_one_way_alone": materials.BendsOneWayAlone,
     "clamps_where_held": materials.ClampsWhereHeld,
     "weight_is_limited": materials.WeightIsLimited,
