@@ -7,9 +7,8 @@
 
 namespace foldproof {
 
-/// Straight spokes divide the disc into equal sectors. Up to a fifth of its radius each sector is
-/// one triangle; beyond, rings are as far apart as spokes. A cone whose curve is a polygon turns at
-/// the spokes alone and stretches nothing. The disc is held at its centre.
+/// A disc as of oracles/sheets/disc_of_sectors.h, with a core of a fifth of its radius,
+/// held at its centre.
 struct HungDisc {
   int folds = 2;      // of the cone that it starts from
   double weight = 0;  // of the oracle's cone: moment of the weight over bending rigidity [1]
@@ -26,10 +25,9 @@ struct DiscAtRest {
   bool stable = false;
 };
 
-/// Lets it settle. Rigidity is the mesh's own: with theta the angle between neighbouring sectors, a
-/// spoke's hinges store ke theta^2/4 sum l/(h1 + h2), l a hinge's length and h1, h2 the heights of
-/// its triangles. Radii are those of the polygon whose vertices have the cone's heights, but for a
-/// shift that closes it.
+/// Lets it settle. Rigidity is the mesh's own: with theta the angle between neighbouring sectors,
+/// a spoke's hinges store ke theta^2/4 sum l/(h1 + h2), l a hinge's length and h1, h2 the heights
+/// of its triangles.
 DiscAtRest disc_at_rest(const Subject& subject, const HungDisc& disc);
 
 /// Highest points of the edge around the disc that stand out by a fiftieth of the radius.

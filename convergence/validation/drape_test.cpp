@@ -94,64 +94,6 @@ double weight_for(double rigidity, double bending_length) {
   return rigidity / (g * std::pow(bending_length, 3));
 }
 
-Outline outline_of(const PerParticle3& x, const TriangleMesh& mesh, int directions) {
-  Outline outline(std::size_t(directions), plate_radius);
-  const double step = 2 * pi / directions;
-  for (const Edge& edge : mesh.edges) {
-    const Eigen::Vector2d a = x.col(edge.a).head<2>(), d = x.col(edge.b).head<2>() - a;
-    const double from = std::atan2(a.y(), a.x());
-    // the angle from a to b, to either side
-    const double by = std::atan2(a.x() * d.y() - a.y() * d.x(), a.dot(a + d));
-    const double low = std::min(from, from + by) / step, high = std::max(from, from + by) / step;
-    for (long k = long(std::ceil(low)); k <= long(std::floor(high)); ++k) {
-      const double c = std::cos(double(k) * step), s = std::sin(double(k) * step);
-      const double across = d.x() * s - d.y() * c;
-      if (across == 0) continue;
-      // a + t d lies on the ray
-      const double t = -(a.x() * s - a.y() * c) / across;
-      double& reach = outline[std::size_t(((k % directions) + directions) % directions)];
-      reach = std::max(reach, (a.x() + t * d.x()) * c + (a.y() + t * d.y()) * s);
-    }
-  }
-  return outline;
-}
-
-double coefficient_of(const Outline& outline) {
-  double squares = 0;
-  for (const double reach : outline) squares += reach * reach;
-  const double plate = plate_radius * plate_radius;
-  return (squares / double(outline.size()) - plate) / (specimen_radius * specimen_radius - plate);
-}
-
-int folds_of(const Outline& outline) {
-  constexpr double prominence = specimen_radius / 50;
-  // from the lowest point once around: up by the prominence, then down by it
-  const std::size_t n = outline.size();
-  const std::size_t first = std::size_t(std::ranges::min_element(outline) - outline.begin());
-  double low = outline[first], high = low;
-  bool rising = true;
-  int folds = 0;
-  for (std::size_t k = 1; k <= n; ++k) {
-    const double reach = outline[(first + k) % n];
-    if (rising) {
-      high = std::max(high, reach);
-      low = std::min(low, reach);
-      if (high - low > prominence && reach < high - prominence) {
-        ++folds;
-        rising = false;
-        low = reach;
-      }
-    } else {
-      low = std::min(low, reach);
-      if (reach > low + prominence) {
-        rising = true;
-        high = reach;
-      }
-    }
-  }
-  return folds;
-}
-
 Scene ring_of_cloth(const DrapeTest& test) {
   const Rings rings = rings_of(test.rows);
   Scene scene = scene_at_rest(ring_mesh(rings), test.fabric.density);
@@ -175,10 +117,15 @@ Scene ring_of_cloth(const DrapeTest& test) {
 Drape drape(const Subject& subject, const DrapeTest& test) {
   const Scene scene = ring_of_cloth(test);
   const Equilibrium rest = equilibrium_of(subject, scene);
-  Drape result{outline_of(rest.x, scene.mesh, 1440), 0, 0, rest.unbalanced, rest.stable, 0,
+  Drape result{oracles::outline_of(rest.x, scene.mesh.triangles, plate_radius, 1440),
+               0,
+               0,
+               rest.unbalanced,
+               rest.stable,
+               0,
                largest_strain(scene.mesh, rest.x)};
-  result.coefficient = coefficient_of(result.outline);
-  result.folds = folds_of(result.outline);
+  result.coefficient = oracles::drape_coefficient(result.outline, drape_radii);
+  result.folds = oracles::folds_of(result.outline, least_fold);
   result.crossings = long(oracles::exact_crossings(rest.x, scene.mesh.triangles).size());
   return result;
 }

@@ -5,12 +5,14 @@
 
 #include "reference/scene/fabrics.h"
 #include "reference/scene/scene.h"
+#include "verification/oracles/sheets/drape_outline.h"
 #include "verification/subject.h"
 
 namespace foldproof {
 
 // ISO 9073-9, BS 5058: the specimen's radius and that of the plates [m]
 constexpr double specimen_radius = 0.15, plate_radius = 0.09;
+constexpr oracles::DrapeRadii drape_radii{specimen_radius, plate_radius};
 
 /// A fabric, as the test needs it.
 struct DrapeFabric {
@@ -41,23 +43,17 @@ struct DrapeTest {
   bool operator==(const DrapeTest&) const = default;
 };
 
-/// The cloth from above, from outside in: how far its edge or a fold reaches in each of equally
-/// spaced directions [m].
-using Outline = std::vector<double>;
+constexpr double least_fold = specimen_radius / 50;  // how far a fold stands out [m]
 
 struct Drape {
-  Outline outline;
+  oracles::Outline outline;
   double coefficient;  // shadow beyond the plate over that of the level ring [1]
-  int folds;           // highest points of the outline that stand out by a fiftieth of the radius
+  int folds;           // that stand out by a fiftieth of the radius
   double unbalanced;   // see Equilibrium [1]
   bool stable;
   long crossings;         // pairs of an edge and a triangle that meet
   double largest_strain;  // of an edge, as a size [1]
 };
-
-Outline outline_of(const PerParticle3& x, const TriangleMesh& mesh, int directions);
-double coefficient_of(const Outline& outline);
-int folds_of(const Outline& outline);
 
 /// The ring, with rows that are held by the plates up to half a row beyond their rim.
 Scene ring_of_cloth(const DrapeTest& test);

@@ -44,8 +44,10 @@ TEST_CASE("subject: a strip without bending hangs limp, and the law says so in n
 TEST_CASE("subject: a strip without bending fails the laws of bent strips, and they say why") {
   const SolverCommand command = python("bad/wrong.py bends_not_at_all");
   const std::vector<Record> records =
-      judge_solver(command, laws_of({"strip", "buckling"}), ignore).records;
-  CHECK(records.size() == 6);
+      judge_solver(command, laws_of({"strip", "buckling", "drape.stiff", "drape.heavier-ring"}),
+                   ignore)
+          .records;
+  CHECK(records.size() == 8);
   for (const Record& record : records) {
     INFO(record.name << ": " << record.finding.note);
     CHECK(record.outcome == Outcome::fails);
@@ -82,6 +84,26 @@ TEST_CASE("subject: a strip on edge that tips too late or too early is found, no
   require_law_fails("springs_pull_alone", tips);
   CHECK(failing_laws("held_strips_weigh_twice", laws_of({"buckling"})) ==
         std::set<std::string>{tips, "buckling.upright-strip-falls-at-greenhill-s-load"});
+}
+
+TEST_CASE(
+    "subject: a drape that sags too far, or no lower under more weight, is found, no other one",
+    "[long]") {
+  const std::string sags = "drape.stiff-ring-sags-as-a-plate",
+                    lower = "drape.heavier-ring-hangs-lower";
+  CHECK(failing_laws("bends", laws_of({sags, lower})) == std::set<std::string>{});
+  for (const char* kind : {"bends_fourfold", "clamps_where_held"})
+    CHECK(outcome_of_law(kind, sags) == Outcome::holds);
+  require_law_fails("held_strips_weigh_a_tenth_more", sags);
+  CHECK(failing_laws("bends_one_way_alone", laws_of({"calibration", sags})) ==
+        std::set<std::string>{sags});
+  require_law_fails("bends_with_limited_weight", lower);
+}
+
+TEST_CASE("subject: a limp drape that hangs no lower under more weight is found, no other one") {
+  const std::string limp = "drape.heavier-limp-ring-hangs-lower";
+  for (const char* kind : {"none", "single"}) CHECK(outcome_of_law(kind, limp) == Outcome::holds);
+  require_law_fails("weight_is_limited", limp);
 }
 
 TEST_CASE(

@@ -330,9 +330,11 @@ TEST_CASE("subject: broken symmetries are found") {
 TEST_CASE("subject: wrong forces and loosely held particles are found") {
   CHECK(failing_laws("held_loosely") ==
         std::set<std::string>{"held.particles-stay", "stability.small-steps-gain-no-energy",
-                              "chain.limp-strip-sags-as-a-catenary"});
+                              "chain.limp-strip-sags-as-a-catenary",
+                              "drape.heavier-limp-ring-hangs-lower"});
   CHECK(failing_laws("held_sheets_weigh_twice") ==
-        std::set<std::string>{"stability.small-steps-gain-no-energy"});
+        std::set<std::string>{"stability.small-steps-gain-no-energy",
+                              "drape.heavier-limp-ring-hangs-lower"});
   CHECK(failing_laws("energy_halved") ==
         std::set<std::string>{"forces.are-minus-the-energy-gradient"});
   CHECK(failing_laws("pre_stressed", laws_of({"rest"})) ==
@@ -378,6 +380,8 @@ TEST_CASE("subject: the toy in C++ meets every law that it does not decline") {
         record.name != "rest.curved-sheet-keeps-its-rest-angles" &&
         !record.name.starts_with("buckling.") && !record.name.starts_with("strip.") &&
         record.name != "order.with-damping-is-as-claimed" &&
+        record.name != "drape.stiff-ring-sags-as-a-plate" &&
+        record.name != "drape.heavier-ring-hangs-lower" &&
         record.name != "vibration.damped-decays-as-its-damping-says" &&
         record.name != "calibration.bending-rigidity-is-the-scene-s" &&
         record.name != "cantilever.heavy-strip-hangs-as-the-elastica";

@@ -6,6 +6,8 @@
 
 #include "reference/types.h"
 #include "verification/oracles/homogenised_bending.h"
+#include "verification/oracles/sheets/growing_ring.h"
+#include "verification/oracles/sheets/sagging_plate.h"
 #include "verification/oracles/tip_load.h"
 
 using namespace foldproof;
@@ -27,6 +29,23 @@ TEST_CASE("the loaded tip by elliptic integrals is that of shooting, and the tab
   }
   CHECK(std::abs(tip_load(1e-3).drop.value / (1e-3 / 3) - 1) < 1e-5);
   CHECK_THROWS_AS(tip_load(std::nan("")), InputError);
+}
+
+TEST_CASE("a narrow ring of plate sags as a cantilever") {
+  // by width^4/8; the ring grows outward and is bent around, each by the next power
+  for (const double width : {2e-3, 7e-3})
+    CHECK(std::abs(8 * sag_of_ring_by_formula({1 - width, 0.3}).value / std::pow(width, 4) - 1) <
+          2 * width);
+}
+
+TEST_CASE("hinges on finer and finer rings sag as a plate does, to the second order") {
+  const GrowingRing coarse{36, 4, 0.37}, fine{100, 12, 0.37};
+  REQUIRE(std::abs(coarse.edge() / fine.edge() - 1) < 1e-14);
+  const double plate = sag_of_ring_by_formula({fine.plate / fine.edge(), poisson_of_hinges}).value;
+  const double off = 1 - sag_of_hinges(coarse) / plate, less = 1 - sag_of_hinges(fine) / plate;
+  CHECK(off > 0);
+  CHECK(off < 0.03);
+  CHECK(std::abs(std::log(off / less) / std::log(12.5 / 4.5) - 2) < 0.1);
 }
 
 namespace {

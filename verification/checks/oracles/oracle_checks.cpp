@@ -114,6 +114,10 @@ constexpr Comparison comparisons[] = {
      "The oracle's cone that hangs from its tip is the same by a series and by shooting, and tends "
      "to that of small slopes.",
      hung_cones_agree},
+    {"oracle.sagging-rings-agree",
+     "The oracle's ring of plate that is clamped along its inner edge sags as far by a formula as "
+     "by least energy.",
+     sagging_rings_agree},
     {"oracle.hung-chains-agree",
      "The oracle's hanging chains are the same by functions, by power series and by GSL: shapes, "
      "pulls and frequencies.",

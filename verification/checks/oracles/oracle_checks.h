@@ -40,6 +40,7 @@ Table stretched_wrinkles_agree();
 Table deep_wrinkles_agree();
 Table clamped_stresses_agree();
 Table hung_cones_agree();
+Table sagging_rings_agree();
 Table hung_chains_agree();
 Table depth_maps_agree();
 Table dense_algebra_agrees();

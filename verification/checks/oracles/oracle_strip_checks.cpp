@@ -1,4 +1,6 @@
 // Oracles of folds, ribbons and chains, checked by oracles.
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 #include <string>
@@ -11,6 +13,7 @@
 #include "verification/oracles/sheets/clamped_stress.h"
 #include "verification/oracles/sheets/deep_wrinkles.h"
 #include "verification/oracles/sheets/hung_cone.h"
+#include "verification/oracles/sheets/sagging_plate.h"
 #include "verification/oracles/sheets/stretched_wrinkles.h"
 
 namespace foldproof {
@@ -145,6 +148,20 @@ Table clamped_stresses_agree() {
   // what does not narrow is not held back
   compare(answers, "no Poisson effect",
           oracles::clamped_stress_by_stresses({2, 0}, std::array<double, 1>{0.2})[0], {0, 1e-12});
+  return answers;
+}
+
+Table sagging_rings_agree() {
+  Table answers = no_answers();
+  for (const oracles::RingPlate& ring :
+       {oracles::RingPlate{0.61, 0.31}, {0.43, -0.36}, {0.72, 0.93}}) {
+    const oracles::Estimate formula = oracles::sag_of_ring_by_formula(ring),
+                            energy = oracles::sag_of_ring_by_energy(ring);
+    compare(answers,
+            fmt::format("sag, inner radius {}, Poisson's ratio {}", ring.inner, ring.poisson),
+            {1, formula.uncertainty / formula.value},
+            {energy.value / formula.value, energy.uncertainty / formula.value});
+  }
   return answers;
 }
 

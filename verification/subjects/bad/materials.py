@@ -267,8 +267,48 @@ class StiffensWhenSharp(Bends):
 class HeldStripsWeighTwice(Bends):
     """Gravity is added once more where particles are held."""
 
+    weight = 2.0  # over the scene's
+
     def prepare(self, scene: Scene) -> dict[str, str]:
         mapping = super().prepare(scene)
         if len(self.held):
-            self.gravity = 2 * self.gravity
+            self.gravity = self.weight * self.gravity
         return mapping
+
+
+class HeldStripsWeighATenthMore(HeldStripsWeighTwice):
+    weight = 1.1
+
+
+class BendsOneWayAlone(Bends):
+    """Woven cloth whose edges within 25 degrees of y bend freely, as rods of one direction. A strip
+    along y, with which rigidities are measured, has none of them."""
+
+    def prepare(self, scene: Scene) -> dict[str, str]:
+        mapping = super().prepare(scene)
+        along = scene.rest[self.corners[:, 3]] - scene.rest[self.corners[:, 2]]
+        self.over_area[np.abs(along[:, 0]) < 0.42 * np.linalg.norm(along, axis=1)] = 0
+        return mapping
+
+
+class ClampsWhereHeld(Bends):
+    """Right, with another clamp: cloth hardly bends along an edge between held particles, so that
+    bending begins behind it."""
+
+    def prepare(self, scene: Scene) -> dict[str, str]:
+        mapping = super().prepare(scene)
+        self.over_area[np.isin(self.corners[:, 2:], self.held).all(axis=1)] *= 10
+        return mapping
+
+
+class WeightIsLimited(ToySolver):
+    """Gravity beyond that of the earth is cut."""
+
+    def prepare(self, scene: Scene) -> dict[str, str]:
+        mapping = super().prepare(scene)
+        self.gravity = self.gravity * min(1, 9.81 / max(9.81, np.linalg.norm(self.gravity)))
+        return mapping
+
+
+class BendsWithLimitedWeight(WeightIsLimited, Bends):
+    """The same, with bending."""

@@ -5,7 +5,7 @@ physics or one claim: wrong.py KIND
 The portable suite must find each by the laws that it breaks. "none" is the unspoiled toy;
 "backward_euler" and "trapezoidal", alone or after "damped_", are other correct schemes, which must
 raise no alarm, at f8; "single", "backward_euler_single" and "substeps_in_single" are some at f4,
-and "sleeps" is right but slow.
+"sleeps" is right but slow, and "clamps_where_held" right where bending begins behind a clamp.
 """
 from __future__ import annotations
 
@@ -316,6 +316,11 @@ KINDS = {
     "bends_face_up_alone": materials.BendsFaceUpAlone,
     "stiffens_when_sharp": materials.StiffensWhenSharp,
     "held_strips_weigh_twice": materials.HeldStripsWeighTwice,
+    "held_strips_weigh_a_tenth_more": materials.HeldStripsWeighATenthMore,
+    "bends_one_way_alone": materials.BendsOneWayAlone,
+    "clamps_where_held": materials.ClampsWhereHeld,
+    "weight_is_limited": materials.WeightIsLimited,
+    "bends_with_limited_weight": materials.BendsWithLimitedWeight,
     "damped": materials.Damped,
     "damping_halved": materials.DampingHalved,
     "damped_backward_euler": DampedBackwardEuler,

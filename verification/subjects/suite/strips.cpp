@@ -58,6 +58,28 @@ double measured_rigidity(Trial& trial, const PortableScene& strip, const StripSh
   return moment / curvature;
 }
 
+double measured_twisting(Trial& trial, const PortableScene& strip, const StripShape& shape,
+                         double twist) {
+  constexpr long steps = 6;
+  double torque = 0;  // N m
+  for (const double sign : {1.0, -1.0}) {
+    PortableScene scene = strip;
+    scene.x.row(0).array() -= shape.width() / 2;
+    for (Eigen::Index i = 0; i < scene.x.cols(); ++i) {
+      const double turn = sign * twist * scene.x(1, i), across = scene.x(0, i);
+      scene.x(0, i) = across * std::cos(turn);
+      scene.x(2, i) = across * std::sin(turn);
+    }
+    const PerParticle3 v = trial.after(scene, steps).v;
+    double momentum = 0;
+    for (Eigen::Index i = 0; i < v.cols(); ++i)
+      if (scene.mesh.rest(1, i) > shape.row_height() / 4)
+        momentum += scene.mass[i] * (scene.x(0, i) * v(2, i) - scene.x(2, i) * v(0, i));
+    torque -= sign * momentum / (2 * double(steps) * scene.dt);
+  }
+  return torque / twist / shape.width();
+}
+
 void require_resistance(std::string_view to_what, double measured, double given) {
   constexpr double least_rigidity = 1e-2;  // of the scene's
   if (measured > least_rigidity * given) return;

@@ -30,6 +30,11 @@ std::vector<int> rows_at_distance(const PortableScene& strip, const StripShape& 
 /// let go from a cylinder, half of it gains angular momentum by the moment in its middle.
 double measured_rigidity(Trial& trial, const PortableScene& strip, const StripShape& shape);
 
+/// GJ over the width, likewise [N m]: let go from an even twist [rad/m], half of the strip gains
+/// angular momentum by the torque in its middle.
+double measured_twisting(Trial& trial, const PortableScene& strip, const StripShape& shape,
+                         double twist);
+
 /// Throws FailedWithoutNumber if a measured rigidity, to "bending" or "twisting", is below a
 /// hundredth of the scene's [N m]: such a strip would take too long to come to rest, or to fall.
 void require_resistance(std::string_view to_what, double measured, double given);

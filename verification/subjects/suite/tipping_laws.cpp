@@ -55,30 +55,6 @@ struct Rigidities {
   double bending, twisting;  // B, and GJ over the width [N m]
 };
 
-/// Let go from an even twist, half of the ribbon gains angular momentum by the
-/// torque in its middle.
-double measured_twisting(Trial& trial) {
-  constexpr double twist = 0.4;  // rad/m
-  constexpr long steps = 6;
-  double torque = 0;  // N m
-  for (const double sign : {1.0, -1.0}) {
-    PortableScene scene = lying_ribbon();
-    scene.x.row(0).array() -= ribbon.width() / 2;
-    for (Eigen::Index i = 0; i < scene.x.cols(); ++i) {
-      const double turn = sign * twist * scene.x(1, i), across = scene.x(0, i);
-      scene.x(0, i) = across * std::cos(turn);
-      scene.x(2, i) = across * std::sin(turn);
-    }
-    const PerParticle3 v = trial.after(scene, steps).v;
-    double momentum = 0;
-    for (Eigen::Index i = 0; i < v.cols(); ++i)
-      if (scene.mesh.rest(1, i) > h / 4)
-        momentum += scene.mass[i] * (scene.x(0, i) * v(2, i) - scene.x(2, i) * v(0, i));
-    torque -= sign * momentum / (2 * double(steps) * scene.dt);
-  }
-  return torque / twist / ribbon.width();
-}
-
 /// Gravity under which a ribbon of these rigidities and length tips [m/s^2].
 double tips_under(const Rigidities& rigidities, double length) {
   return oracles::tipping_load_by_series().value *
@@ -163,7 +139,7 @@ Finding tips_at_its_load(Trial& trial) {
   trial.require("held");
   const double bending = measured_rigidity(trial, lying_ribbon(), ribbon);
   require_resistance("bending", bending, given);
-  const double twisting = measured_twisting(trial);
+  const double twisting = measured_twisting(trial, lying_ribbon(), ribbon, 0.4);
   require_resistance("twisting", twisting, given);
   const Rigidities rigidities{bending, twisting};
   const double expected = tips_under(rigidities, longest),
