@@ -132,8 +132,12 @@ def faults_listed() -> list[dict]:
 def likely_catchers(file: str) -> set[str]:
     """Checks, and unit tests with TEST before, that catch a fault of this file."""
     rows = [row for row in faults_listed() if row["file"] == file]
-    return {name for row in rows for name in row.get("caught_by", [])} | {
-        TEST + name for row in rows for name in row.get("caught_by_tests", [])
+    return set().union(*map(catchers_of, rows))
+
+
+def catchers_of(fault: dict) -> set[str]:
+    return {*fault.get("caught_by", [])} | {
+        TEST + name for name in fault.get("caught_by_tests", [])
     }
 
 

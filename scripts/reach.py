@@ -8,8 +8,10 @@ A name that does not reach an edited function cannot notice the edit, with these
 - it reaches the function only at times (clocks, threads, memory that was never set);
 - the edit changes what the compiler makes of other code: a type that it deduces, or a call that it
   may evaluate itself. Functions declared `constexpr` and code outside of functions therefore have
-  no entry here, and everything is asked; so are names that do not hold in build-reach/;
+  no entry: of a header, everything is asked; of a .cpp, what reaches any function of the file.
+  Names that do not hold in build-reach/ are always asked;
 - the process does not inherit the environment, or is another program than the two.
+The table is held against the seeded faults: who notices one must reach its place.
 """
 
 import bisect
@@ -26,8 +28,17 @@ from pathlib import Path
 from typing import NamedTuple
 
 from cpp_pieces import CODE, pieces_of
-from mutant_questions import FOLDER, TEST, Batch, clock_of, does_not_hold
+from mutant_questions import (
+    FOLDER,
+    TEST,
+    Batch,
+    catchers_of,
+    clock_of,
+    does_not_hold,
+    faults_listed,
+)
 from mutants import ROOT, Plan, Unusable, findings, key_of, run, unit_tests, write_at_once
+from occurrences import occurrences
 
 BUILD = ROOT / "build-reach"
 PROGRAMS = ("foldproof", "tests")
@@ -101,7 +112,10 @@ class Table(NamedTuple):
     def names_for(self, file: str, text: str, line: int) -> set[str] | None:
         """Those known to reach the function of this line; None where nothing is known of it."""
         lines = next((lines for lines in functions_of(text) if line in lines), range(0))
-        masks = [mask for head, mask in self.reached.get(file, {}).items() if head in lines]
+        heads = self.reached.get(file, {})
+        masks = [mask for head, mask in heads.items() if head in lines]
+        if not masks and file.endswith(".cpp"):  # a constant: only this file's functions read it
+            masks = list(heads.values())
         if not masks:
             return None
         mask = functools.reduce(int.__or__, masks)
@@ -143,8 +157,27 @@ def read_table(plan: Plan, seconds: dict[str, float], jobs: int) -> Table:
             print(f"reach: {len(missing)} names, once for this build", flush=True)
             build_programs(jobs)
             table = with_names(table, missing, jobs)
+            if missed := missed_catchers(table, faults_listed()):
+                raise Unusable(f"these notice faults in functions that they do not seem to reach:"
+                               f" {', '.join(missed)}; --all asks everything")
             write_at_once(stored, to_json(table, build))
     return table
+
+
+def missed_catchers(table: Table, faults: list[dict]) -> list[str]:
+    """Names that notice a seeded fault, though the table says that they do not reach its place."""
+    missed = set()
+    for fault in faults:
+        path = ROOT / fault["file"]
+        if path.suffix not in (".cpp", ".h") or "equivalent" in fault:
+            continue
+        text = path.read_text(encoding="utf-8")
+        for place in occurrences(text, fault["find"]):
+            found = table.names_for(fault["file"], text, text.count("\n", 0, place.start) + 1)
+            if found is None:
+                continue
+            missed |= (catchers_of(fault) & set(table.names)) - found - table.unknown
+    return sorted(missed)
 
 
 # ---- measuring -----------------------------------------------------------------------------------

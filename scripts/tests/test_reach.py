@@ -10,7 +10,7 @@ sys.dont_write_bytecode = True
 from script_module import ROOT, script  # noqa: E402
 from edits import Change  # noqa: E402
 from mutant_trials import Judgement, Mutant, Questions, Target  # noqa: E402
-from reach import Table, from_json, functions_of, to_json  # noqa: E402
+from reach import Table, from_json, functions_of, missed_catchers, to_json  # noqa: E402
 
 MUTATE = script("mutate")
 
@@ -47,7 +47,9 @@ TEST_CASE("x { (") {
 """
 FUNCTIONS = [range(7, 11), range(13, 14), range(17, 21), range(22, 27), range(28, 31)]
 HEADS = {8: 0b001, 17: 0b000, 22: 0b010, 24: 0b100}  # of FUNCTIONS, and of the lambda
-TABLE = Table(["one", "two", "test: three", "fails"], {"fails"}, {"a.cpp": HEADS})
+TABLE = Table(
+    ["one", "two", "test: three", "fails"], {"fails"}, {"a.cpp": HEADS, "a.h": {8: 0b010}}
+)
 SECONDS = {"one": 1.0, "two": 0.1, "test: three": 2.0, "fails": 0.1}
 
 
@@ -87,18 +89,44 @@ class Reaching(unittest.TestCase):
         self.assertEqual(TABLE.names_for("a.cpp", TEXT, 9), {"one"})
         self.assertEqual(TABLE.names_for("a.cpp", TEXT, 25), {"two", "test: three"})
 
-    def test_nothing_is_known_of_constants_and_of_functions_without_code(self) -> None:
+    def test_constants_and_functions_without_code_are_of_the_file_but_in_a_header_of_all(
+        self
+    ) -> None:
         for line in (3, 4, 5, 12, 13, 29):
-            self.assertIsNone(TABLE.names_for("a.cpp", TEXT, line), line)
+            found = TABLE.names_for("a.cpp", TEXT, line)
+            self.assertEqual(found, {"one", "two", "test: three"}, line)
+            self.assertIsNone(TABLE.names_for("a.h", TEXT, line), line)
+        self.assertEqual(TABLE.names_for("a.h", TEXT, 9), {"two"})
         self.assertIsNone(TABLE.names_for("b.cpp", TEXT, 9))
+
+    def test_no_header_declares_a_constant_that_another_file_defines(self) -> None:
+        for folder in ("reference", "verification", "convergence"):
+            for path in (ROOT / folder).rglob("*.h"):
+                for line in path.read_text(encoding="utf-8").splitlines():
+                    self.assertFalse(line.strip().startswith("extern ") and '"C"' not in line, path)
 
     def test_a_stored_table_is_the_same_but_empty_for_another_build(self) -> None:
         self.assertEqual(from_json(to_json(TABLE, "b1"), "b1"), TABLE)
         self.assertEqual(from_json(to_json(TABLE, "b1"), "b2"), Table([], set(), {}))
 
-    def asked(self, line: int, table: Table | None) -> tuple[list[str], Judgement]:
+    def test_a_table_that_misses_who_notices_a_fault_is_found(self) -> None:
+        file = "reference/forces/springs.cpp"
+        text = (ROOT / file).read_text(encoding="utf-8")
+        lines = functions_of(text)[0]
+        find = "\n".join(text.splitlines()[lines[0] - 1:lines[-1]])
+        fault = {"file": file, "find": find, "caught_by": ["one", "fails", "study.x"],
+                 "caught_by_tests": ["three"]}
+        for mask, missed in ((0b101, []), (0b001, ["test: three"]), (0, ["one", "test: three"])):
+            table = TABLE._replace(reached={file: {lines[0]: mask}})
+            self.assertEqual(missed_catchers(table, [fault]), missed)
+        elsewhere = TABLE._replace(reached={})
+        self.assertEqual(missed_catchers(elsewhere, [fault]), [])
+
+    def asked(
+        self, line: int, table: Table | None, file: str = "a.cpp"
+    ) -> tuple[list[str], Judgement]:
         trial = Trial(table)
-        judged = trial.ask_who_reaches(mutant(line), lambda program: None)
+        judged = trial.ask_who_reaches(mutant(line, file), lambda program: None)
         self.assertEqual(judged.outcome, "SURVIVED")
         return sorted(trial.asked), judged
 
@@ -107,9 +135,9 @@ class Reaching(unittest.TestCase):
         self.assertEqual(names, ["fails", "one"])
         self.assertEqual((judged.what, judged.left_out), ("", 2))
 
-    def test_everything_is_asked_outside_of_functions_and_without_a_table(self) -> None:
+    def test_everything_is_asked_of_constants_in_headers_and_without_a_table(self) -> None:
         for line, table in ((12, TABLE), (9, None)):
-            names, judged = self.asked(line, table)
+            names, judged = self.asked(line, table, "a.h")
             self.assertEqual(names, sorted(SECONDS))
             self.assertEqual((judged.what, judged.left_out), ("", 0))
 
