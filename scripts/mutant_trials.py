@@ -1,11 +1,10 @@
-"""Judges mutants: which are drawn, what is asked of each, in which order, and what is said of it.
+"""Judges mutants: which are drawn, how each is asked, and what is said of it.
 Of scripts/mutate.
 """
 
 import concurrent.futures
 import functools
 import itertools
-import json
 import math
 import re
 import shutil
@@ -18,28 +17,23 @@ from pathlib import Path
 from typing import NamedTuple
 
 from edits import Change, apply, changes_of, place_of, sample
+from mutant_questions import FOLDER, TEST, Batch, batches_of, clock_of, does_not_hold
 from mutants import (
-    BUILD,
-    PROGRAM,
     ROOT,
-    TESTS,
     DoesNotCompile,
     Edit,
     Plan,
     Unusable,
     compile_mutant,
     findings,
-    key_of,
     link_mutant,
-    listed,
     unit_tests,
-    write_at_once,
 )
+from reach import Table
 
 EXPLAINED = "verification/faults/equivalent_mutants.toml"
-FOLDER = BUILD / "mutate"
-# s of the unedited program's time; each batch of findings takes so many times the one before
-FIRST_BATCH, GROWTH = 1.5, 2.0
+
+
 class Mutant(NamedTuple):
     file: str
     number: int  # in the file's sample
@@ -55,121 +49,25 @@ class Judgement(NamedTuple):
     by: str = ""  # of a killed one: check, study, case, refusal, crash or clock
     what: str = ""  # the finding that failed, or what was said
     seconds: float = 0.0
+    left_out: int = 0  # names that were not to be asked: they do not reach the edited function
 
 
-class Batch(NamedTuple):
-    """Names to be asked together, and how long the unedited program takes for them."""
-    names: list[str]  # of checks, studies and cases; of unit tests with TEST before
-    seconds: float
+class Questions(NamedTuple):
+    """What may be asked of mutants."""
+    seconds: dict[str, float]  # by name: how long the unedited program takes
+    studies: set[str]
+    table: Table | None  # who reaches what; without it, everything is asked
 
+    def reaching(self, mutant: Mutant, text: str) -> set[str]:
+        """The names that reach the edited function of this text; all, where it is not known."""
+        found = self.table.names_for(mutant.file, text, mutant.line) if self.table else None
+        return set(self.seconds) if found is None else found
 
-# ---- what is asked, in which order ---------------------------------------------------------------
-
-
-TEST = "test: "
-FEW = 5  # that may fail on a busy machine: those that measure time or memory
-
-
-def seconds_by_name(plan: Plan, checks_only: bool) -> dict[str, float]:
-    """How long each check, each study and case of the quick tier, and each short unit test takes
-    the unedited program; measured once for each build. What does not hold is left out: it would
-    say nothing of a mutant."""
-    asked = {
-        "checks": lambda: findings(PROGRAM, []),
-        "unit tests": lambda: unit_tests(TESTS, [], None),
-        "studies and cases": lambda: [timed(name) for name in studies_and_cases()],
-    }
-    stored, build = FOLDER / "seconds.json", key_of(plan)
-    known = json.loads(stored.read_text(encoding="utf-8")) if stored.is_file() else {}
-    seconds = known["seconds"] if known.get("build") == build else {}
-    for kind, ask in asked.items():
-        if kind not in seconds and not (checks_only and kind != "checks"):
-            print(f"baseline: {kind} of the unedited program, once for this build", flush=True)
-            rows = sound(ask())
-            prefix = TEST if kind == "unit tests" else ""
-            seconds[kind] = {prefix + row["name"]: row["seconds"] for row in rows}
-            write_at_once(stored, json.dumps({"build": build, "seconds": seconds}))
-    chosen = ["checks"] if checks_only else asked
-    return {name: each for kind in chosen for name, each in seconds[kind].items()}
-
-
-def studies_and_cases() -> list[str]:
-    """Those of the quick tier."""
-    long = set(listed()["long_cases"])
-    cases = [
-        "case." + name.split("/")[-1]
-        for name in listed()["cases"]
-        if name not in long
-    ]
-    return [study["name"] for study in listed()["studies"]] + cases
-
-
-def timed(name: str) -> dict:
-    start = time.monotonic()
-    wrong = does_not_hold(findings(PROGRAM, [name]))
-    outcome = "fails" if wrong else "holds"
-    return {"name": name, "outcome": outcome, "seconds": time.monotonic() - start}
-
-
-def sound(rows: list[dict]) -> list[dict]:
-    """Those that hold; a few may not on a busy machine, more mean that the program is wrong."""
-    wrong = does_not_hold(rows)
-    if len(wrong) > FEW:
-        raise Unusable("these do not hold on the unedited program: " + ", ".join(wrong))
-    if wrong:
-        print(f"left out, as they do not hold here: {', '.join(wrong)}", flush=True)
-    return [row for row in rows if row["name"] not in wrong]
-
-
-def kind_of(name: str, studies: set[str]) -> str:
-    if name.startswith(TEST):
-        return "test"
-    if name.startswith("case."):
-        return "case"
-    return (
-        "study"
-        if any(name == study or name.startswith(study + ".") for study in studies)
-        else "check"
-    )
-
-
-def batches_of(file: str, seconds: dict[str, float], studies: set[str]) -> list[Batch]:
-    """First what faults name for this file; then all checks, studies and cases, unit tests, or, of
-    what is not the method, the unit tests before the others; the fast ones first in each."""
-    likely = likely_catchers(file)
-    order = ["check", "study", "case", "test"]
-    if not file.startswith("reference/"):
-        order = ["test", *order]
-
-    def rank(name: str) -> tuple[int, float]:
-        return 0 if name in likely else 1 + order.index(kind_of(name, studies)), seconds[name]
-
-    batches, most = [], FIRST_BATCH
-    for name in sorted(seconds, key=rank):
-        if batches and batches[-1].seconds + seconds[name] <= most:
-            batches[-1] = Batch(batches[-1].names + [name], batches[-1].seconds + seconds[name])
-        else:
-            most *= GROWTH if batches else 1
-            batches.append(Batch([name], seconds[name]))
-    return batches
-
-
-@functools.cache
-def faults_listed() -> list[dict]:
-    lists = (ROOT / "verification/faults").glob("*.toml")
-    return [
-        row
-        for path in lists
-        for row in tomllib.loads(path.read_text(encoding="utf-8")).get("fault", [])
-    ]
-
-
-def likely_catchers(file: str) -> set[str]:
-    """Checks, and unit tests with TEST before, that catch a fault of this file."""
-    rows = [row for row in faults_listed() if row["file"] == file]
-    return {name for row in rows for name in row.get("caught_by", [])} | {
-        TEST + name for row in rows for name in row.get("caught_by_tests", [])
-    }
+    def batches(self, file: str, reaching: set[str]) -> list[Batch]:
+        """Of these names, and of those of which it is not known what they reach."""
+        names = reaching | (self.table.unknown if self.table else set())
+        chosen = {name: seconds for name, seconds in self.seconds.items() if name in names}
+        return batches_of(file, chosen, self.studies)
 
 
 # ---- judging -------------------------------------------------------------------------------------
@@ -179,10 +77,10 @@ class Target:
     """One file to be mutated: its text, its own object code, and what is asked."""
 
     def __init__(
-        self, file: str, plan: Plan, seed: int, batches: list[Batch],
+        self, file: str, plan: Plan, seed: int, questions: Questions,
         explained: set[tuple[str, str, str]]
     ) -> None:
-        self.file, self.plan, self.batches, self.explained = file, plan, batches, explained
+        self.file, self.plan, self.questions, self.explained = file, plan, questions, explained
         self.text = (ROOT / file).read_text(encoding="utf-8")
         name = re.sub(r"\W", "-", file)
         self.overlay = FOLDER / f"{name}-{seed}"  # another seed may be run at the same time
@@ -206,7 +104,7 @@ class Target:
                 link = functools.partial(
                     link_mutant, self.plan, objects, overlay=self.folder(name)
                 )
-                judged = self.judge_mutant(mutant, link)
+                judged = self.ask_who_reaches(mutant, link)
         except DoesNotCompile as error:
             judged = Judgement(mutant, "not compiled", what=str(error))
         except Unusable as error:
@@ -215,12 +113,23 @@ class Target:
             shutil.rmtree(self.folder(name), ignore_errors=True)
         return judged._replace(seconds=time.monotonic() - start)
 
-    def judge_mutant(self, mutant: Mutant, link: Callable[[str], Path]) -> Judgement:
+    def ask_who_reaches(self, mutant: Mutant, link: Callable[[str], Path]) -> Judgement:
+        reaching = self.questions.reaching(mutant, self.text)
+        batches = self.questions.batches(self.file, reaching)
+        judged = self.judge_mutant(mutant, batches, link)
+        if judged.outcome == "SURVIVED" and not reaching:
+            judged = judged._replace(what="nothing reaches it")
+        asked = sum(len(batch.names) for batch in batches)
+        return judged._replace(left_out=len(self.questions.seconds) - asked)
+
+    def judge_mutant(
+        self, mutant: Mutant, batches: list[Batch], link: Callable[[str], Path]
+    ) -> Judgement:
         """Asks batch by batch, up to the first finding that fails; of one that is declared
         equivalent, only whether the checks that are near say otherwise."""
         is_explained = (mutant.file, mutant.before, mutant.after) in self.explained
         link = functools.cache(link)
-        for batch in self.batches[:1] if is_explained else self.batches:
+        for batch in batches[:1] if is_explained else batches:
             try:
                 failing = self.first_failing(batch, link)
             except subprocess.TimeoutExpired:
@@ -262,15 +171,6 @@ class Target:
             raise RuntimeError(f"{self.file}, unedited: {error}") from error
 
 
-def does_not_hold(rows: list[dict]) -> list[str]:
-    return [row["name"] for row in rows if row["outcome"] in ("fails", "inconclusive")]
-
-
-def clock_of(batch: Batch) -> float:
-    """Many times what the unedited program takes for it, optimised, on the same cores [s]."""
-    return 30 + 15 * batch.seconds
-
-
 def code_of(objects: dict[str, list[Path]]) -> list[bytes]:
     """The object code that a mutant's own sources were compiled to: without debug information it
     depends on nothing else."""
@@ -281,14 +181,11 @@ class Targets:
     """The files of a sample, each made ready when its first mutant comes."""
 
     def __init__(
-        self, plan: Plan, seed: int, seconds: dict[str, float], studies: set[str],
-        explained: set[tuple[str, str, str]]
+        self, plan: Plan, seed: int, questions: Questions, explained: set[tuple[str, str, str]]
     ) -> None:
         self.made: dict[str, Target] = {}
         self.lock = threading.Lock()
-        self.make = lambda file: Target(
-            file, plan, seed, batches_of(file, seconds, studies), explained
-        )
+        self.make = lambda file: Target(file, plan, seed, questions, explained)
 
     def judge(self, mutant: Mutant) -> Judgement:
         with self.lock:
