@@ -9,6 +9,7 @@ namespace {
 struct Comparison {
   const char *name, *claim;
   Table (*answers)();
+  double allowed = 1e-5;  // uncertainty of an answer over its size [1]
 };
 
 constexpr Comparison comparisons[] = {
@@ -109,7 +110,7 @@ constexpr Comparison comparisons[] = {
     {"oracle.clamped-stresses-agree",
      "The oracle's stress across a stretched, clamped sheet is the same from stresses of least "
      "complementary energy and from displacements of least strain energy.",
-     clamped_stresses_agree},
+     clamped_stresses_agree, 5e-4},
     {"oracle.hung-cones-agree",
      "The oracle's cone that hangs from its tip is the same by a series and by shooting, and tends "
      "to that of small slopes.",
@@ -152,12 +153,18 @@ constexpr Comparison comparisons[] = {
      distances_agree}};
 
 Finding uncertainties_are_small(const Subject&) {
-  Table largest{{"comparison", ""}, {"largest uncertainty of a pair, of its answer", "1"}};
-  for (const Comparison& comparison : comparisons)
-    largest.row(comparison.name, largest_uncertainty(comparison.answers()));
-  return judge_worst(largest, 1e-5,
+  Table largest{{"comparison", ""},
+                {"largest uncertainty of a pair, of its answer", "1"},
+                {"allowed", "1"},
+                {"over what is allowed", "1"}};
+  for (const Comparison& comparison : comparisons) {
+    const double uncertainty = largest_uncertainty(comparison.answers());
+    largest.row(comparison.name, uncertainty, comparison.allowed, uncertainty / comparison.allowed);
+  }
+  return judge_worst(largest, 1,
                      "two answers may agree merely because one of them is very uncertain: the "
-                     "crudest, by differences in double precision, is good to five digits");
+                     "crudest, by differences in double precision, is good to five digits; "
+                     "stresses of a clamped sheet, which are infinite in its corners, to three");
 }
 
 }  // namespace
