@@ -76,6 +76,20 @@ TEST_CASE("subject: bending that is wrong where a sheet is turned over, or sharp
                               wrinkles, fold});
 }
 
+TEST_CASE("subject: dampers that slow the whole sheet are found, no other ones") {
+  const std::vector<Law> laws = laws_of({"momentum", "order.with", "vibration"});
+  CHECK(failing_laws("damped", laws) == std::set<std::string>{});
+  CHECK(failing_laws("damps_all_motion", laws) ==
+        std::set<std::string>{"momentum.linear-under-damping-is-conserved"});
+}
+
+TEST_CASE("subject: a plane that throws a sheet higher than it fell is found, no other one") {
+  const std::string gains = "contact.fall-gains-no-energy";
+  const std::vector<Law> laws = laws_of({"contact"});
+  CHECK(failing_laws("on_planes", laws) == std::set<std::string>{});
+  CHECK(failing_laws("bounces_too_high", laws) == std::set<std::string>{gains});
+}
+
 TEST_CASE("subject: a strip on edge that tips too late or too early is found, no other one",
           "[long]") {
   const std::string tips = "buckling.strip-on-edge-tips-at-its-load";

@@ -380,6 +380,7 @@ TEST_CASE("subject: the toy in C++ meets every law that it does not decline") {
         record.name != "rest.curved-sheet-keeps-its-rest-angles" &&
         !record.name.starts_with("buckling.") && !record.name.starts_with("strip.") &&
         record.name != "order.with-damping-is-as-claimed" &&
+        record.name != "momentum.linear-under-damping-is-conserved" &&
         record.name != "drape.stiff-ring-sags-as-a-plate" &&
         record.name != "drape.heavier-ring-hangs-lower" &&
         record.name != "vibration.damped-decays-as-its-damping-says" &&

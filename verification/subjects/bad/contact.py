@@ -78,6 +78,17 @@ class Jitters(OnPlanes):
         return np.where(gap < 0, -gap / dt * 4, 0)
 
 
+class BouncesTooHigh(OnPlanes):
+    """What falls onto a plane leaves it faster than it came; what rests on it stays."""
+
+    def respond(self, plane: dict, before: np.ndarray, dt: float) -> None:
+        normal = np.array(plane["normal"])
+        came, gap = -self.v @ normal, (self.x - np.array(plane["point"])) @ normal
+        super().respond(plane, before, dt)
+        thrown = np.where((gap < 0) & (came > 0.5), 1.2 * came - self.v @ normal, 0)
+        self.v = self.v + thrown[:, None] * normal
+
+
 class FrictionBeyondTheCone(OnPlanes):
     """Friction stops what touches, however steep the slope."""
 

@@ -196,6 +196,14 @@ class DampingHalved(Damped):
     share = 0.5
 
 
+class DampsAllMotion(Damped):
+    """Where edges are damped, motion against the room is, too."""
+
+    def damping(self) -> np.ndarray:
+        of_the_room = 0.05 * self.mass[:, None] * self.v if self.c.any() else 0
+        return super().damping() - of_the_room
+
+
 class DampedVerlet(Damped):
     """Velocity Verlet, of order 2 without damping. Each half step takes the damping of velocities
     that it has not changed yet: with damping the order is 1."""

@@ -1,6 +1,7 @@
 // Contact with a fixed plane: resting, and Coulomb's friction.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "verification/subjects/suite/laws.h"
 #include "verification/subjects/suite/scenes.h"
@@ -56,6 +57,27 @@ Finding resting_sheet_is_still(Trial& trial) {
   return judge_worst(
       measured, 1 + rounding,
       "gravity moves a particle by g dt^2 in the step before contact stops it; more is jitter");
+}
+
+/// From a height, half as long again as it takes to fall.
+Finding fall_gains_no_energy(Trial& trial) {
+  trial.require("planes");
+  constexpr double height = 0.2;  // m
+  PortableScene scene = lying_sheet(0, 0.3);
+  scene.planes[0].point.z() -= height;
+  const long count = std::lround(1.5 * std::sqrt(2 * height / weight) / scene.dt);
+  std::vector<long> at(static_cast<size_t>(count));
+  std::iota(at.begin(), at.end(), 1);
+  Worst worst;
+  for (const Snapshot& now : trial.motion(scene, at)) {
+    const double kinetic = (now.v.colwise().squaredNorm() * scene.mass)[0] / 2;
+    worst.observe(kinetic - scene.gravity.dot((now.x - scene.x) * scene.mass));
+  }
+  Table measured{{"steps", "1"}, {"gained energy", "m g times the fall"}};
+  measured.row(count, worst.value() / (scene.mass.sum() * weight * height));
+  return judge_worst(measured, 0.02,
+                     "a plane at rest does no work; a first order method errs by half a step of "
+                     "the fall, g t dt/2 in height, 1 %, and by as much where the fall ends");
 }
 
 /// What a slope does to a sheet in a time: it sticks where tan(slope) <= mu, else it slides with g
@@ -140,6 +162,8 @@ std::vector<Law> contact_laws() {
        "impenetrability", rests_on_the_plane},
       {"contact.resting-sheet-is-still", "A sheet at rest on a plane does not jitter.",
        "equilibrium", resting_sheet_is_still},
+      {"contact.fall-gains-no-energy", "A sheet that falls on a plane gains no energy from it.",
+       "energy", fall_gains_no_energy},
       {"contact.slides-as-coulomb-says",
        "On a slope, a sheet sticks or slides as Coulomb's law says.", "Coulomb",
        slides_as_coulomb_says},

@@ -170,6 +170,11 @@ Finding keeps_momentum_of_unequal_masses(Trial& trial) {
   return keeps_momentum(trial, moving_sheet_of_unequal_masses());
 }
 
+Finding keeps_momentum_under_damping(Trial& trial) {
+  trial.require("damping");
+  return keeps_momentum(trial, damped_moving_sheet());
+}
+
 Vector3 angular_momentum_of(const PortableScene& scene, const Snapshot& state) {
   Vector3 sum = Vector3::Zero();
   for (Eigen::Index i = 0; i < state.x.cols(); ++i)
@@ -235,6 +240,9 @@ std::vector<Law> motion_laws() {
       {"momentum.linear-of-unequal-masses-is-conserved",
        "A free sheet of given, unequal masses keeps its linear momentum.", "Newton's third law",
        keeps_momentum_of_unequal_masses},
+      {"momentum.linear-under-damping-is-conserved",
+       "A free sheet with damped springs keeps its linear momentum.", "Newton's third law",
+       keeps_momentum_under_damping},
       {"momentum.angular-drift-falls-with-the-step",
        "The change of a free sheet's angular momentum falls as the order claims.",
        "Newton's third law along the line of force", angular_momentum_converges},
