@@ -29,11 +29,11 @@ def title_of(trial: Trial) -> str:
 def standfirst_of(trial: Trial, count: int) -> str:
     """What was asked, below the heading."""
     if is_of_frames(trial):
-        return f"{count} findings on frames that another program wrote, as a motion of the case."
+        return f"{count} findings on another program's frames, taken as a run of this case."
     return (
-        f"{count} laws that any cloth solver must meet. Bounds follow from the law and from what"
-        " the solver declares: its precision, its order, its tolerance. There is no total score:"
-        " laws differ in weight."
+        f"{count} laws of cloth. Bounds follow from the law and from what the solver declares: its"
+        " precision, its order, its tolerance. There is no total score: the laws are not equally"
+        " important."
     )
 
 

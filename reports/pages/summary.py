@@ -204,7 +204,7 @@ def _scope(judged: Judged) -> list[Piece]:
             ".",
         ]
     return [
-        "Tells whether this solver meets laws that any cloth solver must meet, where its adapter"
+        "Tells whether this solver meets laws of cloth, where its adapter"
         " offers what they need. Does not tell whether real cloth moves like this."
     ]
 
@@ -251,7 +251,7 @@ def _attained(count: int) -> list[Piece]:
     return (
         [
             _count(count, "bounds that are attained"),
-            " more have less than ",
+            " more have less than " if count > 1 else " more has less than ",
             Number(100 * (1 - ATTAINED), "%", "this page"),
             " left, as is usual for sharp bounds and exact counts.",
         ]

@@ -133,6 +133,7 @@ class Judge(unittest.TestCase):
             declined,
             {
                 "rest.curved-sheet-keeps-its-rest-angles", "order.with-damping-is-as-claimed",
+                "momentum.linear-under-damping-is-conserved", "contact.fall-gains-no-energy",
                 "forces.of-a-bent-sheet-sum-to-zero",
                 "forces.of-a-bent-sheet-exert-no-torque",
                 "forces.of-a-bent-sheet-are-minus-the-energy-gradient",

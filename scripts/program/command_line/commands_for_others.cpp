@@ -40,8 +40,7 @@ void add_campaign_work(CLI::App* command, Options& options) {
 
 void add_judge(CLI::App& app, Options& options) {
   CLI::App* judge = add_command(
-      app, options,
-      {"judge", "Test another solver against laws that any cloth solver must meet", help::judge},
+      app, options, {"judge", "Test another solver against the laws of cloth", help::judge},
       judge_another_solver);
   CLI::Option* solver =
       judge->add_option("--solver", options.solver, "Command that starts the solver's adapter");

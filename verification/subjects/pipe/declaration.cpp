@@ -59,7 +59,7 @@ std::vector<std::string> capabilities_of(const json& header) {
   for (const std::string& one : declared)
     if (std::ranges::find(known_capabilities, one) == std::end(known_capabilities))
       throw SolverFailure("header",
-                          fmt::format("declared '{}', which is no capability; there are {}", one,
+                          fmt::format("declared '{}', which is no capability; known are {}", one,
                                       fmt::join(known_capabilities, ", ")));
   return declared;
 }

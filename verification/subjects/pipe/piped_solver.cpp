@@ -138,7 +138,7 @@ struct PipedSolver::Impl {
     Answer answer{receive_header(last), {}};
     if (answer.header.contains("declined")) throw NotOffered{text_of(answer.header, "declined")};
     if (answer.header.contains("error"))
-      throw SolverFailure("error", "failed, it says: " + text_of(answer.header, "error"));
+      throw SolverFailure("error", "failed and said: " + text_of(answer.header, "error"));
     require_arrays(answer.header, wanted, is_single ? "f4" : "f8");
     answer.arrays = read_arrays(child, wanted, is_single, std::min(last, deadline()));
     return answer;

@@ -96,9 +96,9 @@ Finding slides_as_coulomb_says(Trial& trial) {
   trial.require("planes");
   Table measured{{"slope", "degrees"},
                  {"mu", "1"},
-                 {"way down", "m"},
+                 {"distance down", "m"},
                  {"by Coulomb's law", "m"},
-                 {"difference", "way without friction"}};
+                 {"difference", "frictionless distance"}};
   for (const Slope& slope : {Slope{10, 0.3},
                              {15, 0.5},
                              {20, 0.6},

@@ -1,4 +1,4 @@
-// The portable suite: laws that any cloth solver must meet.
+// The portable suite: laws of cloth, asked of any solver.
 #pragma once
 
 #include <functional>

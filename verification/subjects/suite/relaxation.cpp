@@ -71,11 +71,10 @@ Relaxed relaxed(Trial& trial, PortableScene scene, const Relaxation& relaxation)
       trial.restart();
     }
   }
-  throw FailedWithoutNumber(
-      fmt::format(
-          "what hangs does not come to rest in steps of {:.2g} s, the shortest that are tried: {}",
-          scene.dt, what),
-      "a shape at rest is compared");
+  throw FailedWithoutNumber(fmt::format("the cloth does not come to rest even in steps of {:.2g} "
+                                        "s, the shortest that are tried: {}",
+                                        scene.dt, what),
+                            "a shape at rest is compared");
 }
 
 }  // namespace foldproof::suite

@@ -132,7 +132,7 @@ Finding order_is_as_claimed(Trial& trial, const PortableScene& scene) {
   measured.row(observed, coarse, claimed,
                oracles::Estimate{double(claimed) - observed.value, observed.uncertainty});
   return judge_worst(measured, "short of the claim", allowed,
-                     "halved steps see the next term of the series as a third of an order at most");
+                     "the next term of the series shifts the observed order by at most a third");
 }
 
 Finding order_of_the_moving_sheet(Trial& trial) {
@@ -251,7 +251,7 @@ std::vector<Law> repeat_laws() {
        "Each halving of the step changes the motion less than the one before.", "Cauchy",
        halved_steps_approach_a_limit},
       {"precision.results-need-the-declared-digits",
-       "Positions declared double are not all single precision numbers.", "IEEE 754",
+       "Positions declared as double are not just single-precision values.", "IEEE 754",
        results_need_their_digits},
   };
 }
