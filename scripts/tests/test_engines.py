@@ -156,7 +156,8 @@ class MuJoCo(Npm):
         "integrator=RK4": {MODULUS, "tunnelling.thin-box-stops-a-slow-sheet"},
         "integrator=discrete": {
             MODULUS, "momentum.linear-is-conserved",
-            "momentum.linear-of-unequal-masses-is-conserved", "contact.resting-sheet-is-still",
+            "momentum.linear-of-unequal-masses-is-conserved",
+            "momentum.linear-under-damping-is-conserved", "contact.resting-sheet-is-still",
             "tunnelling.thin-box-stops-a-slow-sheet", "capstan.slips-at-euler-s-ratio"
         },
     }
