@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """Tests of the adapters of other engines, of those that are installed:
-`scripts/engines bullet jolt mujoco calculix` installs them."""
+`scripts/engines bullet jolt mujoco blender calculix` installs them."""
 from __future__ import annotations
 
 import json
@@ -195,6 +195,22 @@ class MuJoCo(Npm):
 del Npm  # only the engines are run
 
 
+class Blender(unittest.TestCase):
+    """Opt-in: 624 MB. A trial of all laws takes two minutes, so some are asked."""
+
+    ADAPTER = ROOT / "verification/subjects/adapters/blender"
+
+    @classmethod
+    def setUpClass(cls) -> None:
+        require_engine("blender")
+        cls.command = f"exec blender -b --factory-startup --python {cls.ADAPTER}/cloth.py"
+
+    def test_the_adapter_is_short_and_keeps_to_the_protocol(self) -> None:
+        self.assertLessEqual(len((self.ADAPTER / "cloth.py").read_text().splitlines()), 150)
+        done = run("build/foldproof", "subject", "--check", self.command)
+        self.assertEqual(done.returncode, 0, done.stdout)
+
+
 class Template(unittest.TestCase):
     def test_the_javascript_toy_meets_every_law(self) -> None:
         if not shutil.which("node"):
@@ -212,7 +228,8 @@ class Script(unittest.TestCase):
         self.assertEqual((done.returncode, done.stdout), (2, ""))
         self.assertEqual(
             done.stderr,
-            "scripts/engines: unknown engine 'bulet'; known: bullet, jolt, mujoco, calculix\n",
+            "scripts/engines: unknown engine 'bulet'; "
+            "known: bullet, jolt, mujoco, blender, calculix\n",
         )
 
 
