@@ -210,6 +210,49 @@ class Blender(unittest.TestCase):
         done = run("build/foldproof", "subject", "--check", self.command)
         self.assertEqual(done.returncode, 0, done.stdout)
 
+    def test_laws_end_as_its_page_records(self) -> None:
+        momentum = {"momentum.linear-is-conserved", "calibration.bending-rigidity-is-the-scene-s"}
+        asked = ("smoke", "rest", "gravity", "calibration", "momentum", "held", "order",
+                 "contact.resting-sheet-is-still", "contact.slides-as-coulomb-says")
+        outcomes = judge(self.command, *asked)
+        self.assertLessEqual(SMOKE, those(outcomes, "holds"))
+        self.assertEqual(those(outcomes, "fails"), MODULI | momentum)
+        self.assertEqual(outcomes["contact.slides-as-coulomb-says"], "not applicable")
+        rings = "strip.rings-take-the-elastica-s-shape"
+        weighed = judge(self.command, rings, "--settings", "weigh=1")
+        self.assertEqual(weighed, {rings: "holds"})
+
+    def lines_without_the_adapter(self, name: str) -> list[list[str]]:
+        script = self.ADAPTER / "repro" / f"{name}.py"
+        ran = run("blender", "-b", "--factory-startup", "--python", script)
+        return [line.split() for line in ran.stdout.splitlines()]
+
+    def test_its_settings_mean_what_its_page_records(self) -> None:
+        lines = self.lines_without_the_adapter("moduli")
+        page = (self.ADAPTER / "FINDINGS.md").read_text(encoding="utf-8")
+        stretched = [line for line in lines if line[:1] == ["stretched"]]
+        self.assertEqual(len(stretched), 4)
+        for _, cells, force, edge in stretched:
+            self.assertIn(f"| {cells} | {edge} | {force} |", page)
+        torques = [line for line in lines if line[:1] == ["torque"]]
+        self.assertEqual(len(torques), 3)
+        for _, share, torque in torques:
+            self.assertIn(f"| {share} | {torque} |", page)
+        for _, edge, force in (line for line in lines if line[:1] == ["bent"]):
+            self.assertAlmostEqual(float(force), 100 / 3 * 50 * float(edge), delta=0.2)
+        vertices, areas = next(line[1:] for line in lines if line[:1] == ["way"])
+        self.assertLess(float(vertices), 1e-6)
+        self.assertGreater(float(areas), 0.03)
+
+    def test_a_frame_has_the_steps_that_its_page_records(self) -> None:
+        lines = self.lines_without_the_adapter("steps")
+        steps = {int(line[1]): float(line[2]) for line in lines if line[:1] == ["quality"]}
+        self.assertEqual(len(steps), 9)
+        for quality, count in steps.items():
+            self.assertAlmostEqual(count, quality + (quality in (12, 40, 80)), delta=0.01)
+        falls = [line[2] for line in lines if line[:1] == ["rate"]]
+        self.assertEqual(falls, ["0.010000", "0.010000"])
+
 
 class Template(unittest.TestCase):
     def test_the_javascript_toy_meets_every_law(self) -> None:

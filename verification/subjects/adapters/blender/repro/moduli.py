@@ -1,5 +1,5 @@
 """What Blender's unitless settings mean, without foldproof: a square stretched on four meshes, a
-hinge of three sizes, and the momentum of a sheet that is let go.
+hinge of three sizes, a hinge of unequal triangles, and the momentum of a sheet that is let go.
 
 blender -b --factory-startup --python verification/subjects/adapters/blender/repro/moduli.py
 """
@@ -10,7 +10,7 @@ import bpy
 import numpy as np
 
 MASS = 1.0  # kg, of each vertex
-DT = 1e-3  # s
+DT = 1e-3  # s; k dt^2/m is 1e-3 at most, so that the implicit step takes as little off a force
 
 
 def sheet(start, rest, faces, **settings):
@@ -59,21 +59,22 @@ def triangles(cells):
 def stretched(cells, tension):
     """Force on the side x = 0 of a square that is stretched along x, over the strain [N/m]."""
     rest, faces = triangles(cells)
-    start = rest * [1.01, 1, 1]
+    start = rest * [1.1, 1, 1]
     found = forces(sheet(start, rest, faces, tension_stiffness=tension,
                          compression_stiffness=tension), start)
-    return found[rest[:, 0] == 0, 0].sum() / 0.01
+    return found[rest[:, 0] == 0, 0].sum() / 0.1
 
 
-def bent(scale, bending):
-    """Force on a corner of two equilateral triangles, over the angle [N/rad]."""
-    high = 3**0.5 / 2
-    rest = scale * np.array([[0, 0, 0], [0, 1, 0], [high, 0.5, 0], [-high, 0.5, 0]])
-    start, angle = rest.copy(), 0.1
+def bent(scale, bending, share=1.0):
+    """Two triangles, one of a share of the other's height, bent at their edge: force on the first's
+    corner, and torque of all forces, over the angle [N/rad], [N m/rad]."""
+    high, angle = 3**0.5 / 2, 0.1
+    rest = scale * np.array([[0, 0, 0], [0, 1, 0], [high, 0.5, 0], [-share * high, 0.5, 0]])
+    start = rest.copy()
     start[2] = scale * np.array([high * np.cos(angle), 0.5, high * np.sin(angle)])
-    faces = [[0, 1, 3], [0, 2, 1]]
-    return np.linalg.norm(
-        forces(sheet(start, rest, faces, bending_stiffness=bending), start)[3]) / angle
+    found = forces(sheet(start, rest, [[0, 1, 3], [0, 2, 1]], bending_stiffness=bending), start)
+    torque = np.cross(start, found).sum(axis=0)
+    return np.linalg.norm(found[3]) / angle, np.linalg.norm(torque) / angle
 
 
 def mean_ways():
@@ -89,14 +90,17 @@ def mean_ways():
 
 
 print(f"Blender {bpy.app.version_string}")
-print("square of 1 m, tension stiffness 15: cells, force over strain [N/m], mean edge [m]")
+print("square of 1 m, tension stiffness 0.15: cells, force over strain [N/m], mean edge [m]")
 for cells in (1, 2, 4, 8):
     rest, faces = triangles(cells)
     ends = {tuple(sorted((f[k], f[k - 1]))) for f in faces for k in range(3)}
     edge = np.mean([np.linalg.norm(rest[a] - rest[b]) for a, b in ends])
-    print(f"stretched {cells} {stretched(cells, 15):.1f} {edge:.4f}")
-print("two triangles, bending stiffness 0.5: edge [m], force on a corner [N/rad]")
+    print(f"stretched {cells} {stretched(cells, 0.15):.0f} {edge:.4f}")
+print("two triangles, bending stiffness 50: edge [m], force on a corner [N/rad]")
 for scale in (0.5, 1, 2):
-    print(f"bent {scale} {bent(scale, 0.5):.3f}")
+    print(f"bent {scale} {bent(scale, 50)[0]:.1f}")
+print("the same of 1 m, the second lower: its height over the first's, torque of all [N m/rad]")
+for share in (1, 0.5, 0.25):
+    print(f"torque {share} {bent(1, 50, share)[1]:.0f}")
 print("mean way of a sheet that is let go: of vertices, by the area around them")
 print("way {:.1e} {:.1e}".format(*mean_ways()))
