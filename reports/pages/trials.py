@@ -22,6 +22,20 @@ class Row:
     law: Law
     answers: list[Answer | None]
 
+    @property
+    def differs(self) -> bool:
+        """Whether a solver does not meet it."""
+        return any(is_difference(answer) for answer in self.answers)
+
+
+@dataclass(frozen=True)
+class Reason:
+    """Why laws were not judged; the solvers and, of each, the laws."""
+
+    number: int  # from 1, as on the page
+    why: str
+    laws: dict[str, list[str]]
+
 
 @dataclass(frozen=True)
 class Trials:
@@ -32,24 +46,39 @@ class Trials:
     rows: list[Row]
 
     @property
+    def groups(self) -> list[tuple[str, list[Row]]]:
+        """Headings, and the laws below each: those that a solver does not meet first."""
+        some = [row for row in self.rows if row.differs]
+        rest = [row for row in self.rows if not row.differs]
+        titles = ("Some solver differs", "Holds wherever it was judged")
+        return [(title, rows) for title, rows in zip(titles, (some, rest)) if rows]
+
+    @property
     def differences(self) -> list[tuple[Law, str, Answer]]:
         """Laws that a solver does not meet, with its label."""
         return [
             (row.law, label, answer)
             for row in self.rows
             for label, answer in zip(self.labels, row.answers)
-            if answer and answer.outcome not in ("holds", *APART)
+            if is_difference(answer)
         ]
 
     @property
-    def declined(self) -> list[tuple[str, str, list[str]]]:
-        """What was not judged: the solver's label, the reason, the names of the laws."""
-        found: dict[tuple[str, str], list[str]] = {}
+    def reasons(self) -> dict[str, Reason]:
+        """What was not judged, by the words of the reason."""
+        found: dict[str, Reason] = {}
         for row in self.rows:
             for label, answer in zip(self.labels, row.answers):
                 if answer and answer.outcome in APART:
-                    found.setdefault((label, reason(answer)), []).append(row.law.name)
-        return [(label, why, names) for (label, why), names in found.items()]
+                    why = reason(answer)
+                    same = found.setdefault(why, Reason(len(found) + 1, why, {}))
+                    same.laws.setdefault(label, []).append(row.law.name)
+        return found
+
+
+def is_difference(answer: Answer | None) -> bool:
+    """Whether a law was judged and does not hold."""
+    return answer is not None and answer.outcome not in ("holds", *APART)
 
 
 def trials_of(trials: list[Trial]) -> Trials:

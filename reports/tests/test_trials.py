@@ -208,8 +208,15 @@ class JudgedSolvers(unittest.TestCase):
             [(law.name, answer.outcome) for law, _, answer in said.differences],
             [("one", "fails"), ("two", "fails"), ("three", "inconclusive")],
         )
+        [reason] = said.reasons.values()
+        self.assertEqual((reason.number, reason.why), (1, "does not offer level L2"))
+        self.assertEqual(reason.laws, {f"mine ({self.a})": ["four", "five"]})
         self.assertEqual(
-            said.declined, [(f"mine ({self.a})", "does not offer level L2", ["four", "five"])]
+            [(title, [row.law.name for row in rows]) for title, rows in said.groups],
+            [
+                ("Some solver differs", ["one", "two", "three"]),
+                ("Holds wherever it was judged", ["four", "five"]),
+            ],
         )
 
     def test_the_page_shows_numbers_reasons_settings_and_versions(self) -> None:
