@@ -101,9 +101,20 @@ def quantity_text(value: float, unit: str) -> str:
     return number_text(value) + ("" if unit.strip() in ("", "1") else f" {unit_text(unit)}")
 
 
-def quantity_html(value: float, unit: str) -> Markup:
-    """A number with its unit; the unit 1 is not written."""
-    written = number_html(value)
+def digits_apart(value: float, other: float) -> int:
+    """The significant digits, three to ten, that tell a number from another one close by."""
+    if value == other or not (math.isfinite(value) and math.isfinite(other)):
+        return 3
+    return next((count for count in range(3, 10)
+                 if f"{value:.{count - 1}e}" != f"{other:.{count - 1}e}"), 10)
+
+
+def quantity_html(value: float, unit: str, beside: float = math.nan) -> Markup:
+    """A number with its unit; the unit 1 is not written.
+
+    beside   a number that it does not equal, and must not seem to
+    """
+    written = _mark_up(float(value), *split_number(float(value), digits_apart(value, beside)))
     if unit.strip() in ("", "1"):
         return written
     return Markup('{}\u2009<span class="unit">{}</span>').format(written, unit_text(unit))

@@ -40,6 +40,8 @@ class Pieces(unittest.TestCase):
         self.assertEqual(unit_text("kg m^2/s"), "kg m²/s")
         self.assertEqual(unit_text("m^(-2)"), "m⁻²")
         self.assertEqual(unit_text("of (1 + a^2) times the size"), "of (1 + a²) times the size")
+        self.assertIn(">1.00001<", quantity_html(1.0000096, "1", beside=1.0))
+        self.assertIn(">1.00<", quantity_html(1.0000096, "1", beside=2.0))
         self.assertIn("<sup>−9</sup>", quantity_html(1e-9, "N"))
         self.assertEqual((quantity_text(0.5, "m/s"), quantity_text(0.5, "1")), ("0.5 m/s", "0.5"))
 
