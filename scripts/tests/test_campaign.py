@@ -257,6 +257,14 @@ class CampaignTest(unittest.TestCase):
         self.campaign("table", file)
         self.assertEqual(len(self.rows()), 4)
 
+    def test_a_job_that_fails_names_what_failed(self) -> None:
+        wrong = "python3 verification/subjects/bad/wrong.py gravity_scaled"
+        law = "gravity.speed-grows-by-g-t"
+        file = self.write(f'run = "judge"\n[set]\nsolver = "{wrong}"\n[grid]\nname = ["{law}"]\n')
+        self.assertEqual(self.campaign("run", file).returncode, 1)
+        self.campaign("table", file)
+        self.assertEqual([row["reason"] for row in self.rows()], [law])
+
     def test_emitted_commands_do_the_work_once(self) -> None:
         file = self.write(GRID)
         lines = self.campaign("emit", file, "--slice", "4").stdout.splitlines()

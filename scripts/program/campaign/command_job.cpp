@@ -58,6 +58,18 @@ std::string last_line_of(std::string text) {
   return text.substr(text.rfind('\n') + 1);
 }
 
+/// What a command that answered "1" found amiss: findings that do not hold, else its last words.
+std::string failure_of(const json& answer, const std::string& errors) {
+  std::string names;
+  if (answer.is_object() && answer.contains("findings") && answer["findings"].is_array())
+    for (const json& finding : answer["findings"])
+      for (const char* outcome : {"fails", "inconclusive"})
+        if (finding.is_object() && finding.value("outcome", json()) == outcome)
+          names += (names.empty() ? "" : ", ") + finding.value("name", "");
+  if (names.empty()) names = last_line_of(errors);
+  return names.empty() ? "exit code 1" : names;
+}
+
 /// Becomes the command. Its output goes to files, for a pipe could fill up.
 [[noreturn]] void become(const std::vector<std::string>& words, const std::string& folder) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -114,8 +126,8 @@ JobAnswer command_job(const BatchTerms& terms, const BatchJob& job, const Progre
   if (WIFSIGNALED(status)) throw JobDied{};
   const int code = WEXITSTATUS(status);
   result.end = code == 0 ? JobEnd::holds : code == 1 ? JobEnd::fails : JobEnd::refused;
-  if (code != 0) result.reason = code == 1 ? "exit code 1" : last_line_of(errors);
   const json values = json::parse(printed, nullptr, false);
+  if (code != 0) result.reason = code == 1 ? failure_of(values, errors) : last_line_of(errors);
   if (!values.is_discarded()) add_numbers(values, "", result.values);
   result.values["exit_code"] = code;
   for (const auto& [name, value] : result.values) answer.units[name] = "1";
