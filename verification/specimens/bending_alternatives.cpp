@@ -104,7 +104,7 @@ std::vector<BendingAlternative> bending_alternatives() {
        "Bending with gradients that take the lengths of normals and edge as constant",
        "Baraff and Witkin 1998, section 4.3, gradients as usually implemented", constant_lengths},
       {"bending.quadratic-bending-acts-in-plane",
-       "Quadratic bending, with weights constant from the rest shape",
+       "Quadratic bending, whose weights are those of the rest shape,",
        "Bergou, Wardetzky, Harmon, Zorin, Grinspun 2006", quadratic}};
 }
 
