@@ -148,7 +148,7 @@ class Judge(unittest.TestCase):
                 "drape.stiff-ring-sags-as-a-plate", "drape.heavier-ring-hangs-lower",
                 "strip.loops-hang-as-the-elastica", "strip.rings-take-the-elastica-s-shape",
                 "strip.wrinkles-take-the-elastica-s-shape",
-                "strip.free-fold-takes-the-elastica-s-shape",
+                "strip.folds-take-the-elastica-s-shape",
                 "vibration.damped-decays-as-its-damping-says",
                 "cantilever.heavy-strip-hangs-as-the-elastica",
                 "tunnelling.thin-box-stops-a-slow-sheet",

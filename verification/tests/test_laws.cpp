@@ -68,7 +68,7 @@ TEST_CASE("subject: bending that is wrong where a sheet is turned over, or sharp
   const std::string loops = "strip.loops-hang-as-the-elastica",
                     rings = "strip.rings-take-the-elastica-s-shape",
                     wrinkles = "strip.wrinkles-take-the-elastica-s-shape",
-                    fold = "strip.free-fold-takes-the-elastica-s-shape";
+                    fold = "strip.folds-take-the-elastica-s-shape";
   const std::vector<Law> laws = laws_of({"calibration", "cantilever", "strip"});
   CHECK(failing_laws("bends_face_up_alone", laws) == std::set<std::string>{loops, rings, fold});
   CHECK(failing_laws("stiffens_when_sharp", laws) ==

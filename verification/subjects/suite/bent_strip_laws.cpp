@@ -218,12 +218,17 @@ std::vector<Bent> wrinkles() {
           {"standing wrinkle", {80, 0, {{0, 0.8, 0}}, 1}}};
 }
 
-/// Clamped where a long strip, folded back over itself, lifts off a floor and where it comes down.
-/// There it has no moment: so clamps hold it as the floor would.
+/// Clamped where a strip that is folded back over itself lifts off a floor, and where a long one
+/// comes down; a short one is held there. Where it lifts off or comes down it has no moment: so
+/// clamps hold it as the floor would.
 std::vector<Bent> folds() {
   const oracles::FreeFold fold = oracles::free_fold_by_collocation();
   const double lifted = fold.lifted.value, across = fold.points.back().across / lifted;
-  return {{"free fold", {std::pow(lifted, 3), 0, {{pi, across, 0}}}}};
+  const HeavyStrip held{100, 0, {{pi, 0, 0}}};  // its last end over its first
+  const oracles::Fold on_floor =
+      oracles::fold_on_floor(held, 0.2, 0.4, oracles::strip_by_collocation);
+  return {{"free fold", {std::pow(lifted, 3), 0, {{pi, across, 0}}}},
+          {"clamped fold", oracles::lifted_part(held, on_floor.lift_off.value)}};
 }
 
 Law law_of(const char* name, const char* claim, std::vector<Bent> (*strips)()) {
@@ -242,8 +247,10 @@ std::vector<Law> bent_strip_laws() {
              "A ring that hangs, and one that stands, take the elastica's shape.", rings),
       law_of("strip.wrinkles-take-the-elastica-s-shape",
              "A wrinkle that hangs, and one that stands, take the elastica's shape.", wrinkles),
-      law_of("strip.free-fold-takes-the-elastica-s-shape",
-             "A strip held where a free fold lifts off and comes down takes its shape.", folds),
+      law_of("strip.folds-take-the-elastica-s-shape",
+             "A strip held where a fold lifts off a floor, and where it comes down or is clamped, "
+             "takes the fold's shape.",
+             folds),
   };
 }
 
