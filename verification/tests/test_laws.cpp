@@ -44,10 +44,12 @@ TEST_CASE("subject: a strip without bending hangs limp, and the law says so in n
 TEST_CASE("subject: a strip without bending fails the laws of bent strips, and they say why") {
   const SolverCommand command = python("bad/wrong.py bends_not_at_all");
   const std::vector<Record> records =
-      judge_solver(command, laws_of({"strip", "buckling", "drape.stiff", "drape.heavier-ring"}),
-                   ignore)
+      judge_solver(
+          command,
+          laws_of({"strip", "buckling", "drape.stiff", "drape.heavier-ring", "drape.heavier-disc"}),
+          ignore)
           .records;
-  CHECK(records.size() == 8);
+  CHECK(records.size() == 9);
   for (const Record& record : records) {
     INFO(record.name << ": " << record.finding.note);
     CHECK(record.outcome == Outcome::fails);
@@ -104,14 +106,15 @@ TEST_CASE(
     "subject: a drape that sags too far, or no lower under more weight, is found, no other one",
     "[long]") {
   const std::string sags = "drape.stiff-ring-sags-as-a-plate",
-                    lower = "drape.heavier-ring-hangs-lower";
-  CHECK(failing_laws("bends", laws_of({sags, lower})) == std::set<std::string>{});
+                    lower = "drape.heavier-ring-hangs-lower",
+                    disc = "drape.heavier-disc-hangs-lower";
+  CHECK(failing_laws("bends", laws_of({sags, lower, disc})) == std::set<std::string>{});
   for (const char* kind : {"bends_fourfold", "clamps_where_held"})
     CHECK(outcome_of_law(kind, sags) == Outcome::holds);
   require_law_fails("held_strips_weigh_a_tenth_more", sags);
   CHECK(failing_laws("bends_one_way_alone", laws_of({"calibration", sags})) ==
         std::set<std::string>{sags});
-  require_law_fails("bends_with_limited_weight", lower);
+  for (const std::string& law : {lower, disc}) require_law_fails("bends_with_limited_weight", law);
 }
 
 TEST_CASE("subject: a limp drape that hangs no lower under more weight is found, no other one") {

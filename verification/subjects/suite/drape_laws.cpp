@@ -197,42 +197,45 @@ Finding sags_as_a_plate(Trial& trial) {
 // rest from x, and a motion that is stopped again and again only loses energy. The first fails only
 // if the larger weight leads to a shape in which the cloth would have hung under the smaller one,
 // too, with less energy.
-constexpr oracles::GrowingRing soft_ring{36, 4, 0.19};
+constexpr oracles::GrowingRing soft_ring{36, 4, 0.19}, disc{16, 6, 0.025};
 constexpr double weights[] = {6.1, 12.7, 26.3};  // m/s^2
 
 /// A cloth for this, and how closely it comes to rest.
 struct SoftCloth {
   const char* name;
+  oracles::GrowingRing ring;
   double young;     // N/m
   double rigidity;  // B [N m]
   double dt;        // s
   double enough;    // as in Relaxation
 };
 
-// Under the three weights the one folds more and more; the other hangs down at once and stretches.
-constexpr SoftCloth folding{"soft ring around a plate", 300, 6.4e-4, 4e-4, 1e-2},
-    limp{"limp ring around a plate", 12, 0, 1e-3, 2e-3};
+// Under the three weights the first folds more and more; the second hangs down at once and
+// stretches. The third is held at its centre, by two circles of particles.
+constexpr SoftCloth folding{"soft ring around a plate", soft_ring, 300, 6.4e-4, 4e-4, 1e-2},
+    limp{"limp ring around a plate", soft_ring, 12, 0, 1e-3, 2e-3},
+    hung{"disc held at its centre", disc, 60, 3e-4, 2e-4, 1e-2};
 
 /// Level, but for low waves around it.
-PortableScene waved_ring(const SoftCloth& cloth) {
+PortableScene waved(const SoftCloth& cloth) {
   PortableMaterial material;
   material.density = 0.23;
   material.young = cloth.young;
   material.bending_rigidity = cloth.rigidity;
-  PortableScene scene = ring_of_cloth(soft_ring, material);
+  PortableScene scene = ring_of_cloth(cloth.ring, material);
   scene.name = cloth.name;
   scene.dt = cloth.dt;
-  for (Eigen::Index i = soft_ring.held(); i < scene.x.cols(); ++i) {
+  for (Eigen::Index i = cloth.ring.held(); i < scene.x.cols(); ++i) {
     const Vector3 at = scene.mesh.rest.col(i);
     scene.x(2, i) =
-        0.03 * (at.norm() - soft_ring.plate) * std::cos(7 * (std::atan2(at.y(), at.x()) - 0.1));
+        0.03 * (at.norm() - cloth.ring.plate) * std::cos(7 * (std::atan2(at.y(), at.x()) - 0.1));
   }
   return scene;
 }
 
 /// Of what is free, below the plate [m].
 double mean_depth(const PortableScene& scene, const PerParticle3& x) {
-  const Eigen::Index free = x.cols() - soft_ring.held();
+  const Eigen::Index free = x.cols() - Eigen::Index(scene.held.size());
   return -x.row(2).tail(free).dot(scene.mass.tail(free)) / scene.mass.tail(free).sum();
 }
 
@@ -247,12 +250,12 @@ oracles::Estimate not_below(double before, double depth, double moves, bool at_r
 Finding heavier_hangs_lower(Trial& trial, const SoftCloth& cloth) {
   trial.require_level(1);
   trial.require("held");
-  PortableScene scene = waved_ring(cloth);
+  PortableScene scene = waved(cloth);
   if (const double given = cloth.rigidity; given > 0) {
     const PortableScene strip = strip_of(wide, scene.material, scene.dt);
     require_resistance("bending", measured_rigidity(trial, strip, wide), given);
   }
-  const oracles::DrapeRadii radii{soft_ring.edge(), soft_ring.plate};
+  const oracles::DrapeRadii radii{cloth.ring.edge(), cloth.ring.plate};
   const double hangs = radii.specimen - radii.plate, still = cloth.enough * hangs;  // m
   Table measured{{"gravity", "m/s^2"},
                  {"drape coefficient", "1"},
@@ -295,6 +298,10 @@ std::vector<Law> drape_laws() {
        "plate.",
        "least energy under two weights",
        [](Trial& trial) { return heavier_hangs_lower(trial, limp); }},
+      {"drape.heavier-disc-hangs-lower",
+       "The heavier a disc of cloth that is held at its centre is, the lower its mass hangs.",
+       "least energy under two weights",
+       [](Trial& trial) { return heavier_hangs_lower(trial, hung); }},
   };
 }
 
