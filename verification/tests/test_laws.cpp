@@ -44,12 +44,12 @@ TEST_CASE("subject: a strip without bending hangs limp, and the law says so in n
 TEST_CASE("subject: a strip without bending fails the laws of bent strips, and they say why") {
   const SolverCommand command = python("bad/wrong.py bends_not_at_all");
   const std::vector<Record> records =
-      judge_solver(
-          command,
-          laws_of({"strip", "buckling", "drape.stiff", "drape.heavier-ring", "drape.heavier-disc"}),
-          ignore)
+      judge_solver(command,
+                   laws_of({"strip", "buckling", "drape.stiff", "drape.heavier-ring",
+                            "drape.heavier-disc", "wrinkles"}),
+                   ignore)
           .records;
-  CHECK(records.size() == 9);
+  CHECK(records.size() == 10);
   for (const Record& record : records) {
     INFO(record.name << ": " << record.finding.note);
     CHECK(record.outcome == Outcome::fails);
@@ -115,6 +115,15 @@ TEST_CASE(
   CHECK(failing_laws("bends_one_way_alone", laws_of({"calibration", sags})) ==
         std::set<std::string>{sags});
   for (const std::string& law : {lower, disc}) require_law_fails("bends_with_limited_weight", law);
+}
+
+TEST_CASE("subject: tension that does not straighten a stretched sheet is found, no other one",
+          "[long]") {
+  const std::string waves = "wrinkles.grow-as-tension-and-rigidity-say";
+  for (const char* kind : {"bends", "bends_fourfold"})
+    CHECK(outcome_of_law(kind, waves) == Outcome::holds);
+  CHECK(failing_laws("springs_keep_their_directions", laws_of({"calibration", waves})) ==
+        std::set<std::string>{"calibration.bending-rigidity-is-the-scene-s", waves});
 }
 
 TEST_CASE("subject: a limp drape that hangs no lower under more weight is found, no other one") {

@@ -117,6 +117,21 @@ class SpringsPullAlone(Bends):
         return direction, np.maximum(0, elongation)
 
 
+class SpringsKeepTheirDirections(Bends):
+    """Springs along the edges of the rest shape, as for small displacements: tension does not
+    straighten what is not flat."""
+
+    def prepare(self, scene: Scene) -> dict[str, str]:
+        mapping = super().prepare(scene)
+        a, b = scene.edges.T
+        self.direction = (scene.rest[b] - scene.rest[a]) / self.length[:, None]
+        return mapping
+
+    def springs(self) -> tuple[np.ndarray, np.ndarray]:
+        d = self.x[self.edges[:, 1]] - self.x[self.edges[:, 0]]
+        return self.direction, np.sum(d * self.direction, axis=1) - self.length
+
+
 class BendsUnasked(Bends):
     """A flat sheet that resists bending whatever the scene says, as a coarse mesh that locks:
     B = Y L^2/2 of its edges L. Nothing that is flat shows it."""

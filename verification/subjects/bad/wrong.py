@@ -312,6 +312,7 @@ KINDS = {
     "knows_its_units": KnowsItsUnits,
     "knows_left_from_right": KnowsLeftFromRight,
     "rest_lengths_kept": RestLengthsKept,
+    "springs_keep_their_directions": materials.SpringsKeepTheirDirections,
     "bends_upright_only": materials.BendsUprightOnly,
     "bends_face_up_alone": materials.BendsFaceUpAlone,
     "stiffens_when_sharp": materials.StiffensWhenSharp,

@@ -33,6 +33,7 @@ std::vector<Law> bent_strip_laws();   // loops, rings and wrinkles of a heavy st
 std::vector<Law> buckling_laws();     // an upright strip falls over
 std::vector<Law> tipping_laws();      // a strip on edge tips sideways
 std::vector<Law> drape_laws();        // a ring of cloth around a plate
+std::vector<Law> wrinkle_laws();      // waves of a stretched sheet
 std::vector<Law> chain_laws();        // a limp strip between two points
 std::vector<Law> contact_laws();      // capability "planes": resting, friction
 std::vector<Law> ball_laws();         // capability "spheres": a fall, rest, friction
