@@ -90,6 +90,37 @@ TEST_CASE("subject: a plane that throws a sheet higher than it fell is found, no
   const std::vector<Law> laws = laws_of({"contact"});
   CHECK(failing_laws("on_planes", laws) == std::set<std::string>{});
   CHECK(failing_laws("bounces_too_high", laws) == std::set<std::string>{gains});
+  CHECK(failing_laws("bounces_too_high_when_fast", laws) == std::set<std::string>{gains});
+}
+
+TEST_CASE("subject: bodies that throw back what comes fast are found, no other ones") {
+  const std::string box = "box.fall-gains-no-energy", ball = "ball.fall-gains-no-energy",
+                    capsule = "capsule.fall-gains-no-energy";
+  CHECK(failing_laws("on_boxes", laws_of({"box"})) == std::set<std::string>{});
+  CHECK(failing_laws("boxes_throw_back", laws_of({"box", "tunnelling"})) ==
+        std::set<std::string>{box});
+  CHECK(failing_laws("on_round_bodies", laws_of({ball, capsule})) == std::set<std::string>{});
+  CHECK(failing_laws("throws_back_when_fast", laws_of({"ball", "capsule"})) ==
+        std::set<std::string>{ball, capsule});
+}
+
+TEST_CASE("subject: planes whose point or normal is ignored are found") {
+  const std::string rests = "contact.sheet-rests-on-a-plane",
+                    slides = "contact.slides-as-coulomb-says";
+  for (const char* kind : {"planes_are_level", "planes_pass_the_origin"}) {
+    INFO(kind);
+    const std::set<std::string> failing = failing_laws(kind, laws_of({"contact"}));
+    CHECK(failing.contains(rests));
+    CHECK(failing.contains(slides));
+  }
+}
+
+TEST_CASE("subject: friction with a limit for each axis, or beside the motion, is found") {
+  const std::string slides = "contact.slides-as-coulomb-says",
+                    slips = "contact.slips-at-coulomb-s-slope";
+  const std::vector<Law> laws = laws_of({"contact"});
+  CHECK(failing_laws("friction_per_axis", laws) == std::set<std::string>{slides, slips});
+  CHECK(failing_laws("friction_turns", laws).contains(slides));
 }
 
 TEST_CASE("subject: a strip on edge that tips too late or too early is found, no other one",

@@ -78,15 +78,63 @@ class Jitters(OnPlanes):
         return np.where(gap < 0, -gap / dt * 4, 0)
 
 
+class PlanesAreLevel(OnPlanes):
+    """A plane's point counts, its normal does not."""
+
+    def respond(self, plane: dict, before: np.ndarray, dt: float) -> None:
+        super().respond({**plane, "normal": [0, 0, 1]}, before, dt)
+
+
+class PlanesPassTheOrigin(OnPlanes):
+    """A plane's normal counts, its point does not."""
+
+    def respond(self, plane: dict, before: np.ndarray, dt: float) -> None:
+        super().respond({**plane, "point": [0, 0, 0]}, before, dt)
+
+
+class FrictionPerAxis(OnPlanes):
+    """A pyramid in place of Coulomb's cone: two directions in the plane, each with its limit."""
+
+    def respond(self, plane: dict, before: np.ndarray, dt: float) -> None:
+        normal, (x, v) = np.array(plane["normal"]), (before, self.v)
+        super().respond({**plane, "friction": 0}, before, dt)
+        push, friction = (self.v - v) @ normal, plane["friction"]
+        first = np.cross(normal, [1.0, 0, 0])
+        first /= np.linalg.norm(first)
+        for axis in (first, np.cross(normal, first)):
+            speed = v @ axis
+            taken = np.sign(speed) * np.minimum(np.abs(speed), friction * push)
+            self.v = self.v - taken[:, None] * axis
+        self.x = x + dt * self.v
+
+
+class FrictionTurns(OnPlanes):
+    """Friction acts 20 degrees beside the motion: it hardly slows less, and pushes sideways."""
+
+    def respond(self, plane: dict, before: np.ndarray, dt: float) -> None:
+        normal, v = np.array(plane["normal"]), self.v
+        super().respond(plane, before, dt)
+        push = ((self.v - v) @ normal)[:, None] * normal
+        friction, turn = self.v - v - push, np.radians(20)
+        self.v = v + push + np.cos(turn) * friction + np.sin(turn) * np.cross(normal, friction)
+        self.x = before + dt * self.v
+
+
 class BouncesTooHigh(OnPlanes):
     """What falls onto a plane leaves it faster than it came; what rests on it stays."""
+
+    slowest = 0.5  # m/s, that it throws back
 
     def respond(self, plane: dict, before: np.ndarray, dt: float) -> None:
         normal = np.array(plane["normal"])
         came, gap = -self.v @ normal, (self.x - np.array(plane["point"])) @ normal
         super().respond(plane, before, dt)
-        thrown = np.where((gap < 0) & (came > 0.5), 1.2 * came - self.v @ normal, 0)
+        thrown = np.where((gap < 0) & (came > self.slowest), 1.2 * came - self.v @ normal, 0)
         self.v = self.v + thrown[:, None] * normal
+
+
+class BouncesTooHighWhenFast(BouncesTooHigh):
+    slowest = 3.0
 
 
 class FrictionBeyondTheCone(OnPlanes):
@@ -140,6 +188,15 @@ class OnBoxesNowAndThen(OnBoxes):
     """A search for contacts in every fourth step, to save time."""
 
     checked_each = 4
+
+
+class BoxesThrowBack(OnBoxes):
+    """What comes fast onto a box leaves it faster still."""
+
+    def leave(self, box: dict) -> None:
+        came = self.v.copy()
+        super().leave(box)
+        self.v = np.where((self.v == 0) & (np.abs(came) > 3), -1.2 * came, self.v)
 
 
 class StartsFromRest(OnBoxes):

@@ -75,13 +75,20 @@ class StopsFromAbove(OnRoundBodies):
 class ThrowsBack(OnRoundBodies):
     """What meets a body leaves it twice as fast as it came."""
 
+    slowest = 0.0  # m/s, that it throws back
+
     def touch(
         self, normals: np.ndarray, gap: np.ndarray, friction: float, before: np.ndarray, dt: float
     ) -> None:
         inward = np.maximum(0, -np.sum(self.v * normals, axis=1))
+        inward[inward < self.slowest] = 0
         super().touch(normals, gap, friction, before, dt)
         self.v = self.v + np.where(gap < 0, 2.0 * inward, 0)[:, None] * normals
         self.x = before + dt * self.v
+
+
+class ThrowsBackWhenFast(ThrowsBack):
+    slowest = 3.5
 
 
 class RoundBodiesTurn(OnRoundBodies):

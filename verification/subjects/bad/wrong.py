@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import os
 import sys
-import time
 from pathlib import Path
 
 os.environ["OPENBLAS_NUM_THREADS"] = "1"  # before numpy: small systems, and other jobs beside
@@ -21,6 +20,7 @@ import numpy as np  # noqa: E402
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "adapters"))
 import contact  # noqa: E402
 import materials  # noqa: E402
+import processes  # noqa: E402
 import round_bodies  # noqa: E402
 from foldproof_solver import Scene, serve  # noqa: E402
 from schemes import (  # noqa: E402
@@ -91,34 +91,6 @@ class HiddenDamping(ToySolver):
         for _ in range(steps):
             super().advance(dt, 1)
             self.v *= 1 - 0.05 * dt
-
-
-class StateNotRestored(ToySolver):
-    """What a warm start of an iteration leaves behind: the last velocity is kept over set_state."""
-
-    kept = 0.0
-
-    def set_state(self, x: np.ndarray, v: np.ndarray, time: float) -> None:
-        super().set_state(x, v + 1e-9 * self.kept, time)
-
-    def advance(self, dt: float, steps: int) -> None:
-        super().advance(dt, steps)
-        self.kept = float(np.abs(self.v).max())
-
-
-class SceneLeavesTraces(ToySolver):
-    steps_so_far = 0
-
-    def advance(self, dt: float, steps: int) -> None:
-        super().advance(dt, steps)
-        self.steps_so_far += steps
-        self.x = self.x * (1 + 1e-15 * self.steps_so_far)
-
-
-class Random(ToySolver):
-    def advance(self, dt: float, steps: int) -> None:
-        super().advance(dt, steps)
-        self.x = self.x * (1 + 1e-14 * np.random.default_rng().random(self.x.shape))
 
 
 class KnowsItsAxes(ToySolver):
@@ -211,18 +183,6 @@ class KnowsLeftFromRight(ToySolver):
         return f
 
 
-class RestLengthsKept(ToySolver):
-    """Takes the rest lengths of the last scene that had the same edges."""
-
-    def __init__(self) -> None:
-        self.known: dict[bytes, np.ndarray] = {}
-
-    def prepare(self, scene: Scene) -> dict[str, str]:
-        mapping = super().prepare(scene)
-        self.length = self.known.setdefault(self.edges.tobytes(), self.length)
-        return mapping
-
-
 class GravityScaledInSingle(Single):
     """Wrong by less than a loose bound on the rounding of single precision would allow."""
 
@@ -263,14 +223,6 @@ class SubstepsInSingle(Single):
             self.v = (self.x - start) / dt
 
 
-class Sleeps(ToySolver):
-    """Right, and slow: a millisecond more a step."""
-
-    def advance(self, dt: float, steps: int) -> None:
-        super().advance(dt, steps)
-        time.sleep(1e-3 * steps)
-
-
 class HeldSheetsWeighTwice(ToySolver):
     """Gravity is added once more where particles are held."""
 
@@ -279,24 +231,6 @@ class HeldSheetsWeighTwice(ToySolver):
         if len(self.held):
             self.gravity = 2 * self.gravity
         return mapping
-
-
-class AsksAllPairs(ToySolver):
-    """Right, and slow on large sheets: it measures the distance of each particle to each other."""
-
-    def advance(self, dt: float, steps: int) -> None:
-        for _ in range(steps):
-            super().advance(dt, 1)
-            for some in np.array_split(self.x, 1 + len(self.x) // 64):
-                np.linalg.norm(some[:, None] - self.x, axis=2)
-
-
-class WaitsForAllPairs(ToySolver):
-    """Likewise, somewhere else: it waits 20 ns for each pair, as for a computer that it asks."""
-
-    def advance(self, dt: float, steps: int) -> None:
-        super().advance(dt, steps)
-        time.sleep(2e-8 * steps * len(self.x) ** 2)
 
 
 KINDS = {
@@ -311,7 +245,7 @@ KINDS = {
     "springs_of_one_stiffness": materials.SpringsOfOneStiffness,
     "knows_its_units": KnowsItsUnits,
     "knows_left_from_right": KnowsLeftFromRight,
-    "rest_lengths_kept": RestLengthsKept,
+    "rest_lengths_kept": processes.RestLengthsKept,
     "springs_keep_their_directions": materials.SpringsKeepTheirDirections,
     "bends_upright_only": materials.BendsUprightOnly,
     "bends_face_up_alone": materials.BendsFaceUpAlone,
@@ -349,6 +283,7 @@ KINDS = {
     "radius_too_large": round_bodies.RadiusTooLarge,
     "stops_from_above": round_bodies.StopsFromAbove,
     "throws_back": round_bodies.ThrowsBack,
+    "throws_back_when_fast": round_bodies.ThrowsBackWhenFast,
     "round_bodies_turn": round_bodies.RoundBodiesTurn,
     "round_bodies_without_friction": round_bodies.RoundBodiesWithoutFriction,
     "round_friction_halved": round_bodies.RoundFrictionHalved,
@@ -358,6 +293,12 @@ KINDS = {
     "sinks_in": contact.SinksIn,
     "jitters": contact.Jitters,
     "bounces_too_high": contact.BouncesTooHigh,
+    "bounces_too_high_when_fast": contact.BouncesTooHighWhenFast,
+    "boxes_throw_back": contact.BoxesThrowBack,
+    "planes_are_level": contact.PlanesAreLevel,
+    "friction_turns": contact.FrictionTurns,
+    "planes_pass_the_origin": contact.PlanesPassTheOrigin,
+    "friction_per_axis": contact.FrictionPerAxis,
     "friction_beyond_the_cone": contact.FrictionBeyondTheCone,
     "friction_creeps": contact.FrictionCreeps,
     "friction_halved": contact.FrictionHalved,
@@ -374,17 +315,17 @@ KINDS = {
     "first_order_as_second": FirstOrderAsSecond,
     "first_order_as_second_single": FirstOrderAsSecondInSingle,
     "hidden_damping": HiddenDamping,
-    "state_not_restored": StateNotRestored,
-    "scene_leaves_traces": SceneLeavesTraces,
-    "random": Random,
+    "state_not_restored": processes.StateNotRestored,
+    "scene_leaves_traces": processes.SceneLeavesTraces,
+    "random": processes.Random,
     "knows_its_axes": KnowsItsAxes,
     "depends_on_numbers": DependsOnNumbers,
     "stiffens_with_small_steps": StiffensWithSmallSteps,
     "stiffens_a_little_single": StiffensALittleInSingle,
     "substeps_in_single": SubstepsInSingle,
-    "sleeps": Sleeps,
-    "asks_all_pairs": AsksAllPairs,
-    "waits_for_all_pairs": WaitsForAllPairs,
+    "sleeps": processes.Sleeps,
+    "asks_all_pairs": processes.AsksAllPairs,
+    "waits_for_all_pairs": processes.WaitsForAllPairs,
     "held_sheets_weigh_twice": HeldSheetsWeighTwice,
     "held_loosely": HeldLoosely,
     "energy_halved": EnergyHalved,

@@ -72,21 +72,6 @@ Finding falling_sheet_stays_outside(Trial& trial) {
       "thickness, and L^2/(6 r) for triangles that stay outside");
 }
 
-Finding fall_gains_no_energy(Trial& trial) {
-  trial.require("spheres");
-  const PortableScene scene = sheet_over_a_ball();
-  Worst worst;
-  for (const Snapshot& now : fall(trial, scene)) {
-    const double kinetic = (now.v.colwise().squaredNorm() * scene.mass)[0] / 2;
-    worst.observe(kinetic - scene.gravity.dot((now.x - scene.x) * scene.mass));
-  }
-  Table measured{{"steps", "1"}, {"gained energy", "m g times the fall to the ball's middle"}};
-  measured.row(fall_steps, worst.value() / (scene.mass.sum() * weight * (gap + radius)));
-  return judge_worst(measured, 0.02,
-                     "a ball at rest does no work; a first order method errs by half a step of the "
-                     "fall, g t dt/2 in height, 1 %, and by as much in its elastic energy");
-}
-
 Finding comes_to_rest(Trial& trial) {
   trial.require("spheres");
   const PortableScene scene = sheet_over_a_ball();
@@ -188,9 +173,6 @@ std::vector<Law> ball_laws() {
       {"ball.falling-sheet-stays-outside",
        "A sheet that falls on a ball meets it, and sinks in by no more than it travels in a step.",
        "impenetrability", falling_sheet_stays_outside},
-      {"ball.fall-gains-no-energy",
-       "A sheet that falls on a ball never moves faster than its fall allows.",
-       "conservation of energy", fall_gains_no_energy},
       {"ball.sheet-comes-to-rest", "A sheet comes to rest on a ball that has friction.",
        "equilibrium", comes_to_rest},
       {"ball.slides-as-coulomb-says",

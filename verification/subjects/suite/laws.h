@@ -36,7 +36,8 @@ std::vector<Law> drape_laws();        // a ring of cloth around a plate
 std::vector<Law> wrinkle_laws();      // waves of a stretched sheet
 std::vector<Law> chain_laws();        // a limp strip between two points
 std::vector<Law> contact_laws();      // capability "planes": resting, friction
-std::vector<Law> ball_laws();         // capability "spheres": a fall, rest, friction
+std::vector<Law> fall_laws();         // obstacles of each kind give a sheet no energy
+std::vector<Law> ball_laws();         // capability "spheres": depth, rest, friction
 std::vector<Law> capstan_laws();      // capability "capsules": a strip over one, and when it slips
 std::vector<Law> self_collision_laws();  // capability "self_collision"
 std::vector<Law> tunnelling_laws();  // capability "boxes": a thin one stops what is thrown at it

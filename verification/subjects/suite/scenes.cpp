@@ -6,6 +6,8 @@
 #include <string>
 #include <utility>
 
+#include <Eigen/Geometry>
+
 #include "reference/mesh/shapes.h"
 
 namespace foldproof::suite {
@@ -15,6 +17,11 @@ namespace {
 constexpr double step = 0.002;  // s; a third of the explicit limit of the sheet
 
 const Vector3 earth{0, 0, -9.81};
+
+// The oblique plane: its frame, whose third axis is the normal, and where the sheet's corner lies.
+const Eigen::Matrix3d plane_frame =
+    Eigen::AngleAxisd(1.1, Vector3(0.4, -0.7, 0.5).normalized()).toRotationMatrix();
+const Vector3 corner_on_plane{0.4, -0.3, 0.7};  // m
 
 }  // namespace
 
@@ -121,6 +128,24 @@ PortableScene hanging_sheet() {
   scene.name = "hanging sheet";
   scene.held = {0, 6};
   return scene;
+}
+
+PortableScene sheet_on_a_plane(const Tilt& tilt, double friction) {
+  PortableScene scene = sheet_at_rest();
+  scene.name = "sheet on a plane";
+  scene.mesh.rest = (plane_frame * scene.mesh.rest).colwise() + corner_on_plane;
+  scene.x = scene.mesh.rest;
+  const double along = std::sin(tilt.slope);
+  scene.gravity = earth.norm() * plane_frame *
+                  Vector3(along * std::cos(tilt.heading), along * std::sin(tilt.heading),
+                          -std::cos(tilt.slope));
+  const Vector3 beside = plane_frame * Vector3(0.45, 0.1, 0);  // m, from the corner
+  scene.planes = {{corner_on_plane + beside, plane_frame.col(2), friction}};
+  return scene;
+}
+
+PerParticle3 seen_from_the_plane(const PerParticle3& x) {
+  return plane_frame.transpose() * (x.colwise() - corner_on_plane);
 }
 
 double size_of(const PerParticle3& x) { return x.colwise().norm().maxCoeff(); }

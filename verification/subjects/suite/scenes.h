@@ -39,6 +39,19 @@ PortableScene moving_sheet_of_unequal_masses();
 /// Two corners held, under gravity.
 PortableScene hanging_sheet();
 
+/// How gravity is tilted against a plane: from its normal, and where to [rad].
+struct Tilt {
+  double slope, heading;
+};
+
+/// A sheet at rest that lies on a plane. The plane is oblique to every axis and the origin is off
+/// it, so that its point and its normal matter. Gravity is tilted against it.
+PortableScene sheet_on_a_plane(const Tilt& tilt, double friction);
+
+/// Positions as seen from that plane: along it, where headings count from the first axis towards
+/// the second, and above it [m].
+PerParticle3 seen_from_the_plane(const PerParticle3& x);
+
 /// Largest extent of the positions, or distance from the origin [m].
 double size_of(const PerParticle3& x);
 

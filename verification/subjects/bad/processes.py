@@ -1,0 +1,78 @@
+"""Solvers that remember what they should forget, and correct ones that are slow."""
+from __future__ import annotations
+
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "adapters"))
+from foldproof_solver import Scene  # noqa: E402
+from toy_solver import ToySolver  # noqa: E402
+
+
+class StateNotRestored(ToySolver):
+    """What a warm start of an iteration leaves behind: the last velocity is kept over set_state."""
+
+    kept = 0.0
+
+    def set_state(self, x: np.ndarray, v: np.ndarray, time: float) -> None:
+        super().set_state(x, v + 1e-9 * self.kept, time)
+
+    def advance(self, dt: float, steps: int) -> None:
+        super().advance(dt, steps)
+        self.kept = float(np.abs(self.v).max())
+
+
+class SceneLeavesTraces(ToySolver):
+    steps_so_far = 0
+
+    def advance(self, dt: float, steps: int) -> None:
+        super().advance(dt, steps)
+        self.steps_so_far += steps
+        self.x = self.x * (1 + 1e-15 * self.steps_so_far)
+
+
+class Random(ToySolver):
+    def advance(self, dt: float, steps: int) -> None:
+        super().advance(dt, steps)
+        self.x = self.x * (1 + 1e-14 * np.random.default_rng().random(self.x.shape))
+
+
+class RestLengthsKept(ToySolver):
+    """Takes the rest lengths of the last scene that had the same edges."""
+
+    def __init__(self) -> None:
+        self.known: dict[bytes, np.ndarray] = {}
+
+    def prepare(self, scene: Scene) -> dict[str, str]:
+        mapping = super().prepare(scene)
+        self.length = self.known.setdefault(self.edges.tobytes(), self.length)
+        return mapping
+
+
+class Sleeps(ToySolver):
+    """Right, and slow: a millisecond more a step."""
+
+    def advance(self, dt: float, steps: int) -> None:
+        super().advance(dt, steps)
+        time.sleep(1e-3 * steps)
+
+
+class AsksAllPairs(ToySolver):
+    """Right, and slow on large sheets: it measures the distance of each particle to each other."""
+
+    def advance(self, dt: float, steps: int) -> None:
+        for _ in range(steps):
+            super().advance(dt, 1)
+            for some in np.array_split(self.x, 1 + len(self.x) // 64):
+                np.linalg.norm(some[:, None] - self.x, axis=2)
+
+
+class WaitsForAllPairs(ToySolver):
+    """Likewise, somewhere else: it waits 20 ns for each pair, as for a computer that it asks."""
+
+    def advance(self, dt: float, steps: int) -> None:
+        super().advance(dt, steps)
+        time.sleep(2e-8 * steps * len(self.x) ** 2)
