@@ -116,7 +116,7 @@ class Npm(unittest.TestCase):
     """Engines that npm has, in the version that scripts/engines pins."""
 
     name, version = "jolt", "1.1.0"
-    applicable = 40  # laws
+    applicable = 41  # laws
     failing = {"": set()}  # what fails, by setting
 
     @classmethod
@@ -151,7 +151,7 @@ class Jolt(Npm):
 
 
 class MuJoCo(Npm):
-    name, version, applicable = "mujoco", "3.14.0", 50
+    name, version, applicable = "mujoco", "3.14.0", 53
     failing = {
         "": {MODULUS, "capstan.slips-at-euler-s-ratio"},
         "integrator=RK4": {MODULUS, "tunnelling.thin-box-stops-a-slow-sheet"},

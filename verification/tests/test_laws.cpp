@@ -85,6 +85,33 @@ TEST_CASE("subject: dampers that slow the whole sheet are found, no other ones")
         std::set<std::string>{"momentum.linear-under-damping-is-conserved"});
 }
 
+TEST_CASE("subject: dampers of the wrong edges, or of the step before, are found, no other ones") {
+  const std::vector<Law> laws = laws_of({"momentum", "repeat", "order", "damping", "vibration"});
+  CHECK(failing_laws("damped", laws) == std::set<std::string>{});
+  CHECK(failing_laws("damped_backward_euler", laws_of({"damping"})) == std::set<std::string>{});
+  CHECK(failing_laws("mean_dampers", laws) ==
+        std::set<std::string>{"damping.edges-damp-in-proportion-to-their-stiffness"});
+  CHECK(failing_laws("damps_late", laws) ==
+        std::set<std::string>{"repeat.step-depends-on-its-state-alone"});
+}
+
+TEST_CASE("subject: stated forces and energies that are not those of the motion are found") {
+  const std::vector<Law> laws = laws_of({"momentum", "forces", "damping", "vibration"});
+  const auto fails = [&](const char* kind) { return failing_laws(kind, laws); };
+  using Names = std::set<std::string>;
+  CHECK(fails("states_unbalanced_damping") == Names{"damping.stated-forces-sum-to-zero"});
+  CHECK(fails("states_twice_the_damping") ==
+        Names{"damping.stated-forces-are-those-of-the-motion"});
+  CHECK(fails("energy_without_weight") == Names{"forces.are-minus-the-energy-gradient"});
+  for (const char* kind : {"states_stale_forces", "forgets_what_is_set"})
+    CHECK(fails(kind) == Names{"forces.are-those-of-the-present-state"});
+}
+
+TEST_CASE("subject: springs that tear beyond a strain of a tenth are found") {
+  CHECK(failing_laws("springs_tear", laws_of({"calibration"})) ==
+        std::set<std::string>{"calibration.tension-grows-with-strain"});
+}
+
 TEST_CASE("subject: a plane that throws a sheet higher than it fell is found, no other one") {
   const std::string gains = "contact.fall-gains-no-energy";
   const std::vector<Law> laws = laws_of({"contact"});

@@ -44,6 +44,14 @@ class SpringsOfOneStiffness(ToySolver):
         return mapping
 
 
+class SpringsTear(ToySolver):
+    """A spring that is stretched by more than a tenth holds no more."""
+
+    def springs(self) -> tuple[np.ndarray, np.ndarray]:
+        direction, elongation = super().springs()
+        return direction, np.where(elongation > 0.1 * self.length, 0, elongation)
+
+
 class Bends(ToySolver):
     """Bending of a flat rest shape, quadratic in the positions.
 

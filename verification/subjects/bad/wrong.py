@@ -22,6 +22,7 @@ import contact  # noqa: E402
 import materials  # noqa: E402
 import processes  # noqa: E402
 import round_bodies  # noqa: E402
+import stated  # noqa: E402
 from foldproof_solver import Scene, serve  # noqa: E402
 from schemes import (  # noqa: E402
     BackwardEuler,
@@ -259,6 +260,14 @@ KINDS = {
     "damped": materials.Damped,
     "damping_halved": materials.DampingHalved,
     "damps_all_motion": materials.DampsAllMotion,
+    "mean_dampers": stated.MeanDampers,
+    "damps_late": stated.DampsLate,
+    "states_twice_the_damping": stated.StatesTwiceTheDamping,
+    "states_unbalanced_damping": stated.StatesUnbalancedDamping,
+    "energy_without_weight": stated.EnergyWithoutWeight,
+    "states_stale_forces": stated.StatesStaleForces,
+    "forgets_what_is_set": stated.ForgetsWhatIsSet,
+    "springs_tear": materials.SpringsTear,
     "damped_backward_euler": DampedBackwardEuler,
     "damped_trapezoidal": DampedTrapezoidal,
     "damped_verlet": materials.DampedVerlet,

@@ -82,8 +82,11 @@ Finding rest_is_force_free(Trial& trial) {
                      "rounding of the springs at a particle");
 }
 
-/// Central difference of the energy along the velocities, against minus the forces' power.
-Finding are_the_energy_gradient(Trial& trial, const PortableScene& scene) {
+/// Central difference of the energy along the velocities, against minus the forces' power. Gravity,
+/// oblique to the axes, is part of both.
+Finding are_the_energy_gradient(Trial& trial, PortableScene scene) {
+  trial.require("set_state");
+  scene.gravity = Vector3(2.3, -3.1, -9.0);
   const PerParticle3 f = forces_at_start(trial, scene);
   const double way = std::cbrt(trial.declaration().rounding()) * size_of(scene.x);
   const PerParticle3 along = scene.v / scene.v.colwise().norm().maxCoeff();
@@ -91,8 +94,9 @@ Finding are_the_energy_gradient(Trial& trial, const PortableScene& scene) {
     return trial.solver().energy({scene.x + distance * along, scene.v}, 0);
   };
   const double slope = (energy_at(way) - energy_at(-way)) / (2 * way);
-  const double scale = spring_scale(scene) + bending_scale(scene);
-  Table measured{{"distance", "m"}, {"slope plus power", "sum of k L and B/L"}};
+  const double weight = scene.mass.sum() * scene.gravity.norm();
+  const double scale = spring_scale(scene) + bending_scale(scene) + weight;
+  Table measured{{"distance", "m"}, {"slope plus power", "m g + sum of k L and B/L"}};
   measured.row(way, std::abs(slope + (f.array() * along.array()).sum()) / scale);
   // third derivative: k/L^2 and B/L^3 at most; rounding: of the energy, over the distance
   const double relative = way / rest_lengths(scene.mesh).minCoeff();
@@ -109,6 +113,33 @@ Finding bent_forces_are_the_energy_gradient(Trial& trial) {
   return are_the_energy_gradient(trial, bent_sheet());
 }
 
+/// Largest difference of forces from those of the same state in a scene that starts with it [N].
+double staleness(Trial& trial, PortableScene scene, const Snapshot& state) {
+  const PerParticle3 asked = trial.solver().forces(state, 0);
+  scene.x = state.x, scene.v = state.v;
+  trial.prepare(scene);
+  return (asked - trial.solver().forces(state, 0)).colwise().norm().maxCoeff();
+}
+
+Finding are_of_the_present_state(Trial& trial) {
+  trial.require_level(2);
+  const PortableScene scene = moving_sheet();
+  const double scale = edge_stiffness(scene).maxCoeff() * size_of(scene.x);
+  Table measured{{"state", ""}, {"difference of forces", "largest k times size"}};
+  constexpr long steps = 20;
+  trial.prepare(scene);
+  const Snapshot moved = trial.solver().advance(scene.dt, steps);
+  measured.row("after 20 steps", staleness(trial, scene, moved) / scale);
+  if (trial.declaration().offers("set_state")) {
+    trial.prepare(scene);
+    trial.solver().advance(scene.dt, steps);
+    const PerParticle3 half = (scene.x + moved.x) / 2;
+    measured.row("set after them", staleness(trial, scene, {half, scene.v}) / scale);
+  }
+  return judge_worst(measured, roundings * trial.declaration().rounding(),
+                     "forces of the same positions; rounding of the springs at a particle");
+}
+
 }  // namespace
 
 std::vector<Law> force_laws() {
@@ -121,8 +152,12 @@ std::vector<Law> force_laws() {
        "Newton's second law", weight_is_mass_times_g},
       {"forces.rest-is-force-free", "The rest shape is free of forces.", "equilibrium",
        rest_is_force_free},
-      {"forces.are-minus-the-energy-gradient", "Elastic forces are minus the energy's gradient.",
-       "conservative forces", forces_are_the_energy_gradient},
+      {"forces.are-minus-the-energy-gradient",
+       "Forces, weight among them, are minus the energy's gradient.", "conservative forces",
+       forces_are_the_energy_gradient},
+      {"forces.are-those-of-the-present-state",
+       "Forces after a motion, or of a state that is set, are those of a scene that starts there.",
+       "forces depend on positions alone", are_of_the_present_state},
       {"forces.of-a-bent-sheet-sum-to-zero",
        "Forces of a free sheet that resists bending sum to zero.", "Newton's third law",
        bent_forces_sum_to_zero},

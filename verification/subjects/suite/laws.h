@@ -24,6 +24,7 @@ std::vector<Law> motion_laws();       // smoke, rest, inertia, gravity, momentum
 std::vector<Law> symmetry_laws();     // translation, rotation, mirror, numbering
 std::vector<Law> repeat_laws();       // determinism, state, order, precision
 std::vector<Law> force_laws();        // level 2: sums, weight, energy
+std::vector<Law> damping_laws();      // dampers in the motion, and as level 2 states them
 std::vector<Law> calibration_laws();  // effective moduli
 std::vector<Law> vibration_laws();    // period and decay
 std::vector<Law> stability_laws();    // the largest step

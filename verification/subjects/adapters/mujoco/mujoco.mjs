@@ -113,7 +113,7 @@ class Flex extends Solver {
     return this.spread(qfrc_passive.map((f, i) => f - qfrc_bias[i]), this.scene.x.map(() => 0));
   }
 
-  damping() { return this.scene.x.map(() => 0); }
+  damping() { throw new Declined('damping forces: not told apart from the elastic ones'); }
 
   energy() { throw new Declined("the energy: MuJoCo's leaves out the elastic one of flexes"); }
 }
