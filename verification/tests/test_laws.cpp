@@ -95,6 +95,11 @@ TEST_CASE("subject: dampers of the wrong edges, or of the step before, are found
         std::set<std::string>{"repeat.step-depends-on-its-state-alone"});
 }
 
+TEST_CASE("subject: springs in turn depend on their numbers as their step explains: no alarm") {
+  CHECK(failing_laws("in_turn", laws_of({"symmetry", "order", "momentum", "vibration"})) ==
+        std::set<std::string>{});
+}
+
 TEST_CASE("subject: stated forces and energies that are not those of the motion are found") {
   const std::vector<Law> laws = laws_of({"momentum", "forces", "damping", "vibration"});
   const auto fails = [&](const char* kind) { return failing_laws(kind, laws); };

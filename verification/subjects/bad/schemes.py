@@ -98,6 +98,29 @@ class Trapezoidal(Implicit):
     theta, scheme, order = 0.5, "trapezoidal rule", 2
 
 
+class InTurn(ToySolver):
+    """One sweep of Gauss and Seidel in place of backward Euler's solve: each spring in its turn
+    pulls as it must after those before it. What their order changes falls with the step."""
+
+    scheme, level = "one sweep of springs", "L1"
+
+    def advance(self, dt: float, steps: int) -> None:
+        rows = list(zip(*self.edges.T, self.k, self.length, strict=True))
+        for _ in range(steps):
+            v = self.v + dt * self.gravity
+            v[self.held] = 0
+            x, w = self.x + dt * v, 1 / self.mass
+            w[self.held] = 0
+            for a, b, k, length in rows:
+                d = x[b] - x[a]
+                now = np.linalg.norm(d)
+                weight = w[a] + w[b]
+                pull = k * dt * dt * (now - length) / (1 + k * dt * dt * weight) / now
+                x[a] += w[a] * pull * d
+                x[b] -= w[b] * pull * d
+            self.x, self.v = x, (x - self.x) / dt
+
+
 class DampedBackwardEuler(Damped, BackwardEuler):
     """Its damping is that of the velocities that it solves for."""
 
