@@ -385,6 +385,7 @@ TEST_CASE("subject: the toy in C++ meets every law that it does not decline") {
         record.name != "momentum.linear-under-damping-is-conserved" &&
         record.name != "drape.stiff-ring-sags-as-a-plate" &&
         record.name != "drape.heavier-ring-hangs-lower" &&
+        record.name != "drape.heavier-disc-hangs-lower" && !record.name.starts_with("wrinkles.") &&
         record.name != "vibration.damped-decays-as-its-damping-says" &&
         record.name != "calibration.bending-rigidity-is-the-scene-s" &&
         record.name != "cantilever.heavy-strip-hangs-as-the-elastica";
