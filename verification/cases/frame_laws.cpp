@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "verification/cases/face_bound.h"
-#include "verification/oracles/exact_crossings.h"
 
 namespace foldproof {
 
@@ -15,24 +14,13 @@ namespace {
 
 constexpr double degrees_per_radian = 180 / pi;
 
-void require_particles(const FrameMotion& motion) {
-  if (motion.matching != Matching::particles)
-    throw NotOffered{"the case's mesh: vertex i must be particle i, with the same triangles"};
-}
-
-const Expectation* stated(const FrameMotion& motion, std::string_view key) {
-  const auto& all = motion.of.expectations;
-  const auto found = std::ranges::find(all, key, &Expectation::key);
-  return found == all.end() ? nullptr : &*found;
-}
-
 // ---- is it the case's cloth, all of its motion?
 
 Finding start_is_the_case_s(const FrameMotion& motion) {
   require_particles(motion);
   const State& first = motion.states.front();
   const Scene& scene = motion.of.scene;
-  if (first.time > motion.rounding()) throw NotOffered{"a frame at t = 0"};
+  require_start(motion);
   const double edge = rest_lengths(scene.mesh).mean();
   Table measured{{"particle", "1"}, {"distance from the case's start", "mean edge"}};
   for (Eigen::Index i = 0; i < first.x.cols(); ++i)
@@ -140,24 +128,6 @@ Finding folds_never_pass_through(const FrameMotion& motion) {
 
 // ---- energy
 
-bool is_at_rest(const SceneObject& part, std::span<const TimedMesh> frames) {
-  const PerParticle3 start = surface_at(part, 0);
-  return std::ranges::all_of(
-      frames, [&](const TimedMesh& frame) { return surface_at(part, frame.time) == start; });
-}
-
-void require_closed_budget(const FrameMotion& motion) {
-  require_particles(motion);
-  const Scene& scene = motion.of.scene;
-  if (is_driven(scene)) throw NotOffered{"a closed budget: prescribed particles do work"};
-  for (const SceneObject& part : scene.objects)
-    if (!is_at_rest(part, motion.frames))
-      throw NotOffered{"a closed budget: an object moves, and does work"};
-  if (!scene.sticky.empty()) throw NotOffered{"the energy of bonds, which frames do not show"};
-  if (scene.bending && scene.bending->weighting != Weighting::rest)
-    throw NotOffered{"an energy: the case's bending has none"};
-}
-
 /// By which rounding of the file may change the energy of the springs [J]: each end of a
 /// spring moves by delta, so its length by up to 2 delta, and its energy by k |l - l0| 2
 /// delta + k (2 delta)^2/2.
@@ -176,14 +146,6 @@ double energy_rounding(const FrameMotion& motion, const State& s) {
     sum += k[i] * (std::abs(elongation) * change + change * change / 2);
   }
   return sum;
-}
-
-/// The largest change of one form of energy since the start [J].
-double exchanged(const Energies& now, const Energies& start) {
-  double largest = 0;
-  for (const auto term : energy_terms)
-    largest = std::max(largest, std::abs(now.*term - start.*term));
-  return largest;
 }
 
 Finding energy_stays_in_budget(const FrameMotion& motion) {
@@ -210,45 +172,6 @@ Finding energy_stays_in_budget(const FrameMotion& motion) {
 }
 
 }  // namespace
-
-double FrameMotion::rounding() const {
-  double largest = 0;  // m
-  for (const TimedMesh& frame : frames) largest = std::max(largest, frame.x.cwiseAbs().maxCoeff());
-  return 0.5e-5 * largest;
-}
-
-FrameMotion motion_of(const Case& of, const BuiltScene& built, std::span<const TimedMesh> frames) {
-  FrameMotion motion{of, built, matching_of(of.scene.mesh, frames), frames, {}};
-  if (motion.matching == Matching::surface) return motion;
-  for (std::size_t k = 0; k < frames.size(); ++k) {
-    const TimedMesh& before = frames[k == 0 ? 0 : k - 1];
-    const TimedMesh& after = frames[std::min(k + 1, frames.size() - 1)];
-    State state{frames[k].time, frames[k].x, PerParticle3::Zero(3, frames[k].x.cols())};
-    if (after.time > before.time) state.v = (after.x - before.x) / (after.time - before.time);
-    motion.states.push_back(std::move(state));
-  }
-  return motion;
-}
-
-double crossings_in(const TimedMesh& frame) {
-  if (!frame.x.allFinite()) return nan;
-  return double(oracles::exact_crossings(frame.x, frame.triangles).size());
-}
-
-double depth_in(const FrameMotion& motion, const TimedMesh& frame) {
-  std::vector<char> counts(std::size_t(frame.x.cols()), 1);
-  if (motion.matching == Matching::particles)
-    for (const PrescribedParticle& p : motion.of.scene.prescribed)
-      counts[std::size_t(p.particle)] = 0;
-  ObjectsOverSpan now(motion.built.objects, {frame.time, frame.time, 0});
-  Worst worst;
-  for (Eigen::Index i = 0; i < frame.x.cols(); ++i) {
-    if (!counts[std::size_t(i)]) continue;
-    const Nearest nearest = nearest_of(now.at(frame.x.col(i)));
-    if (!nearest.pinched()) worst.observe(-nearest.first.phi);
-  }
-  return worst.value();
-}
 
 const std::vector<FrameLaw>& frame_laws() {
   static const std::vector<FrameLaw> laws = {
