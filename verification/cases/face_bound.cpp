@@ -12,14 +12,6 @@ namespace {
 
 constexpr double usual_stretch = 0.25;  // of a triangle, without strain limits [1]
 
-double largest_enclosing_radius(const Scene& scene) {
-  const PerParticle3& x = scene.mesh.rest;
-  double largest = 0;
-  for (const Triangle& t : scene.mesh.triangles)
-    largest = std::max(largest, enclosing_radius(x.col(t[0]), x.col(t[1]), x.col(t[2])));
-  return largest * (1 + (scene.strain_limits ? scene.strain_limits->extension : usual_stretch));
-}
-
 // A body that is a union of balls of radius R about its core, corners at most d deep:
 //
 //   every corner c_i is at least R - d from each point q of the core. A point p = sum w_i c_i of
@@ -61,6 +53,14 @@ double enclosing_radius(const Vector3& a, const Vector3& b, const Vector3& c) {
   if (squared[0] + squared[1] <= squared[2]) return std::sqrt(squared[2]) / 2;
   const double doubled_area = (b - a).cross(c - a).norm();
   return std::sqrt(squared[0] * squared[1] * squared[2]) / (2 * doubled_area);
+}
+
+double largest_enclosing_radius(const Scene& scene) {
+  const PerParticle3& x = scene.mesh.rest;
+  double largest = 0;
+  for (const Triangle& t : scene.mesh.triangles)
+    largest = std::max(largest, enclosing_radius(x.col(t[0]), x.col(t[1]), x.col(t[2])));
+  return largest * (1 + (scene.strain_limits ? scene.strain_limits->extension : usual_stretch));
 }
 
 double usual_particle_depth(const Scene& scene) { return largest_enclosing_radius(scene) / 10; }

@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "verification/cases/face_bound.h"
+#include "verification/cases/frame_dynamics.h"
 
 namespace foldproof {
 
@@ -74,6 +77,26 @@ Finding vertices_stay_outside(const FrameMotion& motion) {
                      bound ? "of the case: " + bound->why
                            : "empirical: a tenth of the radius of the largest triangle's circle, "
                              "the depth that the bound on whole triangles takes for granted");
+}
+
+Finding touches_objects(const FrameMotion& motion) {
+  constexpr std::array expect_contact = {"makes_contact", "is_pinched", "lies_inside",
+                                         "stays_between"};
+  if (motion.built.objects.empty()) throw NotOffered{"objects: the case has no [[object]]"};
+  if (std::ranges::none_of(expect_contact, [&](const char* key) { return stated(motion, key); }))
+    throw NotOffered{"contact: the case does not expect any, such as [expect.makes_contact]"};
+  Table measured{{"time", "s"}, {"distance of the nearest vertex from an object", "m"}};
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const TimedMesh& frame : motion.frames) {
+    const double clearance = clearance_in(motion, frame);
+    if (std::isnan(clearance)) throw InputError(frame.file + ": a position is not finite");
+    measured.row(frame.time, clearance);
+    nearest = std::min(nearest, clearance);
+  }
+  const Verdict verdict{nearest, largest_enclosing_radius(motion.of.scene), 0, "m",
+                        "the case expects contact: in some frame a vertex is as near to an object "
+                        "as the radius of the largest triangle's circle"};
+  return {verdict, std::move(measured), ""};
 }
 
 Finding springs_stay_within_limits(const FrameMotion& motion) {
@@ -185,6 +208,8 @@ const std::vector<FrameLaw>& frame_laws() {
        "exact arithmetic", never_cross_themselves},
       {"frames.vertices-stay-outside", "In no frame is a vertex deep inside an object.",
        "the objects' signed distance", vertices_stay_outside},
+      {"frames.touches-objects", "In some frame the cloth is at an object that it should touch.",
+       "[expect] of the case", touches_objects},
       {"frames.springs-stay-within-limits", "No edge is longer or shorter than the case allows.",
        "BMF03 section 4", springs_stay_within_limits},
       {"frames.folds-never-pass-through",
@@ -193,6 +218,15 @@ const std::vector<FrameLaw>& frame_laws() {
       {"frames.energy-stays-in-budget",
        "Elastic and potential energy never exceed the energy of the start.",
        "conservation of energy", energy_stays_in_budget},
+      {"frames.motion-stays-in-budget",
+       "Kinetic and potential energy never exceed the energy of the start.",
+       "conservation of energy", motion_stays_in_budget},
+      {"frames.centre-falls-freely",
+       "Before the cloth is near an object, its centre of mass falls with g.",
+       "conservation of momentum", centre_falls_freely},
+      {"frames.starts-as-fast-as-the-reference",
+       "Where the centre does not fall freely, it first moves as that of the reference.",
+       "a run of the reference", starts_as_the_reference},
   };
   return laws;
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "verification/cases/face_bound.h"
+#include "verification/cases/quantities.h"
 #include "verification/oracles/exact_crossings.h"
 
 namespace foldproof {
@@ -27,6 +29,25 @@ std::vector<Nearest> nearest_of_free_vertices(const FrameMotion& motion, const T
   for (Eigen::Index i = 0; i < frame.x.cols(); ++i)
     if (counts[std::size_t(i)]) all.push_back(nearest_of(now.at(frame.x.col(i))));
   return all;
+}
+
+double depth_at_start(const FrameMotion& motion) {
+  const Scene& scene = motion.of.scene;
+  if (motion.built.objects.empty()) return 0;
+  return depth_in(motion, {"", 0, scene.x, scene.mesh.triangles});
+}
+
+/// Corrections of a start that breaks a constraint do work.
+void require_sound_start(const FrameMotion& motion) {
+  const Scene& scene = motion.of.scene;
+  if (depth_at_start(motion) > usual_particle_depth(scene))
+    throw NotOffered{"a closed budget: the cloth starts inside an object"};
+  if (crossings_in({"", 0, scene.x, scene.mesh.triangles}) > 0)
+    throw NotOffered{"a closed budget: the cloth starts crossed"};
+  if (!scene.strain_limits || !scene.stretch) return;
+  const Quantity& violation = *find_quantity("stays_within_strain_limits");
+  if (value_at(violation, scene, {}, start_state(scene)) > scene.strain_limits->tolerance)
+    throw NotOffered{"a closed budget: springs start beyond a strain limit"};
 }
 
 }  // namespace
@@ -96,6 +117,7 @@ void require_closed_budget(const FrameMotion& motion) {
   if (!scene.sticky.empty()) throw NotOffered{"the energy of bonds, which frames do not show"};
   if (scene.bending && scene.bending->weighting != Weighting::rest)
     throw NotOffered{"an energy: the case's bending has none"};
+  require_sound_start(motion);
 }
 
 double exchanged(const Energies& now, const Energies& start) {

@@ -67,14 +67,43 @@ end = 0.2
 frames_per_second = 50
 )";
 
+/// The falling sheet, far above its ball, with a velocity; soft, so that every scheme is stable
+/// with a step a frame.
+std::string far_above() {
+  std::string text = falling;
+  const auto put = [&](const std::string& old, const std::string& now) {
+    text.replace(text.find(old), old.size(), now);
+  };
+  put("stiffness = 40", "stiffness = 0.03"), put("stiffness = 1e-3", "stiffness = 1e-6");
+  put("move = [0.2, -0.11, -0.15]", "move = [0.28, -0.4, -0.12]");
+  put("[gravity]", "[start]\nvelocity = [0.3, 0.2, 0.1]\n[gravity]");
+  put("end = 0.2", "end = 0.36");
+  put("frames_per_second = 50\n",
+      "frames_per_second = 50\n[expect.makes_contact]\nat_least = 1\nwhy = \"a trial\"\n");
+  return text;
+}
+
+std::string hanging_softly() {
+  std::string text = hanging;
+  text.replace(text.find("[strain_limits]"), text.find("[bending]") - text.find("[strain_limits]"),
+               "");
+  text.replace(text.find("stiffness = 40"), 14, "stiffness = 0.03");
+  return text.replace(text.find("stiffness = 1e-3"), 16, "stiffness = 1e-6");
+}
+
 struct Frames {
   Case of;
   BuiltScene built;
   std::vector<TimedMesh> frames;
 
-  explicit Frames(const std::string& text)
+  explicit Frames(const std::string& text) : Frames(text, "C", 0) {}
+
+  /// step: 0 for the case's own [s]
+  Frames(const std::string& text, std::string_view integrator, double step)
       : of(case_of(text)), built(build(of.scene, computing_provider())) {
-    simulate(built.system, integrator_named(of.scene.integrator), built.start, of.scene.schedule,
+    Schedule schedule = of.scene.schedule;
+    schedule.step.fixed = step;
+    simulate(built.system, integrator_named(integrator), built.start, schedule,
              {[&](const State& s) {
                 frames.push_back({"frame", s.time, s.x, of.scene.mesh.triangles});
               },
@@ -84,6 +113,22 @@ struct Frames {
   static Case case_of(const std::string& text) {
     const ScratchFolder folder;
     return with_usual_expectations(read_case(folder.write("trial.toml", text)));
+  }
+
+  /// As if they were played faster.
+  Frames& hasten(double factor) {
+    for (TimedMesh& frame : frames) frame.time /= factor;
+    return *this;
+  }
+
+  Frames& freeze() {
+    for (TimedMesh& frame : frames) frame.x = frames.front().x;
+    return *this;
+  }
+
+  Frames& drift(const Vector3& velocity) {
+    for (TimedMesh& frame : frames) frame.x.colwise() += velocity * frame.time;
+    return *this;
   }
 
   std::set<std::string> failing() const {
@@ -213,4 +258,68 @@ TEST_CASE("judged frames: of another mesh crossings and depths are judged, the r
   CHECK(frames.outcome_of("frames.energy-stays-in-budget") == Outcome::not_applicable);
   for (TimedMesh& frame : frames.frames) frame.x.row(1).array() -= 0.1;
   CHECK(frames.failing() == Names{"frames.vertices-stay-outside"});
+}
+
+TEST_CASE("judged frames: every scheme moves as it should, with a step a frame") {
+  for (const Integrator& integrator : integrators()) {
+    INFO(integrator.name);
+    const Frames far(far_above(), integrator.name, 0.02);
+    for (const char* law : {"frames.centre-falls-freely", "frames.motion-stays-in-budget"})
+      CHECK(far.outcome_of(law) == Outcome::holds);
+    const Frames held(hanging_softly(), integrator.name, 0.02);
+    for (const char* law :
+         {"frames.starts-as-fast-as-the-reference", "frames.motion-stays-in-budget"})
+      CHECK(held.outcome_of(law) == Outcome::holds);
+  }
+}
+
+TEST_CASE("judged frames: each law of dynamics is asked where it applies") {
+  const Frames far(far_above()), near(falling);
+  CHECK(far.outcome_of("frames.centre-falls-freely") == Outcome::holds);
+  CHECK(far.outcome_of("frames.touches-objects") == Outcome::holds);
+  CHECK(far.outcome_of("frames.starts-as-fast-as-the-reference") == Outcome::not_applicable);
+  CHECK(near.outcome_of("frames.touches-objects") == Outcome::not_applicable);
+  CHECK(near.outcome_of("frames.centre-falls-freely") == Outcome::not_applicable);
+  CHECK(near.outcome_of("frames.starts-as-fast-as-the-reference") == Outcome::holds);
+}
+
+TEST_CASE("judged frames: cloth that falls too fast, too slowly, aside or not at all is found") {
+  for (const double factor : {4.0, 1.25, 0.8}) {
+    const Names names = Frames(far_above()).hasten(factor).failing();
+    CHECK(names.contains("frames.centre-falls-freely"));
+    CHECK(names.contains("frames.motion-stays-in-budget") == (factor > 1));
+  }
+  CHECK(Frames(far_above()).drift({0.2, 0, 0}).failing().contains("frames.centre-falls-freely"));
+  CHECK(Frames(far_above()).drift({0, -0.3, 0}).failing().contains("frames.centre-falls-freely"));
+  const Names names = Frames(far_above()).freeze().failing();
+  CHECK(names.contains("frames.centre-falls-freely"));
+  CHECK(names.contains("frames.touches-objects"));
+}
+
+TEST_CASE("judged frames: the start of a multistep method is no other fall") {
+  // BDF2 after a step of backward Euler: shifted by 3/4 g h^2 (1 - 3^-n)
+  const double h = 0.02, shift = 0.75 * 9.80665 * h * h;
+  for (const double factor : {1.0, 3.0}) {
+    Frames frames(far_above());
+    for (std::size_t n = 0; n < frames.frames.size(); ++n)
+      frames.frames[n].x.row(1).array() -= factor * shift * (1 - std::pow(3, -double(n)));
+    CHECK(frames.failing().contains("frames.centre-falls-freely") == (factor > 1));
+  }
+}
+
+TEST_CASE("judged frames: held cloth that starts too fast, too slowly or not at all is found") {
+  for (const double factor : {4.0, 1.25, 0.8}) {
+    Frames frames(hanging);
+    CHECK(frames.hasten(factor).failing().contains("frames.starts-as-fast-as-the-reference"));
+  }
+  CHECK(Frames(hanging).freeze().failing() == Names{"frames.starts-as-fast-as-the-reference"});
+  CHECK(Frames(hanging).hasten(2).failing().contains("frames.motion-stays-in-budget"));
+}
+
+TEST_CASE("judged frames: speeds that come of rounding alone have no energy") {
+  std::string text = hanging;  // without gravity, it stays where it is
+  Frames frames(text.erase(text.find("[gravity]"), 10));
+  for (std::size_t k = 0; k < frames.frames.size(); ++k)
+    frames.frames[k].x.array() += (k % 4 < 2 ? 1 : -1) * 0.5e-6;
+  CHECK(frames.outcome_of("frames.motion-stays-in-budget") == Outcome::holds);
 }
