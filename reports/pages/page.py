@@ -221,9 +221,14 @@ def render(page: Page, since: list[Piece] | None = None, cuts: Cuts | None = Non
         said=page.provenance,
         summary=summary_of_page(page, since, environment),
         title=title_of(page.trial) if page.trial else "What was found",
-        standfirst=standfirst_of(page.trial, len(page.checks)) if page.trial else "",
+        standfirst=standfirst_of(page.trial, _judged(page)) if page.trial else "",
         of_frames=page.trial is not None and is_of_frames(page.trial),
     )
+
+
+def _judged(page: Page) -> int:
+    """How many findings the summary counts."""
+    return sum(finding.kind != "bench" for finding in page.all_findings())
 
 
 def summary_of_page(page: Page, since: list[Piece] | None, environment: Environment) -> Summary:

@@ -110,9 +110,9 @@ def declined_by(findings: Iterable[Finding], quoted: dict[str, Quoted]) -> list[
 
 
 def _why(outcome: str, note: str) -> list[Piece]:
-    if outcome == "not applicable":
+    if note.startswith(DECLINED):
         return ["does not offer ", Quoted(note.removeprefix(DECLINED), "note"), ": "]
-    return [Quoted(note or "did not run", "note"), ": "]
+    return [Quoted(note or outcome, "note"), ": "]
 
 
 def _names(names: list[Quoted]) -> list[Piece]:

@@ -13,7 +13,7 @@ from data.results import Fault, Finding
 from data.trials import Trial
 from pages.conclusions import Results, conclusions_of
 from pages.sentences import Conclusion, Number, Piece, Quoted, in_words
-from pages.solver_words import declined_by, details_of, facts_of, verdict_on
+from pages.solver_words import declined_by, details_of, facts_of, is_of_frames, verdict_on
 from pages.trust import Tolerances
 
 MARGINS = 5  # bounds shown
@@ -202,6 +202,11 @@ def _scope(judged: Judged) -> list[Piece]:
             ),
             Quoted("foldproof judge", "command", is_name=True),
             ".",
+        ]
+    if judged.trial and is_of_frames(judged.trial):
+        return [
+            "Tells whether the frames can be a run of this case. Tells neither whether another case"
+            " would show more nor whether real cloth moves like this."
         ]
     return [
         "Tells whether this solver meets laws of cloth, where its adapter"

@@ -11,7 +11,7 @@ from typing import Any
 
 from data.trials import Answer, Law, Trial
 from pages.page import OUTCOMES, new_environment
-from pages.solver_words import APART, DECLINED
+from pages.solver_words import APART, DECLINED, is_of_frames
 from pages.trial_costs import cost_rows, costs_of
 
 
@@ -176,5 +176,8 @@ def render_trials(said: Trials, figures: Path) -> str:
     """The page as one HTML text; its figure is also a file in the folder."""
     environment = new_environment()
     environment.globals.update(count=count, reason=reason, measured_tables=measured_tables)
+    environment.globals.update(
+        is_of_frames=is_of_frames, all_frames=all(is_of_frames(trial) for trial in said.trials)
+    )
     costs = costs_of(said.trials, said.labels, figures)
     return environment.get_template("trials.html.j2").render(said=said, costs=costs)

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <optional>
 #include <sstream>
@@ -78,6 +79,40 @@ std::vector<fs::path> frame_files(const std::string& folder, const std::string& 
   return chosen->second;
 }
 
+/// The number that the frame's file ends with; none if it has no digits, or too many.
+std::optional<long> frame_number(const fs::path& file) {
+  const std::string digits = number_of(file);
+  long number = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+  if (error != std::errc() || digits.empty()) return {};
+  return number;
+}
+
+/// A rate counts frames, so their numbers must have one stride: the smallest that occurs. Throws
+/// InputError naming the first missing number.
+void require_even_numbers(const std::vector<fs::path>& files) {
+  std::vector<long> numbers;
+  for (const fs::path& file : files) {
+    const std::optional<long> number = frame_number(file);
+    if (!number) return;
+    numbers.push_back(*number);
+  }
+  long stride = std::numeric_limits<long>::max();
+  for (std::size_t k = 1; k < numbers.size(); ++k) {
+    if (numbers[k] == numbers[k - 1])
+      throw InputError(
+          fmt::format("{} and {} have the same number; --times FILE states the time of each",
+                      files[k - 1].string(), files[k].string()));
+    stride = std::min(stride, numbers[k] - numbers[k - 1]);
+  }
+  for (std::size_t k = 1; k < numbers.size(); ++k)
+    if (numbers[k] - numbers[k - 1] != stride)
+      throw InputError(
+          fmt::format("{}: frame {} is missing before it; --rate needs evenly numbered frames, "
+                      "--times FILE states the time of each",
+                      files[k].string(), numbers[k - 1] + stride));
+}
+
 struct Frame {
   TimedMesh mesh;
   std::optional<double> own_time;  // s
@@ -136,8 +171,10 @@ std::vector<double> times_of(const std::string& folder, const FrameTimes& typed,
 
 std::vector<TimedMesh> read_frames(const std::string& folder, const FrameTimes& typed,
                                    const std::string& preferred) {
+  const std::vector<fs::path> files = frame_files(folder, preferred);
+  if (typed.file.empty() && typed.rate > 0) require_even_numbers(files);
   std::vector<Frame> frames;
-  for (const fs::path& file : frame_files(folder, preferred)) frames.push_back(read_frame(file));
+  for (const fs::path& file : files) frames.push_back(read_frame(file));
   const std::vector<double> times = times_of(folder, typed, frames);
   if (times.size() != frames.size())
     throw InputError(fmt::format("{}: {} times for {} frames; give one time a frame", folder,

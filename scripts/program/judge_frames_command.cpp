@@ -40,6 +40,12 @@ std::string subject_name(const Options& options) {
   return options.name.empty() ? "frames of " + options.frames : options.name;
 }
 
+std::string vertices_text(const ReadMotion& motion, Matching matching) {
+  const std::string difference = mesh_difference(motion.of.scene.mesh, motion.frames);
+  return fmt::format("compared {}{}{}", name_of(matching), difference.empty() ? "" : ": ",
+                     difference);
+}
+
 /// The keys of a judged solver's file: frames are of level 0, and say nothing of their solver.
 std::string facts_of(const ReadMotion& motion, Matching matching, const Options& options) {
   const nlohmann::json facts = {{"schema", 1},
@@ -57,7 +63,7 @@ std::string facts_of(const ReadMotion& motion, Matching matching, const Options&
                                 {"mapping",
                                  {{"case", motion.of.scene.name},
                                   {"frames", span_text(motion.frames)},
-                                  {"vertices", "compared " + std::string(name_of(matching))}}}};
+                                  {"vertices", vertices_text(motion, matching)}}}};
   return facts.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
@@ -79,8 +85,10 @@ RunRecord run_of(const ReadMotion& motion, FramesJudgement judged, const Options
 }
 
 std::string heading(const ReadMotion& motion, Matching matching, const Options& options) {
-  return fmt::format("{}: {}, of case {}, {}\n", options.frames, span_text(motion.frames),
-                     motion.of.scene.name, name_of(matching));
+  const std::string difference = mesh_difference(motion.of.scene.mesh, motion.frames);
+  return fmt::format("{}: {}, of case {}, {}\n{}", options.frames, span_text(motion.frames),
+                     motion.of.scene.name, name_of(matching),
+                     difference.empty() ? "" : difference + ": judged as another mesh\n");
 }
 
 bool starts_as_the_case(const FramesJudgement& judged) {

@@ -75,6 +75,45 @@ class JudgeFrames(FileTest):
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertIn("suspect units, axes, the order of vertices", done.stdout)
 
+    def test_a_gap_in_the_numbers_is_named_where_a_rate_counts_them(self) -> None:
+        frames = sorted((self.path / "obj").glob(f"{CASE}.*.obj"))
+        lost = frames[3]
+        lost.unlink()
+        number = int(lost.stem.rsplit(".", 1)[-1])
+        done = run("judge", "--frames", str(self.path / "obj"), "--case", CASE, *RATE)
+        self.assert_rejected(done, f"frame {number} is missing before it")
+        for frame in frames[1::2]:  # every other frame, at half the rate
+            frame.unlink(missing_ok=True)
+        self.assertEqual(self.judge("obj", "--rate", "15")["frames.end-is-reached"], "holds")
+
+    def test_another_mesh_is_told_in_words(self) -> None:
+        frame = sorted((self.path / "obj").glob(f"{CASE}.*.obj"))[0]
+        text = frame.read_text(encoding="utf-8").splitlines()
+        at = next(k for k, line in enumerate(text) if line.startswith("f "))
+        word, *corners = text[at].split()
+        for order, said in (((0, 2, 1), "one of the case's turned over"),
+                            ((0, 0, 1), "none of the case's")):
+            text[at] = " ".join([word, *(corners[k] for k in order)])
+            frame.write_text("\n".join(text) + "\n", encoding="utf-8")
+            done = run("judge", "--frames", str(self.path / "obj"), "--case", CASE, *RATE)
+            heading = done.stdout.splitlines()[1]
+            self.assertIn("vertex order cannot match, triangle 0,", heading)
+            self.assertIn(said, heading)
+            self.assertIn("judged as another mesh", heading)
+
+    def test_a_page_of_frames_speaks_of_no_solver(self) -> None:
+        outs = [str(self.path / f"judged_{form}") for form in ("obj", "ply")]
+        for form, out in zip(("obj", "ply"), outs):
+            self.judge(form, "--out", out)
+        for arguments, name in ((outs[:1], "judged_obj/report.html"),
+                                (outs, "judged_ply/compare.html")):
+            done = run("report", *arguments)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            page = (self.path / name).read_text(encoding="utf-8")
+            self.assertIn("needs prescribed particles", page)
+            for word in ("this solver", "its adapter", "does not offer", "own process"):
+                self.assertNotIn(word, page)
+
     def test_bad_input_is_one_line(self) -> None:
         obj = str(self.path / "obj")
         (self.path / "obj/times.txt").unlink()

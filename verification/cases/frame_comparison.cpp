@@ -1,5 +1,7 @@
 #include "verification/cases/frame_comparison.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -16,6 +18,22 @@ std::vector<Triangle> sorted_faces(std::vector<Triangle> triangles) {
   for (Triangle& t : triangles) std::ranges::rotate(t, std::ranges::min_element(t));
   std::ranges::sort(triangles);
   return triangles;
+}
+
+/// The first triangle that is none of these sorted faces, in words; "" if all are.
+std::string first_other_triangle(const std::vector<Triangle>& triangles,
+                                 const std::vector<Triangle>& faces) {
+  const auto is_face = [&](const Triangle& t) {
+    return std::ranges::binary_search(faces, sorted_faces({t}).front());
+  };
+  for (std::size_t k = 0; k < triangles.size(); ++k) {
+    const Triangle& t = triangles[k];
+    if (is_face(t)) continue;
+    const bool is_reversed = is_face({t[0], t[2], t[1]});
+    return fmt::format("triangle {}, ({}, {}, {}), is {} (all counted from 0)", k, t[0], t[1], t[2],
+                       is_reversed ? "one of the case's turned over" : "none of the case's");
+  }
+  return "";
 }
 
 /// A third of each adjacent triangle's area [m^2].
@@ -131,6 +149,21 @@ Matching matching_of(const TriangleMesh& cloth, std::span<const TimedMesh> frame
     if (frame.x.cols() != cloth.rest.cols() || sorted_faces(frame.triangles) != faces)
       return Matching::surface;
   return Matching::particles;
+}
+
+std::string mesh_difference(const TriangleMesh& cloth, std::span<const TimedMesh> frames) {
+  const std::vector<Triangle> faces = sorted_faces(cloth.triangles);
+  for (const TimedMesh& frame : frames) {
+    if (frame.x.cols() != cloth.rest.cols())
+      return fmt::format("{} has {} vertices, the case {}", frame.file, frame.x.cols(),
+                         cloth.rest.cols());
+    if (const std::string other = first_other_triangle(frame.triangles, faces); !other.empty())
+      return fmt::format("{}: vertex order cannot match, {}", frame.file, other);
+    if (sorted_faces(frame.triangles) != faces)
+      return fmt::format("{} has {} triangles, the case {}", frame.file, frame.triangles.size(),
+                         faces.size());
+  }
+  return "";
 }
 
 State state_between(const State& a, const State& b, double t) {

@@ -31,6 +31,10 @@ std::string_view name_of(Matching matching);  // "vertex by vertex", "by nearest
 /// and of their corners.
 Matching matching_of(const TriangleMesh& cloth, std::span<const TimedMesh> frames);
 
+/// Why vertices are no particles: the first frame, and its first triangle, that differ from the
+/// cloth's; "" if matching_of is `particles`.
+std::string mesh_difference(const TriangleMesh& cloth, std::span<const TimedMesh> frames);
+
 /// Between two frames of a run, by the cubic that has their positions and velocities. t in
 /// [a.time, b.time] [s].
 State state_between(const State& a, const State& b, double t);

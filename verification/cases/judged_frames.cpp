@@ -45,14 +45,27 @@ Case asked_of_frames(const Case& of, Matching matching) {
   return asked;
 }
 
+/// Judges one law; where it does not apply, its note says what it needs: no subject was asked.
+Record judge_law(const FrameLaw& law, const FrameMotion& motion) {
+  Record record;
+  record.name = law.name, record.kind = "check";
+  record.claim = law.claim, record.source = law.source;
+  std::string missing;
+  record = judge(std::move(record), [&] {
+    try {
+      return law.run(motion);
+    } catch (const NotOffered& needed) {
+      missing = needed.operation;
+      throw;
+    }
+  });
+  if (record.outcome == Outcome::not_applicable) record.finding.note = "needs " + missing;
+  return record;
+}
+
 std::vector<Record> judge_laws(const FrameMotion& motion) {
   std::vector<Record> records;
-  for (const FrameLaw& law : frame_laws()) {
-    Record record;
-    record.name = law.name, record.kind = "check";
-    record.claim = law.claim, record.source = law.source;
-    records.push_back(judge(std::move(record), [&] { return law.run(motion); }));
-  }
+  for (const FrameLaw& law : frame_laws()) records.push_back(judge_law(law, motion));
   return records;
 }
 

@@ -62,6 +62,26 @@ TEST_CASE("frames match by their faces, in any order") {
   CHECK(matching_of(trial.scene.mesh, both) == Matching::surface);
 }
 
+TEST_CASE("frames of another mesh say which triangle differs first") {
+  const Trial trial;
+  const auto difference = [&](const TimedMesh& frame) {
+    return mesh_difference(trial.scene.mesh, std::span(&frame, 1));
+  };
+  TimedMesh frame = trial.frame(trial.start.x);
+  std::ranges::reverse(frame.triangles);
+  CHECK(difference(frame) == "");
+  const Triangle t = frame.triangles[3];
+  frame.triangles[3] = {t[1], t[0], t[2]};
+  CHECK(difference(frame).find("triangle 3, ") != std::string::npos);
+  CHECK(difference(frame).find("turned over") != std::string::npos);
+  frame.triangles[3] = {t[0], t[0], t[1]};
+  CHECK(difference(frame).find("none of the case's") != std::string::npos);
+  frame.triangles.pop_back(), frame.triangles[3] = t;
+  CHECK(difference(frame).find("triangles, the case") != std::string::npos);
+  frame.x.conservativeResize(3, 5);
+  CHECK(difference(frame).find("has 5 vertices, the case") != std::string::npos);
+}
+
 TEST_CASE("cloth that is moved is as far away as it was moved") {
   const Trial trial;
   const FrameComparison c = trial.compare(trial.frame(moved(trial.start.x, {0.3, 0, 0.4})));

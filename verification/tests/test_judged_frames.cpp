@@ -273,6 +273,14 @@ TEST_CASE("judged frames: every scheme moves as it should, with a step a frame")
   }
 }
 
+TEST_CASE("judged frames: a law that does not apply says what it needs") {
+  const Frames frames(falling);
+  int found = 0;
+  for (const Record& record : judge_frames(frames.of, frames.built, frames.frames).records)
+    if (record.finding.note == "needs prescribed particles: the case has no [[hold]]") ++found;
+  CHECK(found == 1);
+}
+
 TEST_CASE("judged frames: each law of dynamics is asked where it applies") {
   const Frames far(far_above()), near(falling);
   CHECK(far.outcome_of("frames.centre-falls-freely") == Outcome::holds);
@@ -294,6 +302,13 @@ TEST_CASE("judged frames: cloth that falls too fast, too slowly, aside or not at
   const Names names = Frames(far_above()).freeze().failing();
   CHECK(names.contains("frames.centre-falls-freely"));
   CHECK(names.contains("frames.touches-objects"));
+}
+
+TEST_CASE("judged frames: cloth that falls with four fifths of g is found") {
+  Frames frames(far_above());
+  for (TimedMesh& frame : frames.frames)
+    frame.x.row(1).array() += 0.2 * 9.80665 * frame.time * frame.time / 2;
+  CHECK(frames.failing().contains("frames.centre-falls-freely"));
 }
 
 TEST_CASE("judged frames: the start of a multistep method is no other fall") {
