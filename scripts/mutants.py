@@ -35,6 +35,7 @@ PYTHON_TESTS = {
     "CampaignTest": ROOT / "scripts/tests/test_campaign.py",
     "SlicesTest": ROOT / "scripts/tests/test_slices.py",
     "Judge": ROOT / "scripts/tests/test_judge.py",
+    "JudgeFrames": ROOT / "scripts/tests/test_judge_frames.py",
     "SolverTest": ROOT / "scripts/tests/test_converge_solver.py",
     "PrecisionSolverTest": ROOT / "scripts/tests/test_precision_solver.py",
     "IndependentTest": ROOT / "verification/independent/test_independent.py",

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import h5py
 
-ROOT = Path(__file__).resolve().parents[2]
-PROGRAM = ROOT / "build" / "foldproof"
+from program_case import PROGRAM, ROOT
+
 SEED = 20030726
 CLOCK = 300  # s: what takes longer hangs
 

@@ -1,6 +1,10 @@
 #!/usr/bin/python3
 """Tests `foldproof judge --frames`: frames that the program exported, whole and damaged, as a user
-without an adapter meets them."""
+without an adapter meets them.
+
+scripts/tests/test_judge_frames.py [--program FILE] [JudgeFrames.test_...]
+--program: instead of build/foldproof
+"""
 
 import json
 import shutil
@@ -104,13 +108,14 @@ class JudgeFrames(FileTest):
     def test_a_page_of_frames_speaks_of_no_solver(self) -> None:
         outs = [str(self.path / f"judged_{form}") for form in ("obj", "ply")]
         for form, out in zip(("obj", "ply"), outs):
-            self.judge(form, "--out", out)
+            count = len(self.judge(form, "--out", out))
         for arguments, name in ((outs[:1], "judged_obj/report.html"),
                                 (outs, "judged_ply/compare.html")):
             done = run("report", *arguments)
             self.assertEqual(done.returncode, 0, done.stderr)
             page = (self.path / name).read_text(encoding="utf-8")
             self.assertIn("needs prescribed particles", page)
+            self.assertIn(f"{count} findings on", page)
             for word in ("this solver", "its adapter", "does not offer", "own process"):
                 self.assertNotIn(word, page)
 
