@@ -241,9 +241,12 @@ Finding starts_as_the_reference(const FrameMotion& motion) {
   const double h = first_interval(motion);
   const FreeCentre centre(motion);
   const std::vector<Vector3> reference = reference_centres(motion, centre, h / 2);
-  Table measured{
-      {"time", "s"},       {"reference's displacement", "m"}, {"the frames'", "m"},
-      {"difference", "m"}, {"allowed difference", "m"},       {"measured over allowed", "1"}};
+  Table measured{{"time", "s"},
+                 {"reference's displacement", "m"},
+                 {"the frames'", "m"},
+                 {"distance of both", "m"},
+                 {"allowed difference", "m"},
+                 {"measured over allowed", "1"}};
   for (std::size_t k = 1; 2 * k + 1 < reference.size(); ++k) {
     const Vector3 wanted = reference[2 * k] - reference[0];
     const Vector3 moved = centre.of(motion.frames[k].x) - centre.of(motion.frames[0].x);
