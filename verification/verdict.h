@@ -33,6 +33,10 @@ struct Finding {
   Verdict verdict;
   Table evidence;
   std::string note;  // what a reader must know besides the numbers; may be empty
+  // what was measured, in words and units, where the judged number is another; may be empty
+  std::string headline = {};
+  // of a failure without a number: what happened, alike in findings that fail for the same reason
+  std::string failure = {};
 };
 
 /// Judges the worst number of a column (Table::worst), with the largest uncertainty of the column,

@@ -29,7 +29,7 @@ void require_offered(const PortableScene& scene, Trial& solver) {
   } catch (const NotOffered& missing) {
     throw InputError("the solver does not offer " + missing.operation + ", which the case needs");
   } catch (const SolverFailure& failure) {
-    throw InputError(failure.what());
+    throw InputError(failure.in_one_line());
   }
 }
 
@@ -83,7 +83,7 @@ LevelRun SolverLadder::run_with(long a_frame) {
     run = measured(a_frame, solver_.motion(portable_, at));
   } catch (const SolverFailure& failure) {
     solver_.note(failure);
-    run.stopped = failure.what();
+    run.stopped = failure.in_one_line();
   } catch (const NotOffered& declined) {
     run.stopped = "the solver declines: " + declined.operation;
   }

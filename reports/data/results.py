@@ -50,6 +50,7 @@ class Finding:
     scope: str = ""      # "specific" | "generic" | "structural"
     # "estimated" | "counted" | "within bound" | "computed" | "timed once" | "structural"
     certainty: str = ""
+    headline: str = ""   # what was measured, in words and units, where the judged number is another
 
 
 @dataclass
@@ -346,7 +347,7 @@ def _finding(name: str, group: h5py.Group) -> Finding:
         key: text_of(attributes, key)
         for key in (
             "kind", "study", "claim", "source", "unit", "why_bound", "outcome", "note", "better",
-            "basis", "scope", "certainty"
+            "basis", "scope", "certainty", "headline"
         )
     }
     numbers = {

@@ -34,6 +34,7 @@ class Answer:
     unit: str
     why_bound: str
     note: str
+    headline: str  # what was measured where the judged number is another; may be empty
 
 
 @dataclass(frozen=True)
@@ -95,6 +96,7 @@ def _facts(path: Path) -> dict[str, Any]:
             **{key: str(facts[key]) for key in texts},
             **{key: dict(facts[key]) for key in ("settings", "mapping")},
             "capabilities": [str(one) for one in facts["capabilities"]],
+            "options": [str(one) for one in facts.get("options", [])],
             "order": int(facts["order"]),
             "solve_tolerance": float(facts["solve_tolerance"]),
             **{
@@ -125,4 +127,5 @@ def _answer(row: dict[str, Any]) -> Answer:
         return nan if row[key] is None else float(row[key])
 
     texts = {key: str(row[key]) for key in ("outcome", "unit", "why_bound", "note")}
-    return Answer(measured=number("measured"), bound=number("bound"), **texts)
+    return Answer(measured=number("measured"), bound=number("bound"),
+                  headline=str(row.get("headline", "")), **texts)

@@ -127,8 +127,9 @@ def repeats(trial: Trial, program: str, law: str) -> str:
         return trial.program["command"]
     settings = [f"--settings {shlex.quote(f'{key}={value}')}"
                 for key, value in trial.facts["settings"].items()]
+    options = [shlex.quote(word) for word in trial.facts["options"]]
     words = [program, "judge", "--solver", shlex.quote(trial.facts["command"]), *settings,
-             shlex.quote(law)]
+             *options, shlex.quote(law)]
     return " ".join(words)
 
 

@@ -21,6 +21,7 @@
 #include "scripts/program/ledger.h"
 #include "scripts/program/command_line/out_folder.h"
 #include "scripts/program/command_line/typed_command.h"
+#include "scripts/program/listing.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
 #include "scripts/program/report_commands.h"

@@ -48,12 +48,17 @@ std::vector<Law> chosen_laws(const std::vector<std::string>& names) {
   return laws;
 }
 
-/// The kept verdicts of these laws alone, so that those that are not asked are not missed.
-std::optional<std::vector<KeptVerdict>> baseline_of(const Options& options,
-                                                    const std::vector<Law>& laws) {
+/// The kept verdicts of these laws alone, so that those that are not asked are not missed. Throws
+/// InputError if the baseline has none for a name that was typed: that could only pass.
+std::optional<Baseline> baseline_of(const Options& options, const std::vector<Law>& laws) {
   auto baseline = baseline_of(options);
-  if (baseline && !options.names.empty())
-    std::erase_if(*baseline, [&](const KeptVerdict& kept) {
+  if (!baseline) return {};
+  for (const std::string& name : options.names)
+    if (std::ranges::none_of(baseline->verdicts,
+                             [&](const KeptVerdict& kept) { return chooses(name, kept.name); }))
+      throw InputError(fmt::format("{}: has no verdict on '{}'", options.baseline, name));
+  if (!options.names.empty())
+    std::erase_if(baseline->verdicts, [&](const KeptVerdict& kept) {
       return std::ranges::find(laws, kept.name, &Law::name) == laws.end();
     });
   return baseline;
@@ -89,8 +94,19 @@ nlohmann::json evidence_json(const std::vector<Record>& records, std::string_vie
   return tables;
 }
 
+/// The typed options that may change an outcome, besides --settings.
+std::vector<std::string> options_that_matter(const Options& options) {
+  std::vector<std::string> words;
+  if (options.patience != Options().patience)
+    words.insert(words.end(), {"--seconds", fmt::format("{}", options.patience)});
+  if (options.total_seconds > 0)
+    words.insert(words.end(), {"--total-seconds", fmt::format("{}", options.total_seconds)});
+  return words;
+}
+
 /// What the solver says of itself, and how it was asked; empty texts if it did not start.
-std::string solver_json(const Judgement& judgement, const SolverCommand& command) {
+std::string solver_json(const Judgement& judgement, const SolverCommand& command,
+                        const Options& options) {
   using nlohmann::json;
   const Declaration& d = judgement.declaration;
   const bool started = !d.name.empty();
@@ -106,6 +122,7 @@ std::string solver_json(const Judgement& judgement, const SolverCommand& command
                {"capabilities", d.capabilities},
                {"solve_tolerance", d.solve_tolerance},
                {"command", command.command},
+               {"options", options_that_matter(options)},
                {"settings", json::object()},
                {"mapping", json::object()},
                {"calibration", evidence_json(judgement.records, "calibration.")},
@@ -152,6 +169,8 @@ RunRecord run_of(const Judgement& judgement, double seconds, const Options& opti
   if (run.subject.empty()) run.subject = options.solver;
   run.subject_version = judgement.declaration.version;
   run.records = judgement.records;
+  if (const Declaration& d = judgement.declaration; !d.name.empty())
+    run.declared = {d.level, d.is_single ? "f4" : "f8", d.order, d.solve_tolerance, d.capabilities};
   if (const auto study = error_against_cost(judgement)) run.studies.push_back(*study);
   return run;
 }
@@ -168,8 +187,11 @@ int judge_another_solver(const Options& options) {
   const std::vector<Law> laws = chosen_laws(options.names);
   const auto baseline = baseline_of(options, laws);
   const OutFolder folder(options.out);
-  const SolverCommand command = solver_command(options);
+  SolverCommand command = solver_command(options);
   const auto start = std::chrono::steady_clock::now();
+  if (options.total_seconds > 0)
+    command.limits.end = start + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+                                     std::chrono::duration<double>(options.total_seconds));
   const Judgement judgement = judge_solver(command, laws, [](const Record& record) {
     if (record.outcome == Outcome::fails || record.outcome == Outcome::inconclusive)
       log_line(fmt::format("{} {}", outcome_text(record), record.name));
@@ -177,9 +199,10 @@ int judge_another_solver(const Options& options) {
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const std::string below = judgement.smoke_holds ? "" : smoke_failed;
-  return finish_trial({run_of(judgement, seconds, options), solver_json(judgement, command),
-                       heading(judgement, command), below},
-                      baseline, options);
+  return finish_trial(
+      {run_of(judgement, seconds, options), solver_json(judgement, command, options),
+       heading(judgement, command), below},
+      baseline, options);
 }
 
 int check_subject(const Options& options) {

@@ -53,6 +53,7 @@ struct Options {
   std::vector<std::string> settings;               // of a solver, KEY=VALUE
   std::string baseline;                            // of judge: a kept verdicts.json, or empty
   double patience = 60;                            // of judge, subject: limit of silence [s]
+  double total_seconds = 0;                        // of judge: of the clock; 0: no limit
   std::string integrator = "C", precision = "f8";  // of serve
   std::string engine = "local", engine_options, scratch;  // of campaign
   int slice = 0;  // of campaign: jobs a slice, 0: as the engine likes; of work: number of the slice

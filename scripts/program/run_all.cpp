@@ -124,56 +124,6 @@ void reject_other_kind(const std::string& name, const std::vector<Check>& checks
         fmt::format("'{0}' names checks or cases, and no study; type `foldproof check {0}`", name));
 }
 
-/// Measured and bound with the sign that holds between them, as "0.02 <= 0.05 m".
-std::string comparison(const Record& record) {
-  const Verdict& v = record.finding.verdict;
-  const std::string unit = v.unit == "1" ? "" : v.unit;
-  const auto row = [&](const char* word, int digits) {
-    return fmt::format("{:>11.{}g} {:<2} {:<9.{}g} {}", v.measured, digits, word, v.bound, digits,
-                       unit);
-  };
-  if (record.kind == "bench") return row("target", 4);
-  if (std::isnan(v.measured)) return fmt::format("{:>11}", "no number");
-  if (v.measured + v.uncertainty <= v.bound) return row("<=", 4);
-  if (v.measured - v.uncertainty > v.bound && v.uncertainty >= 0) {
-    int digits = 4;  // as many as show the difference
-    while (digits < 17 &&
-           fmt::format("{:.{}g}", v.measured, digits) == fmt::format("{:.{}g}", v.bound, digits))
-      ++digits;
-    return row(">", digits);
-  }
-  return fmt::format("{:>11.4g} +- {:.2g}, allowed {:.4g} {}", v.measured, v.uncertainty, v.bound,
-                     unit);
-}
-
-/// The row of a finding, `count` times if more did not run for the same reason.
-std::string listing_row(const Record& record, long count) {
-  const Finding& finding = record.finding;
-  const auto row = [&](const std::string& name, const std::string& words) {
-    return fmt::format("{:<14} {:<60} {}\n", outcome_text(record), name, words);
-  };
-  if (did_not_run(record) && count > 1)
-    return row(fmt::format("{} and {} more", record.name, count - 1), finding.note);
-  if (did_not_run(record) || record.outcome == Outcome::not_applicable)
-    return row(record.name, finding.note);
-  std::string text = row(record.name, comparison(record));
-  if (record.outcome != Outcome::fails) return text;
-  const auto add = [&](const std::string& line) { text += fmt::format("{:<14} {}\n", "", line); };
-  add(record.claim);
-  const bool has_number = !std::isnan(finding.verdict.measured);
-  add((has_number ? "The bound: " : "Required: ") + finding.verdict.why_bound);
-  if (!finding.note.empty()) add("Note: " + finding.note);
-  return text;
-}
-
-/// The end of the records, from this one on, that did not run for its reason.
-std::vector<Record>::const_iterator end_of_unrun(std::vector<Record>::const_iterator at,
-                                                 std::vector<Record>::const_iterator end) {
-  return std::find_if(at, end, [&](const Record& record) {
-    return !did_not_run(record) || record.finding.note != at->finding.note;
-  });
-}
-
 }  // namespace
 
 bool chooses(const std::string& wanted, const std::string& name) {
@@ -257,7 +207,7 @@ bool has_too_many_empirical_bounds(const RunRecord& run) {
 
 int exit_code(const RunRecord& run) {
   const auto is_bad = [](const Record& r) {
-    return r.outcome == Outcome::fails || r.outcome == Outcome::inconclusive;
+    return r.outcome == Outcome::fails || r.outcome == Outcome::inconclusive || did_not_run(r);
   };
   const auto is_wrong = [&](const ClaimRecord& c) {
     return outcome_of(c) == Outcome::fails ||
@@ -267,16 +217,6 @@ int exit_code(const RunRecord& run) {
                       std::none_of(run.records.begin(), run.records.end(), is_bad) &&
                       std::none_of(run.claims.begin(), run.claims.end(), is_wrong);
   return passes ? 0 : 1;
-}
-
-std::string listing(const RunRecord& run) {
-  std::string text;
-  for (auto at = run.records.begin(); at != run.records.end();) {
-    const auto end = did_not_run(*at) ? end_of_unrun(at, run.records.end()) : at + 1;
-    text += listing_row(*at, end - at);
-    at = end;
-  }
-  return text;
 }
 
 }  // namespace foldproof

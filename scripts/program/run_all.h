@@ -55,9 +55,4 @@ bool has_too_many_empirical_bounds(const RunRecord& run);
 /// the full tier only, unless it says what no run has.
 int exit_code(const RunRecord& run);
 
-/// A line for each finding: outcome, name, measured, bound, unit; below one that fails, its
-/// claim, the reason of the bound, and its note. Findings in a row that did not run for one
-/// reason share a line.
-std::string listing(const RunRecord& run);
-
 }  // namespace foldproof

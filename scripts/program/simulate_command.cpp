@@ -16,6 +16,7 @@
 #include "scripts/program/run_all.h"
 #include "scripts/program/run_case.h"
 #include "scripts/program/command_line/typed_command.h"
+#include "scripts/program/listing.h"
 
 namespace foldproof {
 

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "scripts/program/listing.h"
 #include "scripts/program/run_all.h"
 #include "verification/files/atomic_file.h"
 #include "verification/files/verdicts_file.h"
@@ -19,8 +20,10 @@ std::string changes_text(const BaselineChanges& changes) {
                                     {"better", &changes.better},
                                     {"neither worse nor better", &changes.other}})
     for (const std::string& line : *lines) text += fmt::format("{}: {}\n", word, line);
-  return text + fmt::format("against the baseline: {} worse, {} better\n", changes.worse.size(),
-                            changes.better.size());
+  const std::string other =
+      changes.other.empty() ? "" : fmt::format(", {} neither", changes.other.size());
+  return text + fmt::format("against the baseline: {} worse, {} better{}\n", changes.worse.size(),
+                            changes.better.size(), other);
 }
 
 void write_results(const std::string& folder, const TrialOutput& trial,
@@ -36,16 +39,16 @@ void write_results(const std::string& folder, const TrialOutput& trial,
 
 }  // namespace
 
-std::optional<std::vector<KeptVerdict>> baseline_of(const Options& options) {
+std::optional<Baseline> baseline_of(const Options& options) {
   if (options.baseline.empty()) return {};
   return read_baseline(options.baseline);
 }
 
-int finish_trial(const TrialOutput& trial, const std::optional<std::vector<KeptVerdict>>& baseline,
+int finish_trial(const TrialOutput& trial, const std::optional<Baseline>& baseline,
                  const Options& options) {
   const RunRecord& run = trial.run;
   std::optional<BaselineChanges> changes;
-  if (baseline) changes = changes_since(*baseline, run.records);
+  if (baseline) changes = changes_since(*baseline, run);
   write_results(options.out, trial, changes);
   if (options.json)
     fmt::print("{}", verdicts_json(run));

@@ -18,10 +18,10 @@ struct TrialOutput {
 };
 
 /// The kept verdicts of --baseline, if it was typed.
-std::optional<std::vector<KeptVerdict>> baseline_of(const Options& options);
+std::optional<Baseline> baseline_of(const Options& options);
 
 /// Writes the folder of --out, prints, compares with the baseline; returns the exit code.
-int finish_trial(const TrialOutput& trial, const std::optional<std::vector<KeptVerdict>>& baseline,
+int finish_trial(const TrialOutput& trial, const std::optional<Baseline>& baseline,
                  const Options& options);
 
 }  // namespace foldproof

@@ -18,6 +18,7 @@ import tempfile
 import unittest
 from pathlib import Path
 from typing import Any
+from unittest import mock
 
 sys.dont_write_bytecode = True
 
@@ -232,7 +233,11 @@ class Judge(unittest.TestCase):
 
     def test_failing_lines_say_what_is_true(self) -> None:
         done = run("judge", "--solver", bad("wrong", "gravity_scaled"), "gravity")
-        self.assertRegex(done.stdout, r"fails +gravity\.speed-grows-by-g-t +[\d.e+]+ >  1 ")
+        self.assertRegex(
+            done.stdout, r"fails +gravity\.speed-grows-by-g-t +of the mean velocity along gravity, "
+            r"error 0\.02 g t\n"
+        )
+        self.assertRegex(done.stdout, r"Judged: [\d.e+]+ >  1 ")
         self.assertNotRegex(done.stdout, r"fails .*<=")
         done = run("judge", "--solver", bad("broken", "crash"), "smoke")
         self.assertRegex(done.stdout, r"fails +smoke\.\S+ +no number")
@@ -279,11 +284,80 @@ class Judge(unittest.TestCase):
         self.assertEqual(done.returncode, 1)
         self.assertIn(
             (
-                "crashed with signal 11 (Segmentation fault) (during 'advance'); its last words: "
-                "about to touch address 0"
+                "crashed with signal 11 (Segmentation fault) during 'advance' by 20 steps of 0.002 "
+                "s, after 0 of 20 steps, in the scene 'sheet at rest'; its last words: about to "
+                "touch address 0"
             ),
             done.stdout,
         )
+
+    def test_the_same_failure_is_told_once_and_names_its_laws(self) -> None:
+        out = self.path / "crash"
+        done = run("judge", "--solver", bad("broken", "crash"), "--out", str(out))
+        self.assertEqual(done.stdout.count("about to touch address 0"), 2)  # advance and step alike
+        shared = re.search(r"The same in (\d+) more laws:(.*?)\n(?! )", done.stdout, re.S)
+        names = re.findall(r"[a-z]+\.[a-z0-9-]+", shared.group(2))
+        self.assertEqual(len(names), int(shared.group(1)))
+        rows = json.loads((out / "verdicts.json").read_text(encoding="utf-8"))["findings"]
+        failed = [row for row in rows if row["outcome"] == "fails"]
+        self.assertEqual([row["name"] for row in failed][1:], names)
+        self.assertTrue(all("crashed with signal 11" in row["note"] for row in failed))
+        xml = (out / "junit.xml").read_text(encoding="utf-8")
+        self.assertEqual(xml.count("<failure "), len(failed))
+        self.assertNotIn("nan", xml)
+
+    def test_laws_beyond_the_total_time_did_not_run_and_fail_the_command(self) -> None:
+        done = run("judge", "--solver", TOY, "--total-seconds", "0.5")
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertRegex(done.stdout, r" 0 fail, 0 inconclusive, .* did not run\n$")
+        self.assertIn("the time of the trial was up during", done.stdout)
+
+    def test_the_report_repeats_what_was_typed(self) -> None:
+        out = self.path / "typed"
+        run("judge", "--solver", TOY, "smoke", "--seconds", "7.5", "--total-seconds", "90",
+            "--settings", "a=b c", "--out", str(out))
+        self.assertEqual(run("report", str(out)).returncode, 0)
+        text = (out / "report.html").read_text(encoding="utf-8")
+        self.assertIn(
+            "--settings &#39;a=b c&#39; --seconds 7.5 --total-seconds 90 smoke.sheet-at-rest-stays",
+            text,
+        )
+
+    def test_a_named_law_that_the_baseline_lacks_is_refused(self) -> None:
+        kept = self.path / "few"
+        run("judge", "--solver", TOY, "smoke", "held", "--out", str(kept))
+        baseline = str(kept / "verdicts.json")
+        done = run("judge", "--solver", TOY, "held", "gravity", "--baseline", baseline)
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
+        self.assertIn("has no verdict on 'gravity'", done.stderr)
+        looser = f"exec '{PROGRAM}' serve --integrator A"
+        run("judge", "--solver", looser, "smoke", "--out", str(kept))
+        done = run("judge", "--solver", looser + " --precision f4", "smoke", "--baseline", baseline)
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertIn("worse: the solver declares f4; the baseline f8: bounds are wider",
+                      done.stdout)
+
+    def test_progress_is_told_at_most_once_a_second(self) -> None:
+        told = []
+
+        class Sink:
+            def write(self, data: bytes) -> None:
+                told.append(json.loads(data.splitlines()[0]))
+
+            def flush(self) -> None:
+                pass
+
+        sys.path.insert(0, str(SUBJECTS / "adapters"))
+        import foldproof_solver as helper
+        pipe = helper.Pipe(None, Sink())
+        with mock.patch.object(helper.time, "monotonic", side_effect=lambda: self.clock):
+            for tenths in range(35):
+                self.clock = pipe.told + 1 if tenths in (10, 20, 30) else pipe.told + 0.9
+                pipe.send_progress(7, tenths / 35)
+        self.assertEqual([one["progress"] for one in told], [10 / 35, 20 / 35, 30 / 35])
+        for header in told:
+            self.assertEqual(header["id"], 7)
+            validator("answer").validate(header)
 
     def test_judged_solvers_stand_on_one_page(self) -> None:
         """The toys, a wrong one and the reference, as `foldproof report` shows them."""

@@ -39,6 +39,7 @@ enum class Change { none, worse, better, other };
 Change change_of(const KeptVerdict& kept, const Record& now) {
   const Verdict& verdict = now.finding.verdict;
   const int before = badness(kept.outcome), after = badness(outcome_text(now));
+  if (did_not_run(now) && before < 0) return Change::other;  // it might not apply today, either
   if (after < 0) return before == 0 ? Change::worse : before < 0 ? Change::none : Change::other;
   if (after != before) return after > std::max(before, 0) ? Change::worse : Change::better;
   if (after == 0) return Change::none;
@@ -66,15 +67,45 @@ KeptVerdict kept_verdict(const nlohmann::json& row) {
   throw InputError(fmt::format("the outcome of {} is '{}'", kept.name, kept.outcome));
 }
 
+Declared kept_declaration(const nlohmann::json& row) {
+  return {row.at("level").get<int>(), row.at("precision").get<std::string>(),
+          row.at("order").get<int>(), row.at("solve_tolerance").get<double>(),
+          row.at("capabilities").get<std::vector<std::string>>()};
+}
+
+/// What widens bounds is worse; what makes laws not applicable is told, and those laws are counted.
+void compare(const Declared& was, const Declared& is, BaselineChanges& changes) {
+  const auto looser = [&](const std::string& now, const std::string& before) {
+    changes.looser.push_back(
+        fmt::format("the solver declares {}; the baseline {}: bounds are wider", now, before));
+  };
+  if (is.precision == "f4" && was.precision == "f8") looser("f4", "f8");
+  if (is.order < was.order)
+    looser(fmt::format("order {}", is.order), fmt::format("order {}", was.order));
+  if (is.solve_tolerance > was.solve_tolerance)
+    looser(fmt::format("solve_tolerance {:g}", is.solve_tolerance),
+           fmt::format("{:g}", was.solve_tolerance));
+  changes.worse = changes.looser;
+  if (is.level < was.level)
+    changes.other.push_back(fmt::format(
+        "the solver declares level L{}; the baseline L{}: fewer laws apply", is.level, was.level));
+  for (const std::string& one : was.capabilities)
+    if (std::ranges::find(is.capabilities, one) == is.capabilities.end())
+      changes.other.push_back(fmt::format(
+          "the solver no longer declares '{}', which the baseline does: fewer laws apply", one));
+}
+
 }  // namespace
 
-std::vector<KeptVerdict> read_baseline(const std::string& path) {
-  std::vector<KeptVerdict> kept;
+Baseline read_baseline(const std::string& path) {
+  Baseline baseline;
+  std::vector<KeptVerdict>& kept = baseline.verdicts;
   std::set<std::string> names;
   try {
     std::ifstream file(path);
     if (!file) throw InputError("it cannot be opened");
     const nlohmann::json whole = nlohmann::json::parse(file);
+    if (whole.contains("declaration")) baseline.declared = kept_declaration(whole["declaration"]);
     for (const nlohmann::json& row : whole.at("findings")) {
       if (row.at("kind") == "claim") continue;
       kept.push_back(kept_verdict(row));
@@ -86,15 +117,15 @@ std::vector<KeptVerdict> read_baseline(const std::string& path) {
   } catch (const std::exception& error) {
     throw InputError(fmt::format("{}: no verdicts.json of a finished run: {}", path, error.what()));
   }
-  return kept;
+  return baseline;
 }
 
-BaselineChanges changes_since(const std::vector<KeptVerdict>& kept,
-                              const std::vector<Record>& records) {
+BaselineChanges changes_since(const Baseline& kept, const RunRecord& run) {
   std::map<std::string, KeptVerdict> before;
-  for (const KeptVerdict& one : kept) before.emplace(one.name, one);
+  for (const KeptVerdict& one : kept.verdicts) before.emplace(one.name, one);
   BaselineChanges changes;
-  for (const Record& now : records) {
+  if (kept.declared && run.declared) compare(*kept.declared, *run.declared, changes);
+  for (const Record& now : run.records) {
     const Verdict& verdict = now.finding.verdict;
     const std::string is = phrase(outcome_text(now), verdict.measured, verdict.bound);
     const auto old = before.extract(now.name);

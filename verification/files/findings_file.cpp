@@ -25,6 +25,7 @@ void write_record(const Hdf5& parent, const Record& record, int order) {
   here.attribute("certainty", std::string(name_of(certainty_of(record))));
   here.attribute("outcome", std::string(outcome_text(record)));
   here.attribute("note", record.finding.note);
+  if (!record.finding.headline.empty()) here.attribute("headline", record.finding.headline);
   here.attribute("seconds", record.seconds);
   here.attribute("faults", record.faults);
   if (!record.better.empty()) here.attribute("better", record.better);

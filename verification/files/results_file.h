@@ -1,6 +1,7 @@
 // A run as HDF5: its findings, studies, cases and seeded faults.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,15 @@ struct RunOrigin {
   std::string text() const;
 };
 
+/// What a solver on trial declares, as far as bounds and what is asked of it depend on it.
+struct Declared {
+  int level = 0;
+  std::string precision;  // "f4" or "f8"
+  int order = 0;          // claimed; 0: none
+  double solve_tolerance = 0;
+  std::vector<std::string> capabilities;
+};
+
 struct RunRecord {
   Provenance provenance;
   std::string tier, subject, subject_version;
@@ -38,6 +48,7 @@ struct RunRecord {
   std::vector<ClaimRecord> claims;
   // of a run that was interrupted and went on: where its parts come from, the oldest first
   std::vector<RunOrigin> origins;
+  std::optional<Declared> declared;  // of a solver on trial that started
 };
 
 /// The texts of all origins, or "" for a run that was never interrupted.

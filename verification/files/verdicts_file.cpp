@@ -18,23 +18,33 @@ nlohmann::json number(double value) {
 
 nlohmann::json to_json(const Record& record) {
   const Verdict& verdict = record.finding.verdict;
-  return {{"name", record.name},
-          {"kind", record.kind},
-          {"study", record.study},
-          {"claim", record.claim},
-          {"source", record.source},
-          {"measured", number(verdict.measured)},
-          {"uncertainty", number(verdict.uncertainty)},
-          {"bound", number(verdict.bound)},
-          {"unit", verdict.unit},
-          {"why_bound", verdict.why_bound},
-          {"basis", has_empirical_bound(record) ? "empirical" : "reasoned"},
-          {"scope", name_of(scope_of(record))},
-          {"certainty", name_of(certainty_of(record))},
-          {"outcome", outcome_text(record)},
-          {"note", record.finding.note},
-          {"seconds", record.seconds},
-          {"faults", record.faults}};
+  nlohmann::json row = {{"name", record.name},
+                        {"kind", record.kind},
+                        {"study", record.study},
+                        {"claim", record.claim},
+                        {"source", record.source},
+                        {"measured", number(verdict.measured)},
+                        {"uncertainty", number(verdict.uncertainty)},
+                        {"bound", number(verdict.bound)},
+                        {"unit", verdict.unit},
+                        {"why_bound", verdict.why_bound},
+                        {"basis", has_empirical_bound(record) ? "empirical" : "reasoned"},
+                        {"scope", name_of(scope_of(record))},
+                        {"certainty", name_of(certainty_of(record))},
+                        {"outcome", outcome_text(record)},
+                        {"note", record.finding.note},
+                        {"seconds", record.seconds},
+                        {"faults", record.faults}};
+  if (!record.finding.headline.empty()) row["headline"] = record.finding.headline;
+  return row;
+}
+
+nlohmann::json to_json(const Declared& d) {
+  return {{"level", d.level},
+          {"precision", d.precision},
+          {"order", d.order},
+          {"solve_tolerance", d.solve_tolerance},
+          {"capabilities", d.capabilities}};
 }
 
 nlohmann::json to_json(const ClaimRecord& record) {
@@ -74,13 +84,21 @@ const char* junit_kind(const Record& record, const BaselineChanges* changes) {
   return changes || record.outcome == Outcome::not_applicable ? "skipped" : "failure";
 }
 
-std::string junit_case(const Record& record, const BaselineChanges* changes) {
+/// What was measured and allowed; without a number, what was required.
+std::string numbers_of(const Record& record) {
   const Verdict& v = record.finding.verdict;
+  if (std::isnan(v.measured))
+    return v.why_bound.empty() ? "no number" : "no number; required: " + v.why_bound;
+  const std::string judged = fmt::format("measured {:.6g}, uncertainty {:.3g}, bound {:.6g} [{}]",
+                                         v.measured, v.uncertainty, v.bound, v.unit);
+  return record.finding.headline.empty() ? judged : record.finding.headline + "; " + judged;
+}
+
+std::string junit_case(const Record& record, const BaselineChanges* changes) {
   std::string text = fmt::format("  <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\"",
                                  record.kind, xml_text(record.name), record.seconds);
-  const std::string message = xml_text(
-      fmt::format("measured {:.6g}, uncertainty {:.3g}, bound {:.6g} [{}]. {} {}", v.measured,
-                  v.uncertainty, v.bound, v.unit, record.claim, record.finding.note));
+  const std::string message =
+      xml_text(fmt::format("{}. {} {}", numbers_of(record), record.claim, record.finding.note));
   const std::string kind = junit_kind(record, changes);
   if (kind.empty()) return text + "/>\n";
   const bool is_known = changes && kind == "skipped" && record.outcome != Outcome::not_applicable;
@@ -113,12 +131,21 @@ std::string junit_xml(const RunRecord& run, const BaselineChanges* changes) {
     skipped += outcome_of(claim) == Outcome::inconclusive;
     cases += junit_case(claim);
   }
+  const size_t laws = run.records.size() + run.claims.size();
+  const bool is_looser = changes && !changes->looser.empty();
+  if (is_looser) {
+    ++failures;
+    cases += fmt::format(
+        "  <testcase classname=\"declaration\" name=\"declaration\" time=\"0\">\n    <failure "
+        "message=\"{}\"/>\n  </testcase>\n",
+        xml_text(fmt::format("{}", fmt::join(changes->looser, "; "))));
+  }
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"foldproof\" tests=\"{}\" "
       "failures=\"{}\" errors=\"{}\" skipped=\"{}\" time=\"{:.3f}\" "
       "timestamp=\"{}\">\n{}</testsuite>\n",
-      run.records.size() + run.claims.size(), failures, errors, skipped, run.seconds,
-      xml_text(run.provenance.date), cases);
+      laws + is_looser, failures, errors, skipped, run.seconds, xml_text(run.provenance.date),
+      cases);
 }
 
 }  // namespace
@@ -140,6 +167,7 @@ std::string verdicts_json(const RunRecord& run) {
                            {"seed", run.seed},
                            {"subject", run.subject}}},
                          {"findings", nlohmann::json::array()}};
+  if (run.declared) json["declaration"] = to_json(*run.declared);
   if (!run.origins.empty()) json["program"]["parts"] = origins_text(run);
   for (const Record& record : run.records) json["findings"].push_back(to_json(record));
   for (const ClaimRecord& claim : run.claims) json["findings"].push_back(to_json(claim));
@@ -166,8 +194,11 @@ std::string xml_text(const std::string& text) {
       case '\'':
         out += "&apos;";
         break;
+      case '\n':
+        out += "&#10;";  // in an attribute a plain one becomes a blank
+        break;
       default:
-        out += static_cast<unsigned char>(c) < 32 && c != '\n' && c != '\t' ? ' ' : c;
+        out += static_cast<unsigned char>(c) < 32 && c != '\t' ? ' ' : c;
     }
   for (const char* const none : {"\uFFFE", "\uFFFF"})  // the two that are UTF-8 and no XML
     for (std::size_t at = out.find(none); at != std::string::npos; at = out.find(none, at))

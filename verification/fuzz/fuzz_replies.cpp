@@ -38,7 +38,7 @@ bool are_the_bytes(const std::vector<double>& numbers, const std::string& bytes)
 }
 
 void ask_array(const std::string& bytes, bool is_single) {
-  const std::vector<double> numbers = as_numbers(bytes, is_single, "x");
+  const std::vector<double> numbers = as_numbers(bytes, is_single, {"x", {long(bytes.size()), 3}});
   for (const double number : numbers) require(std::isfinite(number), "numbers are finite");
   require(is_single ? are_the_bytes<float>(numbers, bytes) : are_the_bytes<double>(numbers, bytes),
           "numbers are those that were sent");

@@ -1,13 +1,40 @@
-// Solvers of wrong materials and wrong contact: each is found by the law that it breaks.
+// Solvers of wrong materials and wrong contact: each is found by the law that it breaks. And what a
+// trial says: where a solver failed, when its time is up, what cannot be told, what was measured.
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <chrono>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "verification/subjects/suite/headlines.h"
+#include "verification/subjects/suite/scenes.h"
 #include "verification/tests/wrong_solvers.h"
 
 namespace foldproof {
+
+namespace {
+
+SolverCommand broken(const std::string& kind) {
+  SolverCommand command = python("bad/broken.py " + kind);
+  command.limits.seconds = 20;
+  return command;
+}
+
+/// Of two steps of the small sheet.
+SolverFailure failure_of(const SolverCommand& command) {
+  try {
+    PipedSolver solver(command);
+    solver.prepare(suite::small_sheet());
+    solver.advance(1e-3, 2);
+  } catch (const SolverFailure& failure) {
+    return failure;
+  }
+  return {"none", "nothing failed"};
+}
+
+}  // namespace
 
 TEST_CASE("subject: parameters that mean something else are found") {
   const std::string young = "calibration.young-s-modulus-is-the-scene-s",
@@ -270,6 +297,90 @@ TEST_CASE("subject: correct contact with round bodies raises no alarm") {
   // a slow one
   const std::vector<Law> laws = laws_of({"ball.falling", "capstan.strip"});
   CHECK(failing_laws("on_round_bodies_backward_euler", laws) == std::set<std::string>{});
+}
+
+TEST_CASE("subject: a failure names its operation, scene, step and the steps before it") {
+  CHECK_THAT(
+      failure_of(broken("crash")).what(),
+      Catch::Matchers::Contains(
+          "during 'advance' by 2 steps of 0.001 s, after 0 steps, in the scene 'small sheet'"));
+  Trial trial(broken("late_crash"));
+  try {
+    trial.motion(suite::moving_sheet(), {5, 10, 20});
+    FAIL("it crashes");
+  } catch (const SolverFailure& failure) {
+    CHECK_THAT(failure.what(),
+               Catch::Matchers::Contains("during 'advance' by 10 steps of 0.002 s, after 10 of 20 "
+                                         "steps, in the scene 'moving sheet'"));
+    CHECK(failure.kind == "the solver crashed with signal 11 (Segmentation fault)");
+  }
+}
+
+TEST_CASE("subject: a solver that tells its progress may take longer than the limit of silence") {
+  SolverCommand command = broken("tells_progress");
+  command.limits.seconds = 2;
+  CHECK(failure_of(command).cause == "none");
+}
+
+TEST_CASE("subject: last words keep their lines, the last ten of them") {
+  const SolverFailure failure = failure_of(broken("last_lines"));
+  const std::string text = failure.what();
+  CHECK(text.find("its last words:\n    line 3\n    line 4\n") != std::string::npos);
+  CHECK(text.ends_with("\n    line 11\n      indented"));
+  CHECK(failure.in_one_line().find('\n') == std::string::npos);
+}
+
+TEST_CASE("subject: laws that the time of the trial does not reach did not run") {
+  SolverCommand command = python("bad/wrong.py sleeps");
+  command.limits.end = std::chrono::steady_clock::now() + std::chrono::milliseconds(700);
+  const auto start = std::chrono::steady_clock::now();
+  const Judgement judgement = judge_solver(command, portable_laws(), ignore);
+  CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(3));
+  const Record& last = judgement.records.back();
+  CHECK(
+      (did_not_run(last) && last.finding.note.starts_with("the time of the trial was up during")));
+  CHECK(std::ranges::none_of(judgement.records, [](const Record& record) {
+    return record.outcome == Outcome::fails || record.outcome == Outcome::inconclusive;
+  }));
+}
+
+TEST_CASE("subject: nothing follows from bounds that a declared tolerance makes too wide") {
+  const std::vector<Record> records =
+      judge_solver(python("bad/wrong.py stands_still_to_half"),
+                   laws_of({"rest.no", "inertia", "gravity", "momentum.linear-is", "symmetry",
+                            "vibration.undamped"}),
+                   ignore)
+          .records;
+  CHECK(records.size() == 12);
+  for (const Record& record : records) {
+    INFO(record.name << ": " << record.finding.note);
+    CHECK(record.outcome == Outcome::inconclusive);
+    CHECK(record.finding.note.find("solve_tolerance 0.5") != std::string::npos);
+  }
+}
+
+TEST_CASE("subject: the headline of a law is what it measured") {
+  std::vector<Law> laws;
+  for (const HeadlineColumns& one : headline_columns())
+    laws.push_back(laws_of({std::string(one.law)}).at(0));
+  long with_evidence = 0;
+  for (const char* kind : {"none", "on_planes", "damped"})
+    for (const Record& record :
+         judge_solver(python(std::string("bad/wrong.py ") + kind), laws, ignore).records) {
+      const bool has_evidence = record.finding.evidence.rows() > 0;
+      with_evidence += has_evidence;
+      CHECK(record.finding.headline.empty() == !has_evidence);
+    }
+  CHECK(with_evidence > 15);
+  const auto headline = [](const char* kind, const char* law) {
+    return judge_solver(python(std::string("bad/wrong.py ") + kind), laws_of({law}), ignore)
+        .records.at(0)
+        .finding.headline;
+  };
+  CHECK_THAT(headline("first_order_as_second", "order.observed"),
+             Catch::Matchers::Contains("observed 1.0") && Catch::Matchers::EndsWith("claimed 2"));
+  CHECK_THAT(headline("sticks_to_planes", "contact.slips"),
+             Catch::Matchers::Contains(", the most that is tried"));
 }
 
 }  // namespace foldproof

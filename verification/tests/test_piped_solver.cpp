@@ -76,6 +76,8 @@ TEST_CASE("subject: a hang is told when its time is up") {
   command.limits.seconds = 8;  // long enough for a loaded machine to start Python
   const SolverFailure failure = failure_of(command);
   CHECK(failure.cause == "hang");
+  CHECK(std::string(failure.what()).find("did not answer within 8 s (--seconds)") !=
+        std::string::npos);
   CHECK(std::string(failure.what()).find("last words: thinking") != std::string::npos);
 }
 
@@ -88,7 +90,7 @@ TEST_CASE("subject: answers of the wrong length are told") {
 
 TEST_CASE("subject: arrays of the wrong shape and numbers that are not finite are told") {
   require_failure("wrong_shape", "shape", "shape [10,2] instead of [10,3]");
-  require_failure("nan", "nan", "sent nan as number 5 of array 'x'");
+  require_failure("nan", "nan", "sent nan for particle 1, z coordinate, of array 'x'");
 }
 
 TEST_CASE("subject: headers that are no answer are told") {

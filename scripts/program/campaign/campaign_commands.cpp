@@ -13,6 +13,7 @@
 #include "scripts/program/campaign/run_job.h"
 #include "scripts/program/campaign/standing.h"
 #include "scripts/program/campaign/standing_text.h"
+#include "scripts/program/listing.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/report_commands.h"
 #include "scripts/program/run_all.h"

@@ -60,6 +60,13 @@ void add_judge(CLI::App& app, Options& options) {
       ->check(some_text("a file"));
   add_solver_options(judge, options);
   judge->get_option("--settings")->needs("--solver");
+  judge
+      ->add_option("--total-seconds", options.total_seconds,
+                   "Longest time of all laws together [s] (default: no limit); laws that it does "
+                   "not reach did not run")
+      ->type_name("S")
+      ->check(positive_number())
+      ->needs(solver);
   add_out_if_typed(judge, options,
                    "Also write run.h5, verdicts.json, junit.xml and solver.json into this folder");
   add_json(judge, options);

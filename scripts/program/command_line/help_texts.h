@@ -101,8 +101,8 @@ crossings, depth in objects, strain, folds, energy, and what the case expects.
 CMD starts an adapter that speaks the protocol of verification/subjects/PROTOCOL.md, in a process of
 its own. Simple laws (smoke) come first: if one fails, suspect the adapter. If the solver crashes,
 hangs or answers nonsense, the current law fails and shows its last output; the next law then runs.
-If it cannot be started, or hangs a third time, the laws that are left do not run. Name laws or
-groups to judge only those, such as: contact symmetry.mirror
+If it cannot be started, hangs a third time, or --total-seconds are over, the laws that are left do
+not run. Name laws or groups to judge only those, such as: contact symmetry.mirror
 
 Examples:
   foldproof judge --frames my_frames --case drape_sphere --rate 60 --out mine
@@ -110,7 +110,7 @@ Examples:
 
 Exit codes:
   0    every law holds, or does not apply; with --baseline: nothing got worse
-  1    a law fails; with --baseline: something got worse
+  1    a law fails, is inconclusive or did not run; with --baseline: something got worse
   2    bad input)";
 
 constexpr const char* subject =

@@ -9,9 +9,12 @@
 //   int main() { Mine mine; return foldproof_solver::serve(mine); }
 #pragma once
 
+#include <algorithm>
+#include <chrono>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -65,6 +68,13 @@ struct Solver {
   virtual double energy() { throw Declined("energy"); }
   /// Work since the last answer, counted in units of your own; null: not counted.
   virtual Json work() { return nullptr; }
+
+  /// To be called after each step of a long `advance`, with the part that is done, 0 to 1: says at
+  /// most once a second that the solver is at work, so that it is not taken to hang.
+  void progress(double part) const {
+    if (tell) tell(part);
+  }
+  std::function<void(double)> tell;  // set by serve()
 };
 
 namespace detail {
@@ -219,6 +229,17 @@ inline void perform(Solver& solver, const Scene& message, Answer& answer) {
   }
 }
 
+/// Sends progress on a call, at most once a second.
+inline std::function<void(double)> teller(int out, const Json& id) {
+  using Clock = std::chrono::steady_clock;
+  return [out, id, told = Clock::now()](double part) mutable {
+    if (Clock::now() - told < std::chrono::seconds(1)) return;
+    told = Clock::now();
+    write_all(out,
+              Json({{"id", id}, {"progress", std::min(std::max(part, 0.0), 1.0)}}).dump() + "\n");
+  };
+}
+
 }  // namespace detail
 
 /// Answers until `stop` or the end of the pipe; returns the exit code.
@@ -228,6 +249,7 @@ inline int serve(Solver& solver) {
     Scene message{Json::parse(line), {}, {}};
     detail::read_arrays(in, message);
     detail::Answer answer;
+    solver.tell = detail::teller(out, message.header["id"]);
     try {
       detail::perform(solver, message, answer);
     } catch (const Declined& reason) {

@@ -25,6 +25,9 @@ export class Solver {
   forces() { throw new Declined('forces'); }
   damping() { throw new Declined('damping forces'); }
   energy() { throw new Declined('energy'); }
+  /// To be called after each step of a long advance, with the part that is done, 0 to 1: says at
+  /// most once a second that the solver is at work, so that it is not taken to hang.
+  progress(part) { this.tell?.(part); }
 }
 
 function read(count, descriptor, bytes = Buffer.alloc(count)) {
@@ -116,6 +119,12 @@ export function serve(solver) {
   for (let message; (message = receive(source));) {
     const { header, arrays } = message, id = header.id;
     if (header.op === 'stop') return send(sink, { id });
+    let told = performance.now();  // ms
+    solver.tell = part => {
+      if (performance.now() - told < 1000) return;
+      told = performance.now();
+      send(sink, { id, progress: Math.min(Math.max(part, 0), 1) });
+    };
     try {
       const [fields, sent] = answer(solver, header, arrays);
       send(sink, { id, ...fields }, sent);

@@ -14,12 +14,14 @@ from __future__ import annotations
 import json
 import os
 import sys
+import time
 import traceback
-from typing import Any, BinaryIO
+from typing import Any, BinaryIO, Callable
 
 import numpy as np
 
 PROTOCOL = 1
+SECONDS_BETWEEN_PROGRESS = 1.0
 TYPES = {"f8": "<f8", "f4": "<f4", "i4": "<i4"}
 
 
@@ -51,6 +53,13 @@ class Solver:
     solve_tolerance = 0.0  # relative residual of linear systems; 0 where none is solved
     x: np.ndarray
     v: np.ndarray
+    tell: Callable[[float], None] | None = None  # set by serve()
+
+    def progress(self, part: float) -> None:
+        """To be called after each step of a long `advance`, with the part that is done, 0 to 1: says
+        at most once a second that the solver is at work, so that it is not taken to hang."""
+        if self.tell:
+            self.tell(part)
 
     def prepare(self, scene: Scene) -> dict[str, str]:
         raise Declined("scenes")
@@ -76,12 +85,19 @@ class Pipe:
 
     def __init__(self, source: BinaryIO, sink: BinaryIO) -> None:
         self.source, self.sink = source, sink
+        self.told = time.monotonic()  # when something was received, or progress was sent
+
+    def send_progress(self, identity: int, part: float) -> None:
+        if time.monotonic() - self.told >= SECONDS_BETWEEN_PROGRESS:
+            self.told = time.monotonic()
+            self.send({"id": identity, "progress": min(max(float(part), 0.0), 1.0)})
 
     def receive(self) -> tuple[dict[str, Any], dict[str, np.ndarray]] | None:
         line = self.source.readline()
         if not line:
             return None
         header = json.loads(line)
+        self.told = time.monotonic()
         arrays = {}
         for entry in header.get("arrays", []):
             kind, shape = np.dtype(TYPES[entry["type"]]), entry["shape"]
@@ -167,6 +183,7 @@ def serve(solver: Solver, pipe: Pipe | None = None) -> None:
         if header["op"] == "stop":
             pipe.send({"id": header["id"]})
             return
+        solver.tell = lambda part, identity=header["id"]: pipe.send_progress(identity, part)
         try:
             reply, sent = answer(solver, header, arrays)
         except Declined as reason:

@@ -48,7 +48,8 @@ class ToySolver(Solver):
         return np.zeros_like(self.x)
 
     def advance(self, dt: float, steps: int) -> None:
-        for _ in range(steps):
+        for k in range(steps):
+            self.progress(k / steps)
             self.v = self.v + dt * self.forces() / self.mass[:, None]
             self.v[self.held] = 0
             self.x = self.x + dt * self.v

@@ -37,6 +37,20 @@ class Broken(ToySolver):
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
         os.kill(os.getpid(), signal.SIGSEGV)
 
+    def late_crash(self) -> None:
+        self.calls = getattr(self, "calls", 0) + 1
+        if self.calls == 3:
+            self.crash()
+
+    def tells_progress(self) -> None:
+        for k in range(32):  # 3.2 s
+            time.sleep(0.1)
+            self.progress(k / 32)
+
+    def last_lines(self) -> None:
+        print("".join(f"line {k}\n" for k in range(12)) + "\n  indented", flush=True)
+        os._exit(3)
+
     def exit_3(self) -> None:
         print("giving up", file=sys.stderr, flush=True)
         os._exit(3)
@@ -108,7 +122,7 @@ def spoil(kind: str, pipe: Pipe, identity: int, n: int) -> None:
 SPOILED = ("truncated", "short_array", "oversized", "too_many_bytes", "wrong_shape", "invalid_json",
            "noise_on_the_pipe", "endless_header", "wrong_id")
 WRECKED = (
-    "crash", "exit_3", "hang", "exception", "nan", "fill_memory", "fill_disk", "fork_and_exit"
+    "crash", "late_crash", "tells_progress", "last_lines", "exit_3", "hang", "exception", "nan", "fill_memory", "fill_disk", "fork_and_exit"
 )
 
 

@@ -157,6 +157,13 @@ class FrictionCreeps(OnPlanes):
         return super().kept(most * speed / (speed + 0.002), speed)
 
 
+class SticksToPlanes(OnPlanes):
+    """Friction without a limit."""
+
+    def kept(self, most: np.ndarray, speed: np.ndarray) -> np.ndarray:
+        return np.where(most > 0, 0, 1.0)
+
+
 class OnBoxes(ToySolver):
     """Particles that end a step in a box leave it by the nearest face, and stop there."""
 

@@ -67,6 +67,15 @@ class GravityScaled(ToySolver):
         return mapping
 
 
+class StandsStillToHalf(ToySolver):
+    """Moves nothing, and declares a tolerance that would allow it."""
+
+    solve_tolerance = 0.5
+
+    def advance(self, dt: float, steps: int) -> None:
+        pass
+
+
 class MomentumDropped(ToySolver):
     def advance(self, dt: float, steps: int) -> None:
         for _ in range(steps):
@@ -307,6 +316,7 @@ KINDS = {
     "friction_beyond_the_cone": contact.FrictionBeyondTheCone,
     "friction_creeps": contact.FrictionCreeps,
     "friction_halved": contact.FrictionHalved,
+    "sticks_to_planes": contact.SticksToPlanes,
     "none": Unspoiled,
     "backward_euler": BackwardEuler,
     "backward_euler_single": BackwardEulerInSingle,
@@ -315,6 +325,7 @@ KINDS = {
     "wrong_mass": WrongMass,
     "own_masses_ignored": OwnMassesIgnored,
     "gravity_scaled": GravityScaled,
+    "stands_still_to_half": StandsStillToHalf,
     "momentum_dropped": MomentumDropped,
     "single_for_double": SingleForDouble,
     "first_order_as_second": FirstOrderAsSecond,

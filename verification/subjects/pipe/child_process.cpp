@@ -96,11 +96,17 @@ struct ChildEnds {
   _exit(127);
 }
 
-std::string in_one_line(std::string text) {
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) < ' ') c = ' ';
-  const size_t first = text.find_first_not_of(' '), last = text.find_last_not_of(' ');
-  return first == std::string::npos ? "" : text.substr(first, last - first + 1);
+/// The lines that are not empty, other control characters as blanks.
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines{""};
+  for (const char c : text)
+    if (c == '\n' || c == '\r')
+      lines.emplace_back();
+    else
+      lines.back() += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
+  for (std::string& line : lines) line.erase(line.find_last_not_of(' ') + 1);
+  std::erase(lines, "");
+  return lines;
 }
 
 /// How a process ended: cause and words. A shell reports the signal of its command as 128 + signal.
@@ -117,6 +123,13 @@ std::pair<std::string, std::string> cause_of(int status) {
 }
 
 }  // namespace
+
+std::string SolverFailure::in_one_line() const {
+  std::string line;
+  for (const std::string& part : lines_of(what()))
+    line += (line.empty() ? "" : " ") + part.substr(part.find_first_not_of(' '));
+  return line;
+}
 
 ChildProcess::ChildProcess(const std::string& command, const ProcessLimits& limits)
     : folder_(make_own_folder()) {
@@ -165,11 +178,13 @@ void ChildProcess::keep_words() {
   }
 }
 
-std::string ChildProcess::last_words() {
+std::vector<std::string> ChildProcess::last_words() {
   keep_words();
-  constexpr size_t longest = 300;
+  constexpr size_t longest = 2000, most_lines = 10;
   const size_t from = kept_words_.size() > longest ? kept_words_.size() - longest : 0;
-  return in_one_line(kept_words_.substr(from));
+  std::vector<std::string> lines = lines_of(kept_words_.substr(from));
+  if (lines.size() > most_lines) lines.erase(lines.begin(), lines.end() - most_lines);
+  return lines;
 }
 
 bool ChildProcess::has_ended() const {
@@ -200,11 +215,7 @@ void ChildProcess::wait_for(int descriptor, short events, Deadline deadline) {
   while (true) {
     const auto left =
         std::chrono::ceil<std::chrono::milliseconds>(deadline - std::chrono::steady_clock::now());
-    if (left.count() <= 0)
-      throw SolverFailure(read_of_answer_ > 0 ? "truncated" : "hang",
-                          read_of_answer_ > 0
-                              ? fmt::format("stopped after {} bytes of its answer", read_of_answer_)
-                              : "did not answer in time");
+    if (left.count() <= 0) throw TimedOut{read_of_answer_};
     constexpr long glance = 100;  // ms; a child's own children may keep its channels open
     const int ready = poll(watched, nfds_t(count), int(std::min(long(left.count()), glance)));
     if (ready < 0 && errno != EINTR) fail_of_system("poll");

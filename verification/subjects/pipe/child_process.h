@@ -2,9 +2,11 @@
 #pragma once
 
 #include <chrono>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <sys/types.h>
+#include <vector>
 
 #include "verification/subjects/pipe/processor_time.h"
 
@@ -12,7 +14,9 @@ namespace foldproof {
 
 /// Resources that a solver may use before it is ended.
 struct ProcessLimits {
-  double seconds = 60;               // clock time without a word, per call [s]
+  double seconds = 60;                         // clock time without a word, per call [s]
+  std::chrono::steady_clock::time_point end =  // of all calls
+      std::chrono::steady_clock::time_point::max();
   long processor_seconds = 3600;     // of the whole life [s]
   long memory_bytes = 4L << 30;      // private writable memory (RLIMIT_DATA)
   long bytes_per_file = 256L << 20;  // any file that it writes (RLIMIT_FSIZE)
@@ -22,8 +26,23 @@ struct ProcessLimits {
 /// says what happened, during which call, and the last words of the solver.
 struct SolverFailure : std::runtime_error {
   std::string cause;
-  SolverFailure(std::string cause_, const std::string& text)
-      : std::runtime_error(text), cause(std::move(cause_)) {}
+  std::string kind;  // what happened, without where: alike in failures that are the same
+  SolverFailure(std::string cause_, const std::string& text, std::string kind_ = "")
+      : std::runtime_error(text),
+        cause(std::move(cause_)),
+        kind(kind_.empty() ? text : std::move(kind_)) {}
+
+  std::string in_one_line() const;
+};
+
+/// Thrown past a deadline.
+struct TimedOut {
+  size_t bytes;  // of the answer, that were read until then
+};
+
+/// The solver will not be asked again, since the end of its limits has come. It is not at fault.
+struct TimeIsUp : std::runtime_error {
+  TimeIsUp() : std::runtime_error("the time is up") {}
 };
 
 /// Runs `sh -c COMMAND` in a new process group. The child reads from the descriptor FOLDPROOF_IN
@@ -40,8 +59,7 @@ class ChildProcess {
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
-  // These throw SolverFailure: "crash", "exit", "start" if the child ends, "hang"
-  // past the deadline.
+  // These throw SolverFailure: "crash", "exit", "start" if the child ends, and TimedOut.
   void write(std::string_view bytes, Deadline deadline);
   void read(char* to, size_t bytes, Deadline deadline);
 
@@ -51,8 +69,8 @@ class ChildProcess {
   /// Whether bytes wait to be read.
   bool has_unread_bytes();
 
-  /// The end of what the child printed, at most 300 bytes, in one line.
-  std::string last_words();
+  /// The end of what the child printed: at most ten lines, none of them empty.
+  std::vector<std::string> last_words();
 
   /// Of the child and its own children.
   ProcessorTime processor_time() const;

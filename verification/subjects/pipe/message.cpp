@@ -31,14 +31,24 @@ long count_of(const WantedArray& array) {
   return count;
 }
 
+/// "particle 5, x coordinate, of array 'x'"; of several frames: which one, too.
+std::string place_in(const WantedArray& array, size_t k) {
+  const size_t vector = k / 3;
+  std::string place = fmt::format("particle {}", vector);
+  if (array.shape.size() == 3)
+    place = fmt::format("frame {}, particle {}", vector / size_t(array.shape[1]),
+                        vector % size_t(array.shape[1]));
+  return fmt::format("{}, {} coordinate, of array '{}'", place, "xyz"[k % 3], array.name);
+}
+
 template <class Number>
-std::vector<double> finite_numbers(std::string_view bytes, const std::string& name) {
+std::vector<double> finite_numbers(std::string_view bytes, const WantedArray& array) {
   std::vector<Number> numbers(bytes.size() / sizeof(Number));
   if (!numbers.empty()) std::memcpy(numbers.data(), bytes.data(), numbers.size() * sizeof(Number));
   for (size_t k = 0; k < numbers.size(); ++k)
     if (!std::isfinite(numbers[k]))
-      throw SolverFailure("nan",
-                          fmt::format("sent {} as number {} of array '{}'", numbers[k], k, name));
+      throw SolverFailure("nan", fmt::format("sent {} for {}", numbers[k], place_in(array, k)),
+                          "sent a number that is not finite");
   return {numbers.begin(), numbers.end()};
 }
 
@@ -115,13 +125,13 @@ std::vector<std::vector<double>> read_arrays(ChildProcess& child,
   for (const WantedArray& one : wanted) {
     std::string bytes(size_t(count_of(one)) * wide, '\0');
     child.read(bytes.data(), bytes.size(), deadline);
-    arrays.push_back(as_numbers(bytes, is_single, one.name));
+    arrays.push_back(as_numbers(bytes, is_single, one));
   }
   return arrays;
 }
 
-std::vector<double> as_numbers(std::string_view bytes, bool is_single, const std::string& name) {
-  return is_single ? finite_numbers<float>(bytes, name) : finite_numbers<double>(bytes, name);
+std::vector<double> as_numbers(std::string_view bytes, bool is_single, const WantedArray& array) {
+  return is_single ? finite_numbers<float>(bytes, array) : finite_numbers<double>(bytes, array);
 }
 
 PerParticle3 as_particles(const std::vector<double>& values) {

@@ -48,8 +48,8 @@ std::vector<std::vector<double>> read_arrays(ChildProcess& child,
                                              const std::vector<WantedArray>& wanted, bool is_single,
                                              ChildProcess::Deadline deadline);
 
-/// The bytes of array `name` as doubles. Throws "nan" for a number that is not finite.
-std::vector<double> as_numbers(std::string_view bytes, bool is_single, const std::string& name);
+/// The bytes of an array of vectors as doubles. Throws "nan" for a number that is not finite.
+std::vector<double> as_numbers(std::string_view bytes, bool is_single, const WantedArray& array);
 
 /// 3 x N of N x 3 numbers.
 PerParticle3 as_particles(const std::vector<double>& values);

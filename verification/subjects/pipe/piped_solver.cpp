@@ -100,9 +100,46 @@ const std::vector<std::string>& failure_causes() {
   return causes;
 }
 
+namespace {
+
+/// "by 20 steps of 0.002 s"
+std::string steps_text(long steps, double dt) {
+  return fmt::format("by {} step{} of {:.4g} s", steps, steps == 1 ? "" : "s", dt);
+}
+
+/// To follow "its last words": one line behind it, more below it.
+std::string words_text(const std::vector<std::string>& lines) {
+  if (lines.empty()) return " none";
+  if (lines.size() == 1) return " " + lines[0];
+  return fmt::format("\n    {}", fmt::join(lines, "\n    "));
+}
+
+}  // namespace
+
 struct PipedSolver::Impl {
+  /// The scene that the solver has, and its steps since the start.
+  struct Whereabouts {
+    std::string scene = {};
+    long done = 0, of = 0;  // of: 0 if unknown
+
+    /// "during 'advance' by 20 steps of 0.002 s, after 0 of 20 steps, in the scene 'falling sheet'"
+    std::string during(const json& request) const {
+      std::string text = fmt::format("during '{}'", request["op"].get<std::string>());
+      if (request.contains("frames"))
+        text += " " + steps_text(request["frames"].back(), request["scene"]["dt"]);
+      if (request.contains("dt"))
+        text += " " + steps_text(request.value("steps", 1L), request["dt"]);
+      if (request.contains("steps"))
+        text += of > 0 ? fmt::format(", after {} of {} steps,", done, of)
+                       : fmt::format(", after {} steps,", done);
+      return scene.empty() ? text : fmt::format("{} in the scene '{}'", text, scene);
+    }
+  };
+
   SolverCommand command;
   ChildProcess child;
+  ChildProcess::Deadline last = {};  // of the current call
+  Whereabouts where = {};
   long particles = 0, calls = 0;
   bool is_single = false;
   std::optional<SolverFailure> failed = {};
@@ -111,12 +148,13 @@ struct PipedSolver::Impl {
 
   ChildProcess::Deadline deadline(double times = 1) const {
     const auto seconds = std::chrono::duration<double>(command.limits.seconds * times);
-    return std::chrono::steady_clock::now() +
-           std::chrono::duration_cast<std::chrono::steady_clock::duration>(seconds);
+    return std::min(command.limits.end,
+                    std::chrono::steady_clock::now() +
+                        std::chrono::duration_cast<std::chrono::steady_clock::duration>(seconds));
   }
 
   /// The header of the answer; each progress message renews the limit of silence.
-  json receive_header(ChildProcess::Deadline last) {
+  json receive_header() {
     while (true) {
       child.begin_answer();
       const auto until = std::min(last, deadline());
@@ -131,11 +169,11 @@ struct PipedSolver::Impl {
     if (child.has_unread_bytes())
       throw SolverFailure("oversized", "sent more bytes than its last answer says");
     request.header["id"] = ++calls;
+    last = deadline(longest_progress);
     child.begin_answer();
     child.write(request.header.dump() + "\n", deadline());
     child.write(request.bytes, deadline());
-    const auto last = deadline(longest_progress);
-    Answer answer{receive_header(last), {}};
+    Answer answer{receive_header(), {}};
     if (answer.header.contains("declined")) throw NotOffered{text_of(answer.header, "declined")};
     if (answer.header.contains("error"))
       throw SolverFailure("error", "failed and said: " + text_of(answer.header, "error"));
@@ -147,20 +185,39 @@ struct PipedSolver::Impl {
   /// Sends a request and receives its answer, or tells what went wrong, and ends the solver.
   Answer ask(Request request, const std::vector<WantedArray>& wanted) {
     if (failed) throw *failed;
-    const std::string operation = request.header["op"];
     try {
       return exchange(request, wanted);
     } catch (const SolverFailure& failure) {
-      const std::string words = child.last_words();
-      if (failure.cause == "start" && operation == "start")
-        failed.emplace("start", fmt::format("cannot start {}: {}", command.command,
-                                            words.empty() ? failure.what() : words));
-      else
-        failed.emplace(failure.cause == "start" ? "exit" : failure.cause,
-                       fmt::format("the solver {} (during '{}'); its last words: {}",
-                                   failure.what(), operation, words.empty() ? "none" : words));
-      throw *failed;
+      failed.emplace(told(failure, request.header));
+    } catch (const TimedOut& late) {
+      if (std::chrono::steady_clock::now() >= command.limits.end) throw TimeIsUp();
+      failed.emplace(told(failure_of(late), request.header));
     }
+    throw *failed;
+  }
+
+  SolverFailure failure_of(const TimedOut& late) const {
+    const double seconds = command.limits.seconds;
+    const std::string within =
+        std::chrono::steady_clock::now() < last
+            ? fmt::format("within {:g} s (--seconds)", seconds)
+            : fmt::format("within {:g} s ({:g} times --seconds), but kept sending its progress",
+                          seconds * longest_progress, longest_progress);
+    if (late.bytes == 0) return {"hang", "did not answer " + within};
+    return {"truncated", fmt::format("sent only {} bytes of its answer {}", late.bytes, within)};
+  }
+
+  /// The failure with its place and the last words.
+  SolverFailure told(const SolverFailure& failure, const json& request) {
+    const std::vector<std::string> words = child.last_words();
+    if (failure.cause == "start" && request["op"] == "start")
+      return {"start", fmt::format("cannot start {}: {}", command.command,
+                                   words.empty() ? failure.what()
+                                                 : fmt::format("{}", fmt::join(words, " ")))};
+    return {failure.cause == "start" ? "exit" : failure.cause,
+            fmt::format("the solver {} {}; its last words:{}", failure.what(),
+                        where.during(request), words_text(words)),
+            "the solver " + failure.kind};
   }
 
   Request request_of(const char* operation) const { return {{{"op", operation}}}; }
@@ -196,8 +253,7 @@ PipedSolver::PipedSolver(SolverCommand command)
   try {
     declaration_ = read_declaration(header);
   } catch (const SolverFailure& failure) {
-    throw SolverFailure(failure.cause,
-                        fmt::format("the solver {} (during 'start')", failure.what()));
+    throw SolverFailure(failure.cause, fmt::format("the solver {} during 'start'", failure.what()));
   }
   impl_->is_single = declaration_.is_single;
 }
@@ -209,6 +265,7 @@ PipedSolver& PipedSolver::operator=(PipedSolver&&) noexcept = default;
 std::vector<std::pair<std::string, std::string>> PipedSolver::prepare(const PortableScene& scene) {
   Request request = impl_->request_of("prepare");
   add_scene(scene, impl_->command, request);
+  impl_->where = {scene.name};
   impl_->particles = scene.x.cols();
   const json mapping = impl_->ask(std::move(request), {}).header.value("mapping", json::object());
   std::vector<std::pair<std::string, std::string>> rows;
@@ -218,11 +275,14 @@ std::vector<std::pair<std::string, std::string>> PipedSolver::prepare(const Port
   return rows;
 }
 
-Snapshot PipedSolver::advance(double dt, long steps) {
+Snapshot PipedSolver::advance(double dt, long steps, long of) {
   Request request = impl_->request_of("advance");
   request.header["dt"] = dt;
   request.header["steps"] = steps;
-  return impl_->ask_state(std::move(request));
+  impl_->where.of = of;
+  Snapshot state = impl_->ask_state(std::move(request));
+  impl_->where.done += steps;
+  return state;
 }
 
 Snapshot PipedSolver::get_state() { return impl_->ask_state(impl_->request_of("get_state")); }
@@ -257,6 +317,7 @@ std::vector<Snapshot> PipedSolver::run(const PortableScene& scene,
   Request request = impl_->request_of("run");
   add_scene(scene, impl_->command, request);
   request.header["frames"] = frames;
+  impl_->where = {scene.name};
   const long n = scene.x.cols(), count = long(frames.size());
   const Answer answer =
       impl_->ask(std::move(request), {{"x", {count, n, 3}}, {"v", {count, n, 3}}});

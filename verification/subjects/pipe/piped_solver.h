@@ -36,8 +36,9 @@ struct Snapshot {
   PerParticle3 x, v;
 };
 
-/// Each call throws SolverFailure if it goes wrong, and NotOffered if the solver declines. After a
-/// failure the process is ended; later calls fail with the same words.
+/// Each call throws SolverFailure if it goes wrong, NotOffered if the solver declines, and
+/// TimeIsUp at the end of the limits. After a failure the process is ended; later calls fail with
+/// the same words.
 class PipedSolver {
  public:
   /// Starts the process and asks for its declaration.
@@ -51,7 +52,8 @@ class PipedSolver {
   /// Makes a scene ready. Returns the mapping: how the solver understood the parameters.
   std::vector<std::pair<std::string, std::string>> prepare(const PortableScene& scene);
 
-  Snapshot advance(double dt, long steps);
+  /// of: how many steps will be asked of the scene, for the words of a failure; 0: unknown
+  Snapshot advance(double dt, long steps, long of = 0);
   Snapshot get_state();
 
   /// One step of dt [s] from the state, which the solver takes over. `past` are states before the

@@ -116,9 +116,9 @@ Finding falls_at_greenhill_s_load(Trial& trial) {
   const double most = falls_under(rigidity, shortest),
                least = (1 - largest_poisson * largest_poisson) * falls_under(rigidity, longest);
   const Bracket bracket = bracket_of(trial, {rigidity, lying_strip().dt});
-  Table measured{{"measured rigidity", "N m"}, {"stands", "m/s^2"},     {"falls", "m/s^2"},
+  Table measured{{"measured rigidity", "N m"}, {"stands under", ""},    {"falls under", ""},
                  {"as a beam", "m/s^2"},       {"as a plate", "m/s^2"}, {"outside of both", "1"}};
-  measured.row(rigidity, bracket.stands, bracket.falls, least, most,
+  measured.row(rigidity, bracket.stands_text(), bracket.falls_text(), least, most,
                std::max({0.0, 1 - bracket.falls / least, bracket.stands / most - 1}));
   return judge_worst(measured, 0.03,
                      "the rigidity is measured to 2 %, and so is the load; fifteen folds instead "

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "reference/mesh/shapes.h"
+#include "verification/subjects/suite/headlines.h"
 #include "verification/subjects/suite/laws.h"
 #include "verification/subjects/suite/relaxation.h"
 
@@ -118,21 +119,23 @@ Finding slips_at_euler_s_ratio(Trial& trial) {
   trial.require("capsules");
   trial.require("masses");
   Table measured{{"heavy over light end", "1"},
-                 {"mu that just holds", "1"},
+                 {"mu that just holds", ""},
                  {"by Euler's law", "1"},
                  {"difference", "mu"}};
   for (const double mu : {0.23, 0.41}) {
     const double heavy = mass_that_holds(mu), expected = friction_of_that_share(heavy, mu);
     PortableScene scene = strip_over_a_capsule(heavy, mu);
     scene.x = laid(trial, scene).x;
-    double moves = 0.7 * mu, rests = 1.3 * mu;
+    const double least = 0.7 * mu, most = 1.3 * mu;
+    double moves = least, rests = most;
     while (rests - moves > 0.01 * mu) {
       const double middle = (rests + moves) / 2;
       scene.capsules[0].friction = middle;
       (slips(trial, scene, heavy) ? moves : rests) = middle;
     }
     const double found = (rests + moves) / 2;
-    measured.row(heavy / light, found, expected, std::abs(found - expected) / mu);
+    measured.row(heavy / light, found_text({moves, rests}, {least, most}), expected,
+                 std::abs(found - expected) / mu);
   }
   return judge_worst(
       measured, 0.021,

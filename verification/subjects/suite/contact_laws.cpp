@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "verification/subjects/suite/headlines.h"
 #include "verification/subjects/suite/laws.h"
 #include "verification/subjects/suite/scenes.h"
 
@@ -46,7 +47,7 @@ Finding resting_sheet_is_still(Trial& trial) {
   const double rounding = rounding_error(scene, 1, trial.declaration()) * size_of(scene.x) /
                           (weight * scene.dt * scene.dt);
   return judge_worst(
-      measured, 1 + rounding,
+      measured, 1 + narrow(rounding, trial.declaration()),
       "gravity moves a particle by g dt^2 in the step before contact stops it; more is jitter");
 }
 
@@ -122,23 +123,25 @@ bool slips(Trial& trial, const Slope& slope) {
            share_of_way * slope.frictionless_way(time));
 }
 
-/// The slope at which it begins to slip, by bisection; one end of the bracket if it is outside. By
+/// The slope at which it begins to slip, by bisection; one end of the search if it is outside. By
 /// Coulomb's law it goes the share 1 - mu/slope of the way without friction.
 Finding slips_at_coulomb_s_slope(Trial& trial) {
   trial.require("planes");
   Table measured{{"mu", "1"},
                  {"way down", "degrees"},
-                 {"slope that slips", "1"},
+                 {"slope that slips", ""},
                  {"by Coulomb's law", "1"},
                  {"difference", "mu"}};
   for (const auto& [friction, heading] : {std::pair(0.23, 25.0), {0.61, 70.0}}) {
-    double rests = 0.7 * friction, moves = 1.3 * friction;
+    const double least = 0.7 * friction, most = 1.3 * friction;
+    double rests = least, moves = most;
     while (moves - rests > 0.01 * friction) {
       const double middle = (rests + moves) / 2;
       (slips(trial, {std::atan(middle) / degree, friction, heading}) ? moves : rests) = middle;
     }
     const double found = (rests + moves) / 2, expected = friction / (1 - share_of_way);
-    measured.row(friction, heading, found, expected, std::abs(found - expected) / friction);
+    measured.row(friction, heading, found_text({rests, moves}, {least, most}), expected,
+                 std::abs(found - expected) / friction);
   }
   return judge_worst(
       measured, 0.03,

@@ -66,9 +66,13 @@ Finding weight_is_mass_times_g(Trial& trial) {
   const PortableScene scene = falling_sheet();
   const Vector3 weight = scene.mass.sum() * scene.gravity;
   const PerParticle3 f = forces_at_start(trial, scene);
-  Table measured{{"particles", "1"}, {"error of the net force", "m g + sum of k L"}};
-  measured.row(f.cols(),
-               (f.rowwise().sum() - weight).norm() / (weight.norm() + spring_scale(scene)));
+  const Vector3 net = f.rowwise().sum();
+  Table measured{{"particles", "1"},
+                 {"net force", "N"},
+                 {"weight", "N"},
+                 {"error of the net force", "m g + sum of k L"}};
+  measured.row(f.cols(), net.norm(), weight.norm(),
+               (net - weight).norm() / (weight.norm() + spring_scale(scene)));
   return judge_worst(measured, roundings * trial.declaration().rounding(), "rounding of a sum");
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "verification/subjects/suite/headlines.h"
+
 namespace foldproof {
 
 namespace {
@@ -15,28 +17,42 @@ Record unjudged(const Law& law) {
   return record;
 }
 
-Finding without_number(const std::string& required, const std::string& note) {
-  return {{nan, nan, nan, "1", required}, {}, note};
+Finding without_number(const std::string& required, const std::string& note,
+                       const std::string& failure = "") {
+  return {{nan, nan, nan, "1", required}, {}, note, "", failure};
 }
 
 /// Of a law after the one during which the trial ended.
-Record not_asked(const Law& law, const std::string& last_law) {
+Record not_asked(const Law& law, const std::string& last_law, const Trial& trial) {
   Record record = unjudged(law);
-  record.finding = without_number("", "the trial ended during " + last_law);
+  const char* const why =
+      trial.is_out_of_time() ? "the time of the trial was up during " : "the trial ended during ";
+  record.finding = without_number("", why + last_law);
   return record;
 }
 
 Record judge_law(const Law& law, Trial& trial) {
-  return judge(unjudged(law), [&] {
+  bool is_undecided = false;
+  Record record = judge(unjudged(law), [&] {
     try {
       return law.run(trial);
+    } catch (const CannotTell& too_wide) {
+      is_undecided = true;
+      return without_number("", too_wide.what());
+    } catch (const TimeIsUp&) {
+      trial.run_out_of_time();
+      return without_number("", "");
     } catch (const FailedWithoutNumber& failure) {
       return without_number(failure.required, failure.what());
     } catch (const SolverFailure& failure) {
       trial.note(failure);
-      throw;
+      return without_number("it must run to its end", failure.what(), failure.kind);
     }
   });
+  if (trial.is_out_of_time()) return not_asked(law, law.name, trial);
+  if (is_undecided) record.outcome = Outcome::inconclusive;
+  record.finding.headline = headline_of(law.name, record.finding);
+  return record;
 }
 
 /// A command without a program is a typing error of the user. Any other failure is judged.
@@ -45,6 +61,7 @@ void require_program(Trial& trial) {
     trial.solver();
   } catch (const SolverFailure& failure) {
     if (failure.cause == "start") throw InputError(failure.what());
+  } catch (const TimeIsUp&) {  // the first law meets it again
   }
 }
 
@@ -73,11 +90,11 @@ Judgement judge_solver(const SolverCommand& command, const std::vector<Law>& law
   for (const Law& law : laws) {
     const bool is_asked = last_law.empty() || !trial.has_ended();  // the first tells a failed start
     if (is_asked) last_law = law.name;
-    judgement.records.push_back(is_asked ? judge_law(law, trial) : not_asked(law, last_law));
+    judgement.records.push_back(is_asked ? judge_law(law, trial) : not_asked(law, last_law, trial));
     done(judgement.records.back());
   }
   judgement.smoke_holds = std::ranges::all_of(judgement.records, [](const Record& record) {
-    return !is_smoke(record) || record.outcome == Outcome::holds;
+    return !is_smoke(record) || record.outcome == Outcome::holds || did_not_run(record);
   });
   judgement.declaration = trial.last_declaration();
   judgement.mapping = trial.mapping();

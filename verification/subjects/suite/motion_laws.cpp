@@ -39,7 +39,8 @@ Finding stays_exactly(Trial& trial) {
   const PerParticle3 moved = trial.after(scene, few).x - scene.x;
   Table measured{{"steps", "1"}, {"largest displacement", "largest position"}};
   measured.row(few, largest(moved) / size_of(scene.x));
-  return judge_worst(measured, rounding_error(scene, few, trial.declaration()),
+  return judge_worst(measured,
+                     narrow(rounding_error(scene, few, trial.declaration()), trial.declaration()),
                      "rounding of rest lengths, enlarged by elastic forces");
 }
 
@@ -47,7 +48,8 @@ Finding stays_on_every_pattern(Trial& trial) {
   Table measured{{"pattern", ""}, {"displacement over rounding", "1"}};
   for (const PortableScene& scene : sheets_at_rest()) {
     const double moved = largest(trial.after(scene, few).x - scene.x) / size_of(scene.x);
-    measured.row(scene.name, moved / rounding_error(scene, few, trial.declaration()));
+    measured.row(scene.name, moved / narrow(rounding_error(scene, few, trial.declaration()),
+                                            trial.declaration()));
   }
   return judge_worst(measured, 1, "rounding of rest lengths, enlarged by elastic forces");
 }
@@ -67,8 +69,9 @@ Finding stays_curved(Trial& trial) {
   for (const Hinge& hinge : scene.mesh.hinges)
     scene.rest_angles.push_back(angle(scene.x, hinge.particles));
   Table measured{{"steps", "1"}, {"displacement over rounding", "1"}};
-  measured.row(few, largest(trial.after(scene, few).x - scene.x) / size_of(scene.x) /
-                        rounding_error(scene, few, trial.declaration()));
+  measured.row(few,
+               largest(trial.after(scene, few).x - scene.x) / size_of(scene.x) /
+                   narrow(rounding_error(scene, few, trial.declaration()), trial.declaration()));
   return judge_worst(measured, 1, "rounding of rest lengths and angles, enlarged by forces");
 }
 
@@ -77,7 +80,8 @@ Finding keeps_its_velocity(Trial& trial) {
   const double time = few * scene.dt;
   const Snapshot end = trial.after(scene, few);
   const double path = scene.v.col(0).norm() * time;
-  const double rounding = rounding_error(scene, few, trial.declaration());
+  const double rounding =
+      narrow(rounding_error(scene, few, trial.declaration()), trial.declaration());
   Table measured{{"of", ""}, {"error over rounding", "1"}};
   measured.row("positions",
                largest(end.x - scene.x - time * scene.v) / (rounding * (size_of(scene.x) + path)));
@@ -98,13 +102,15 @@ Finding keeps_its_velocity(Trial& trial) {
 // Across gravity a position of the sheet's size takes the place of the height.
 double speed_rounding(long steps, const Declaration& declared) {
   const double n = double(steps);
-  return n * ((4 + n) * declared.rounding() + declared.solve_tolerance);
+  return narrow(n * ((4 + n) * declared.rounding() + declared.solve_tolerance), declared);
 }
 
 double sideways_rounding(const PortableScene& scene, long steps, const Declaration& declared) {
   const double time = double(steps) * scene.dt;
   const double per_step = size_of(scene.x) / scene.dt / (scene.gravity.norm() * time);
-  return double(steps) * (4 * (1 + per_step) * declared.rounding() + declared.solve_tolerance);
+  return narrow(
+      double(steps) * (4 * (1 + per_step) * declared.rounding() + declared.solve_tolerance),
+      declared);
 }
 
 /// Mean velocity after the fall, against g t.
@@ -159,7 +165,9 @@ Finding keeps_momentum(Trial& trial, const PortableScene& scene) {
   Table measured{{"steps", "1"}, {"change of linear momentum", "sum of m (|v| + omega size)"}};
   measured.row(few, (momentum_of(scene, end.v) - momentum_of(scene, scene.v)).norm() / scale);
   const Declaration& declared = trial.declaration();
-  return judge_worst(measured, 8 * few * declared.rounding() + few * declared.solve_tolerance,
+  const double bound = 8 * few * declared.rounding() + few * declared.solve_tolerance;
+  narrow(bound * scale / (scene.v.colwise().norm() * scene.mass)[0], declared);
+  return judge_worst(measured, bound,
                      "inner forces cancel to a few roundings a step, or to the solver's tolerance");
 }
 
@@ -193,7 +201,9 @@ double angular_drift(Trial& trial, long steps) {
 
 Finding angular_momentum_converges(Trial& trial) {
   const Declaration declared = trial.declaration();
-  const double floor = 10 * rounding_error(moving_sheet(), 4 * few, declared);
+  PortableScene finest = moving_sheet();
+  finest.dt /= 4;
+  const double floor = narrow(10 * rounding_error(finest, 4 * few, declared), declared);
   const double coarse = angular_drift(trial, 2 * few), fine = angular_drift(trial, 4 * few);
   Table measured{{"drift at dt/2", "L"}, {"drift at dt/4", "L"}, {"fine over coarse", "1"}};
   measured.row(coarse, fine, fine <= floor ? 0 : fine / coarse);

@@ -59,21 +59,23 @@ std::optional<Relaxed> relaxed_in_steps(Trial& trial, PortableScene scene,
 
 Relaxed relaxed(Trial& trial, PortableScene scene, const Relaxation& relaxation) {
   constexpr int tries = 4;  // the last in steps of 3.1e-6 s
-  std::string what = "it gains energy";
+  std::optional<SolverFailure> last;
   for (int k = 0; k < tries; ++k) {
     if (k > 0) scene.dt /= 4;
+    last.reset();
     try {
       if (const std::optional<Relaxed> end = relaxed_in_steps(trial, scene, relaxation))
         return *end;
     } catch (const SolverFailure& failure) {
       if (failure.cause != "error" && failure.cause != "nan") throw;
-      what = failure.what();
+      last = failure;
       trial.restart();
     }
   }
-  throw FailedWithoutNumber(fmt::format("the cloth does not come to rest even in steps of {:.2g} "
-                                        "s, the shortest that are tried: {}",
-                                        scene.dt, what),
+  const std::string shortest =
+      fmt::format("in steps of {:.2g} s, the shortest that are tried, ", scene.dt);
+  if (last) throw SolverFailure(last->cause, shortest + last->what(), last->kind);
+  throw FailedWithoutNumber(shortest + "the cloth gains energy and does not come to rest",
                             "a shape at rest is compared");
 }
 

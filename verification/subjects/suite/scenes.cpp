@@ -179,4 +179,12 @@ double rounding_error(const PortableScene& scene, long steps, const Declaration&
   return roundings + double(steps) * declared.solve_tolerance;
 }
 
+double narrow(double bound, const Declaration& declared) {
+  if (bound < widest_bound) return bound;
+  throw CannotTell(
+      fmt::format("what the solver declares ({}, solve_tolerance {:g}) allows an error of {:.2g} "
+                  "of what is measured; from {:g} on nothing follows from what holds",
+                  declared.is_single ? "f4" : "f8", declared.solve_tolerance, bound, widest_bound));
+}
+
 }  // namespace foldproof::suite

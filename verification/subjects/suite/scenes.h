@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "verification/subjects/pipe/piped_solver.h"
+#include "verification/subjects/suite/trial.h"
 
 namespace foldproof::suite {
 
@@ -68,5 +68,10 @@ double squared_phase(const PortableScene& scene, long steps);
 /// step rounds position and velocity by a few roundings, and elastic forces, of a few more, enlarge
 /// this by the squared phase at most. Solvers of linear systems may add their tolerance a step.
 double rounding_error(const PortableScene& scene, long steps, const Declaration& declared);
+
+/// The bound, a share of what the law is about, which an answer of 0 misses by 1. Throws CannotTell
+/// if the declaration makes it `widest_bound` or more.
+constexpr double widest_bound = 0.2;
+double narrow(double bound, const Declaration& declared);
 
 }  // namespace foldproof::suite

@@ -91,10 +91,18 @@ void require_resistance(std::string_view to_what, double measured, double given)
                   100 * least_rigidity));
 }
 
+std::string Bracket::stands_text() const {
+  return stands > 0 ? fmt::format("{:.4g} m/s^2", stands) : "none that is tried";
+}
+
+std::string Bracket::falls_text() const {
+  return has_fallen ? fmt::format("{:.4g} m/s^2", falls) : fmt::format("> {:.4g} m/s^2", falls);
+}
+
 Bracket bracketed(double expected, const std::function<bool(double)>& falls) {
   Bracket bracket{0.5 * expected, 1.5 * expected};
   if (falls(bracket.stands)) return {0, bracket.stands};
-  if (!falls(bracket.falls)) return {bracket.falls, bracket.falls};
+  if (!falls(bracket.falls)) return {bracket.falls, bracket.falls, false};
   while (bracket.falls - bracket.stands > 0.02 * expected) {
     const double middle = (bracket.stands + bracket.falls) / 2;
     (falls(middle) ? bracket.falls : bracket.stands) = middle;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -40,7 +41,11 @@ double measured_twisting(Trial& trial, const PortableScene& strip, const StripSh
 void require_resistance(std::string_view to_what, double measured, double given);
 
 struct Bracket {
-  double stands, falls;  // gravity [m/s^2]
+  double stands, falls;  // gravity [m/s^2]; 0 if it falls under the least that is tried
+  bool has_fallen = true;
+
+  std::string stands_text() const;  // in words and units
+  std::string falls_text() const;
 };
 
 /// The gravity under which a strip falls, by bisection: to a fiftieth of what is expected, in half

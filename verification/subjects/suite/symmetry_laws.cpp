@@ -34,13 +34,19 @@ PortableScene moved(const Eigen::Matrix3d& turn, const Vector3& shift) {
   return scene;
 }
 
+/// Two runs round differently, within the bound of one each.
+double allowed(Trial& trial, const PortableScene& scene) {
+  const Declaration& declared = trial.declaration();
+  return narrow(2 * rounding_error(scene, steps, declared), declared);
+}
+
 Finding same_when_moved(Trial& trial, const Eigen::Matrix3d& turn, const Vector3& shift) {
   const PortableScene scene = moved(turn, shift);
   const PerParticle3 expected = (turn * trial.after(original(), steps).x).colwise() + shift;
   const double error = (trial.after(scene, steps).x - expected).colwise().norm().maxCoeff();
   Table measured{{"steps", "1"}, {"difference of positions", "largest position"}};
   measured.row(steps, error / size_of(scene.x));
-  return judge_worst(measured, 2 * rounding_error(scene, steps, trial.declaration()),
+  return judge_worst(measured, allowed(trial, scene),
                      "both runs round differently, within the bound of one each");
 }
 
@@ -64,7 +70,7 @@ Finding same_in_the_mirror(Trial& trial) {
   const double error = (trial.after(scene, steps).x - expected).colwise().norm().maxCoeff();
   Table measured{{"steps", "1"}, {"difference of positions", "largest position"}};
   measured.row(steps, error / size_of(scene.x));
-  return judge_worst(measured, 2 * rounding_error(scene, steps, trial.declaration()),
+  return judge_worst(measured, allowed(trial, scene),
                      "sums in another order round differently, within the bound of one run each");
 }
 
@@ -82,7 +88,7 @@ Finding same_in_other_units(Trial& trial) {
   const double error = (trial.after(scene, steps).x - expected).colwise().norm().maxCoeff();
   Table measured{{"steps", "1"}, {"difference of positions", "largest position"}};
   measured.row(steps, error / size_of(scene.x));
-  return judge_worst(measured, 2 * rounding_error(scene, steps, trial.declaration()),
+  return judge_worst(measured, allowed(trial, scene),
                      "both runs round differently, within the bound of one each");
 }
 
@@ -142,7 +148,7 @@ double moved_by_the_step(Trial& trial) {
 /// of the step, which falls with it. Physics that depends on them stays.
 Finding same_when_renumbered(Trial& trial) {
   const PortableScene scene = original();
-  const double rounding = 2 * rounding_error(scene, steps, trial.declaration()) * size_of(scene.x);
+  const double rounding = allowed(trial, scene) * size_of(scene.x);
   const double moved = moved_by_numbers(trial, steps);
   Table measured{{"steps", "1"},
                  {"difference of positions", "m"},

@@ -32,7 +32,7 @@ PipedSolver& Trial::solver() {
   try {
     running_.emplace(command_);
   } catch (const SolverFailure& failure) {
-    gave_up_.emplace(failure.cause, failure.what());
+    gave_up_.emplace(failure);
     throw;
   }
   declared_ = running_->declaration();
@@ -88,7 +88,7 @@ std::vector<Snapshot> Trial::advance(double dt, const std::vector<long>& steps) 
   std::vector<Snapshot> states;
   long done = 0;
   for (const long count : steps) {
-    states.push_back(solver().advance(dt, count - done));
+    states.push_back(solver().advance(dt, count - done, steps.back()));
     done = count;
   }
   return states;
@@ -98,7 +98,8 @@ void Trial::note(const SolverFailure& failure) {
   running_.reset();
   if (failure.cause != "hang" || ++hangs_ < most_hangs) return;
   gave_up_.emplace("hang",
-                   fmt::format("{} hangs, not asked again; the last: {}", hangs_, failure.what()));
+                   fmt::format("{} hangs, not asked again; the last: {}", hangs_, failure.what()),
+                   failure.kind);
 }
 
 }  // namespace foldproof

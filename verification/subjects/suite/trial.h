@@ -18,6 +18,11 @@ struct FailedWithoutNumber : std::runtime_error {
       : std::runtime_error(seen), required(std::move(required_)) {}
 };
 
+/// Thrown by a law whose bound the declaration makes so wide that anything would hold.
+struct CannotTell : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 class Trial {
  public:
   explicit Trial(SolverCommand command) : command_(std::move(command)) {}
@@ -35,7 +40,11 @@ class Trial {
   const Declaration& last_declaration() const { return declared_; }
 
   /// Whether the solver will not be asked again.
-  bool has_ended() const { return gave_up_.has_value(); }
+  bool has_ended() const { return gave_up_ || is_out_of_time_; }
+
+  /// To be called when TimeIsUp was thrown.
+  void run_out_of_time() { is_out_of_time_ = true; }
+  bool is_out_of_time() const { return is_out_of_time_; }
 
   /// Throws NotOffered unless the solver declares it.
   void require_level(int level);
@@ -71,6 +80,7 @@ class Trial {
   Declaration declared_;
   std::vector<std::pair<std::string, std::string>> mapping_;
   int hangs_ = 0;
+  bool is_out_of_time_ = false;
   double seconds_of_motion_ = 0, processor_seconds_of_motion_ = 0;
 };
 

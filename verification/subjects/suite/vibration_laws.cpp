@@ -142,7 +142,7 @@ Finding vibrates_with(Trial& trial, const PortableScene& scene, double ratio) {
                  {"difference", "omega"}};
   row(measured, "decay", &Oscillation::decay, decay);
   row(measured, "frequency", &Oscillation::frequency, frequency);
-  return judge_worst(measured, allowed(trial.declaration()),
+  return judge_worst(measured, narrow(allowed(trial.declaration()), trial.declaration()),
                      "the scheme's own error falls with the step, as its order says: the next term "
                      "of the series is left, rounding, and the squared strain twice");
 }
