@@ -133,6 +133,22 @@ class OneSolver(ReportTest):
         self.assertIn("does not offer capability &#39;b&#39;: ball.four.", head)
         self.assertIn("the trial ended during smoke.three: ball.five.", head)
 
+    def test_it_shows_what_was_measured_and_lines_of_a_failure(self) -> None:
+        put_judged_run(self.root, [
+            {**finding("smoke.one", "holds", 0.25), "headline": "observed 1.02, claimed 1"},
+            finding("smoke.two", "fails", None, "its last words:\n    one\n    two"),
+        ])
+        text = self.made()
+        self.assertIn('<span class="headline">observed 1.02, claimed 1</span>', text)
+        self.assertIn('<p class="note lines">its last words:\n    one\n    two</p>', text)
+
+    def test_what_repeats_a_law_has_the_options_that_were_typed(self) -> None:
+        put_judged_run(self.root, self.findings)
+        facts = json.loads((self.root / "solver.json").read_text())
+        facts["options"] = ["--seconds", "7.5"]
+        (self.root / "solver.json").write_text(json.dumps(facts))
+        self.assertIn("--settings iterations=20 --seconds 7.5 smoke.one</code>", self.made())
+
     def test_only_a_law_that_holds_has_a_margin(self) -> None:
         put_judged_run(self.root, self.findings)
         margins = re.search(r'<table class="margins">.*?</table>', self.made(), re.DOTALL)[0]

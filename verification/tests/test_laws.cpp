@@ -335,7 +335,7 @@ TEST_CASE("subject: laws that the time of the trial does not reach did not run")
   command.limits.end = std::chrono::steady_clock::now() + std::chrono::milliseconds(700);
   const auto start = std::chrono::steady_clock::now();
   const Judgement judgement = judge_solver(command, portable_laws(), ignore);
-  CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(3));
+  CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(10));
   const Record& last = judgement.records.back();
   CHECK(
       (did_not_run(last) && last.finding.note.starts_with("the time of the trial was up during")));
@@ -360,6 +360,14 @@ TEST_CASE("subject: nothing follows from bounds that a declared tolerance makes 
 }
 
 TEST_CASE("subject: the headline of a law is what it measured") {
+  Finding slide;
+  slide.evidence =
+      Table{{"mu", "1"}, {"distance down", "m"}, {"by Coulomb's law", "m"}, {"difference", "1"}};
+  slide.evidence.row(0.1, 1, 1.01, 0.01);
+  slide.evidence.row(0.2, 3, 4.5, 0.5);
+  CHECK(headline_of("ball.slides-as-coulomb-says", slide) ==
+        "mu 0.2, distance down 3 m, by Coulomb's law 4.5 m");
+  CHECK(headline_of("held.particles-stay", slide).empty());
   std::vector<Law> laws;
   for (const HeadlineColumns& one : headline_columns())
     laws.push_back(laws_of({std::string(one.law)}).at(0));

@@ -56,8 +56,8 @@ class Solver:
     tell: Callable[[float], None] | None = None  # set by serve()
 
     def progress(self, part: float) -> None:
-        """To be called after each step of a long `advance`, with the part that is done, 0 to 1: says
-        at most once a second that the solver is at work, so that it is not taken to hang."""
+        """To be called after each step of a long `advance`, with the part that is done, 0 to 1.
+        Says at most once a second that the solver is at work, so that it is not taken to hang."""
         if self.tell:
             self.tell(part)
 

@@ -122,7 +122,8 @@ def spoil(kind: str, pipe: Pipe, identity: int, n: int) -> None:
 SPOILED = ("truncated", "short_array", "oversized", "too_many_bytes", "wrong_shape", "invalid_json",
            "noise_on_the_pipe", "endless_header", "wrong_id")
 WRECKED = (
-    "crash", "late_crash", "tells_progress", "last_lines", "exit_3", "hang", "exception", "nan", "fill_memory", "fill_disk", "fork_and_exit"
+    "crash", "late_crash", "tells_progress", "last_lines", "exit_3", "hang", "exception", "nan",
+    "fill_memory", "fill_disk", "fork_and_exit"
 )
 
 
