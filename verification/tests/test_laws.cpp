@@ -234,6 +234,43 @@ TEST_CASE(
                               "forces.of-a-bent-sheet-are-minus-the-energy-gradient"});
 }
 
+/// A quantity that is the scene's times a factor: the law allows one, and finds the other.
+struct Slip {
+  const char *law, *quantity, *allowed, *found;
+};
+
+TEST_CASE(
+    "subject: laws find slips of a few per cent, or of a few roundings, and allow smaller ones") {
+  for (const Slip& slip : {
+           Slip{"gravity.speed-grows-by-g-t", "gravity", "1.0000000000001", "1.000000000001"},
+           {"momentum.linear-is-conserved", "one_end", "1.00000000001", "1.0000000001"},
+           {"forces.sum-to-zero", "one_end", "1.0000000000001", "1.000000000001"},
+           {"calibration.young-s-modulus-is-the-scene-s", "young", "1.02", "1.08"},
+           {"calibration.young-s-modulus-is-the-scene-s", "young", "0.98", "0.92"},
+           {"calibration.bending-rigidity-is-the-scene-s", "rigidity", "1.02", "1.08"},
+           {"calibration.bending-rigidity-is-the-scene-s", "rigidity", "0.97", "0.92"},
+           {"damping.edges-damp-in-proportion-to-their-stiffness", "damping", "1.03", "1.07"},
+           {"damping.edges-damp-in-proportion-to-their-stiffness", "damping", "0.97", "0.94"},
+           {"vibration.damped-decays-as-its-damping-says", "damping", "1.02", "1.05"},
+           {"vibration.damped-decays-as-its-damping-says", "damping", "0.98", "0.95"},
+           {"contact.slides-as-coulomb-says", "friction", "1.05", "1.1"},
+           {"contact.slides-as-coulomb-says", "friction", "0.95", "0.9"},
+           {"contact.slips-at-coulomb-s-slope", "friction", "1.02", "1.04"},
+           {"contact.slips-at-coulomb-s-slope", "friction", "0.98", "0.96"},
+           {"ball.sheet-comes-to-rest", "radius", "0.998", "0.99"},
+       }) {
+    const std::string scaled = std::string("scaled ") + slip.quantity + " ";
+    INFO(slip.law << " " << scaled << slip.allowed << " " << slip.found);
+    CHECK(outcome_of_law(scaled + slip.allowed, slip.law) == Outcome::holds);
+    CHECK(outcome_of_law(scaled + slip.found, slip.law) == Outcome::fails);
+  }
+}
+
+TEST_CASE("subject: a sheet of another stiffness may decay and vibrate as its own says") {
+  for (const char* kind : {"scaled damped_young 0.8", "scaled damped_young 1.3"})
+    CHECK(failing_laws(kind, laws_of({"vibration"})) == std::set<std::string>{});
+}
+
 TEST_CASE("subject: rest angles that are ignored are found, and declined ones are no failure") {
   const std::string stays = "rest.curved-sheet-keeps-its-rest-angles";
   CHECK(failing_laws("bends_to_flat", laws_of({"rest"})) == std::set<std::string>{stays});

@@ -23,6 +23,7 @@ import contact  # noqa: E402
 import materials  # noqa: E402
 import processes  # noqa: E402
 import round_bodies  # noqa: E402
+import scaled  # noqa: E402
 import schemes  # noqa: E402
 import stated  # noqa: E402
 from foldproof_solver import Scene, serve  # noqa: E402
@@ -352,7 +353,11 @@ KINDS = {
 }
 
 if __name__ == "__main__":
+    if len(sys.argv) == 4 and sys.argv[1] == "scaled" and sys.argv[2] in scaled.QUANTITIES:
+        serve(scaled.scaled(*sys.argv[2:]))
+        sys.exit()
     if len(sys.argv) != 2 or sys.argv[1] not in KINDS:
         print("usage: wrong.py KIND, below foldproof;", *KINDS)
+        print("or wrong.py scaled QUANTITY FACTOR;", *scaled.QUANTITIES)
         sys.exit(2)
     serve(KINDS[sys.argv[1]]())
