@@ -127,6 +127,14 @@ TEST_CASE("subject: springs in turn depend on their numbers as their step explai
         std::set<std::string>{});
 }
 
+TEST_CASE(
+    "subject: one sweep over the springs is too few for the step of a game, and it is found") {
+  const std::string stretch = "game-step.static-stretch-is-that-of-short-steps";
+  CHECK(outcome_of_law("backward_euler", stretch) == Outcome::holds);
+  CHECK(outcome_of_law("none", stretch) == Outcome::not_applicable);
+  require_law_fails("in_turn", stretch);
+}
+
 TEST_CASE("subject: stated forces and energies that are not those of the motion are found") {
   const std::vector<Law> laws = laws_of({"momentum", "forces", "damping", "vibration"});
   const auto fails = [&](const char* kind) { return failing_laws(kind, laws); };

@@ -195,7 +195,11 @@ TEST_CASE("served reference: no law raises an alarm, in f8 and f4", "[long]") {
             precision == std::string("f4") &&
             (record.name == "precision.results-need-the-declared-digits" ||
              (record.name.starts_with("order.") && integrator == std::string("RK4")));
-        CHECK(record.outcome == (needs_digits ? Outcome::not_applicable : Outcome::holds));
+        const bool needs_short_steps = record.name.starts_with("game-step.") &&
+                                       !std::string(integrator).starts_with("backward") &&
+                                       !std::string(integrator).starts_with("implicit");
+        CHECK(record.outcome ==
+              (needs_digits || needs_short_steps ? Outcome::not_applicable : Outcome::holds));
       }
     }
 }

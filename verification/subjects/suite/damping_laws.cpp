@@ -93,10 +93,14 @@ Finding edges_damp_as_stiff_as_they_are(Trial& trial) {
   return judge_worst(measured, explained + 2 * found.rounding, reason);
 }
 
-PerParticle3 stated_forces(Trial& trial, const PortableScene& scene, const PerParticle3& v) {
+void require_stated_damping(Trial& trial) {
+  trial.require_level(2);
   trial.require("damping");
   trial.require("set_state");
-  trial.require_level(2);
+}
+
+PerParticle3 stated_forces(Trial& trial, const PortableScene& scene, const PerParticle3& v) {
+  require_stated_damping(trial);
   trial.prepare(scene);
   return trial.solver().damping({scene.x, v}, 0);
 }
@@ -117,8 +121,7 @@ Finding stated_forces_are_inner_ones(Trial& trial) {
 }
 
 Finding stated_forces_are_those_of_the_motion(Trial& trial) {
-  trial.require("damping");
-  trial.require_level(2);
+  require_stated_damping(trial);
   const Impulse found = impulse_of_dampers(trial);
   const PerParticle3 f = stated_forces(trial, rattled_sheet(), found.v);
   const auto power = [&](const PerParticle3& force) {

@@ -89,6 +89,7 @@ Finding rest_is_force_free(Trial& trial) {
 /// Central difference of the energy along the velocities, against minus the forces' power. Gravity,
 /// oblique to the axes, is part of both.
 Finding are_the_energy_gradient(Trial& trial, PortableScene scene) {
+  trial.require_level(2);
   trial.require("set_state");
   scene.gravity = Vector3(2.3, -3.1, -9.0);
   const PerParticle3 f = forces_at_start(trial, scene);

@@ -28,6 +28,7 @@ std::vector<Law> damping_laws();      // dampers in the motion, and as level 2 s
 std::vector<Law> calibration_laws();  // effective moduli
 std::vector<Law> vibration_laws();    // period and decay
 std::vector<Law> stability_laws();    // the largest step
+std::vector<Law> game_step_laws();    // a step of 1/60 s
 std::vector<Law> cost_laws();         // growth with the number of particles
 std::vector<Law> cantilever_laws();   // a heavy strip at rest
 std::vector<Law> bent_strip_laws();   // loops, rings and wrinkles of a heavy strip
