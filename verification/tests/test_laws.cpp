@@ -302,6 +302,16 @@ TEST_CASE("subject: wrong contact is found") {
   CHECK(failing_laws("friction_creeps", laws) == std::set<std::string>{slips});
 }
 
+TEST_CASE("subject: a strip that is pressed on a floor and slips too late or too early is found",
+          "[long]") {
+  const std::string slips = "floor.pressed-strip-slips-as-the-elastica";
+  CHECK(outcome_of_law("bends_on_planes", slips) == Outcome::holds);
+  CHECK(outcome_of_law("on_planes", slips) == Outcome::not_applicable);
+  require_law_fails("bends_on_planes_friction_halved", slips);
+  CHECK(failing_laws("bends_on_planes_friction_of_weight", laws_of({"contact", slips})) ==
+        std::set<std::string>{slips});
+}
+
 TEST_CASE("subject: wrong contact with balls is found") {
   const std::string outside = "ball.falling-sheet-stays-outside",
                     gains = "ball.fall-gains-no-energy", rests = "ball.sheet-comes-to-rest",

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import numpy as np
+from materials import Bends
 from schemes import BackwardEuler, BackwardEulerInSingle, Single, ToySolver
 
 from foldproof_solver import Scene
@@ -162,6 +163,26 @@ class SticksToPlanes(OnPlanes):
 
     def kept(self, most: np.ndarray, speed: np.ndarray) -> np.ndarray:
         return np.where(most > 0, 0, 1.0)
+
+
+class BendsOnPlanes(OnPlanes, Bends):
+    pass
+
+
+class BendsOnPlanesFrictionHalved(FrictionHalved, Bends):
+    pass
+
+
+class BendsOnPlanesFrictionOfWeight(OnPlanes, Bends):
+    """Friction as much as a particle's own weight calls for, whatever else presses it on."""
+
+    def respond(self, plane: dict, before: np.ndarray, dt: float) -> None:
+        self.own = dt * max(0.0, -self.gravity @ np.array(plane["normal"]))
+        self.friction = plane["friction"]
+        super().respond(plane, before, dt)
+
+    def kept(self, most: np.ndarray, speed: np.ndarray) -> np.ndarray:
+        return super().kept(np.full_like(most, self.friction * self.own), speed)
 
 
 class OnBoxes(ToySolver):

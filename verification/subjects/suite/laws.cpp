@@ -76,7 +76,7 @@ std::vector<Law> portable_laws() {
         damping_laws(),   calibration_laws(), vibration_laws(),     stability_laws(),
         game_step_laws(), cost_laws(),        cantilever_laws(),    bent_strip_laws(),
         buckling_laws(),  tipping_laws(),     drape_laws(),         wrinkle_laws(),
-        chain_laws(),     contact_laws(),     fall_laws(),          ball_laws(),
+        chain_laws(),     contact_laws(), floor_laws(),     fall_laws(),          ball_laws(),
         capstan_laws(),   tunnelling_laws(),  self_collision_laws()})
     all.insert(all.end(), laws.begin(), laws.end());
   return all;

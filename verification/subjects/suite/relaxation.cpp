@@ -18,8 +18,8 @@ double kinetic_energy(const PortableScene& scene, const PerParticle3& v) {
 /// but the scheme's error, as long as the step is stable.
 double gained(const PortableScene& scene, const Relaxation& relaxation, const Snapshot& now) {
   const double work = scene.gravity.dot((now.x - relaxation.unstrained) * scene.mass);
-  return (kinetic_energy(scene, now.v) - work) /
-         (scene.mass.sum() * scene.gravity.norm() * relaxation.length);
+  return (kinetic_energy(scene, now.v) - work - relaxation.stored) /
+         (scene.mass.sum() * scene.gravity.norm() * relaxation.length + relaxation.stored);
 }
 
 constexpr double longest = 1.6;    // of a round [s]

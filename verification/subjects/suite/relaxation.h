@@ -11,6 +11,7 @@ struct Relaxation {
   double length;            // of what hangs [m]
   double enough;            // two rounds that move it by less end it, over the length [1]
   double glance;            // between two looks at its kinetic energy [s]
+  double stored = 0;        // elastic energy of the start, at most [J]
 };
 
 struct Relaxed {
