@@ -312,6 +312,14 @@ TEST_CASE("subject: a strip that is pressed on a floor and slips too late or too
         std::set<std::string>{slips});
 }
 
+TEST_CASE("subject: a floor that holds a fold down is found, no other one", "[long]") {
+  const std::string stands = "floor.clamped-fold-stands-as-high-as-the-elastica";
+  CHECK(outcome_of_law("bends_on_planes", stands) == Outcome::holds);
+  CHECK(outcome_of_law("on_planes", stands) == Outcome::not_applicable);
+  CHECK(failing_laws("bends_on_planes_that_hold_down", laws_of({"contact", stands})) ==
+        std::set<std::string>{stands});
+}
+
 TEST_CASE("subject: wrong contact with balls is found") {
   const std::string outside = "ball.falling-sheet-stays-outside",
                     gains = "ball.fall-gains-no-energy", rests = "ball.sheet-comes-to-rest",

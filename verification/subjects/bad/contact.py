@@ -185,6 +185,19 @@ class BendsOnPlanesFrictionOfWeight(OnPlanes, Bends):
         return super().kept(np.full_like(most, self.friction * self.own), speed)
 
 
+class BendsOnPlanesThatHoldDown(OnPlanes, Bends):
+    """What lies on a plane leaves it no more slowly than by 0.2 m/s."""
+
+    def respond(self, plane: dict, before: np.ndarray, dt: float) -> None:
+        super().respond(plane, before, dt)
+        normal = np.array(plane["normal"])
+        lay = np.abs((before - np.array(plane["point"])) @ normal) < 1e-6
+        speed = self.v @ normal
+        stays = lay & (speed > 0) & (speed < 0.2)
+        self.v[stays] -= speed[stays, None] * normal
+        self.x[stays] = before[stays] + dt * self.v[stays]
+
+
 class OnBoxes(ToySolver):
     """Particles that end a step in a box leave it by the nearest face, and stop there."""
 

@@ -319,6 +319,7 @@ KINDS = {
     "friction_halved": contact.FrictionHalved,
     "sticks_to_planes": contact.SticksToPlanes,
     "bends_on_planes": contact.BendsOnPlanes,
+    "bends_on_planes_that_hold_down": contact.BendsOnPlanesThatHoldDown,
     "bends_on_planes_friction_halved": contact.BendsOnPlanesFrictionHalved,
     "bends_on_planes_friction_of_weight": contact.BendsOnPlanesFrictionOfWeight,
     "none": Unspoiled,

@@ -72,12 +72,13 @@ bool is_smoke(const Record& record) { return record.name.starts_with("smoke."); 
 std::vector<Law> portable_laws() {
   std::vector<Law> all;
   for (const auto& laws :
-       {motion_laws(),    symmetry_laws(),    repeat_laws(),        force_laws(),
-        damping_laws(),   calibration_laws(), vibration_laws(),     stability_laws(),
-        game_step_laws(), cost_laws(),        cantilever_laws(),    bent_strip_laws(),
-        buckling_laws(),  tipping_laws(),     drape_laws(),         wrinkle_laws(),
-        chain_laws(),     contact_laws(), floor_laws(),     fall_laws(),          ball_laws(),
-        capstan_laws(),   tunnelling_laws(),  self_collision_laws()})
+       {motion_laws(),        symmetry_laws(),    repeat_laws(),     force_laws(),
+        damping_laws(),       calibration_laws(), vibration_laws(),  stability_laws(),
+        game_step_laws(),     cost_laws(),        cantilever_laws(), bent_strip_laws(),
+        buckling_laws(),      tipping_laws(),     drape_laws(),      wrinkle_laws(),
+        chain_laws(),         contact_laws(),     floor_laws(),      fold_laws(),
+        fall_laws(),          ball_laws(),        capstan_laws(),    tunnelling_laws(),
+        self_collision_laws()})
     all.insert(all.end(), laws.begin(), laws.end());
   return all;
 }

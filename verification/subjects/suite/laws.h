@@ -40,7 +40,8 @@ std::vector<Law> chain_laws();        // a limp strip between two points
 std::vector<Law> contact_laws();      // capability "planes": resting, friction
 std::vector<Law> fall_laws();         // obstacles of each kind give a sheet no energy
 std::vector<Law> ball_laws();         // capability "spheres": depth, rest, friction
-std::vector<Law> floor_laws();        // capability "planes": bent strips on a floor
+std::vector<Law> floor_laws();        // capability "planes": a strip that is pressed on a floor
+std::vector<Law> fold_laws();         // capability "planes": a strip folded over on a floor
 std::vector<Law> capstan_laws();      // capability "capsules": a strip over one, and when it slips
 std::vector<Law> self_collision_laws();  // capability "self_collision"
 std::vector<Law> tunnelling_laws();  // capability "boxes": a thin one stops what is thrown at it
