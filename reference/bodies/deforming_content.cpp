@@ -51,7 +51,7 @@ bool is_deep_enough(const Octree& tree) {
   for (std::size_t b = 0; b < level.size(); ++b) {
     if (level[b] >= tree.settings.depth) return false;
     for (int k = 0; k < std::popcount(unsigned(tree.branches[b].inner)); ++k)
-      level[std::size_t(tree.branches[b].children + k)] = level[b] + 1;
+      level.at(std::size_t(tree.branches[b].children + k)) = level[b] + 1;
   }
   return true;
 }

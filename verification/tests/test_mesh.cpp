@@ -1,6 +1,7 @@
 // Meshes made by code are what they promise to be.
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
@@ -276,6 +277,24 @@ TEST_CASE(
   CHECK(std::abs(mesh.particles() - 660) < 66);
   sheet.seed = 12;
   CHECK(make_sheet(sheet).triangles != mesh.triangles);
+}
+
+TEST_CASE("mesh: the statue is the figure that its limbs make") {
+  const TriangleMesh statue = make_statue(1, 3);
+  const PerParticle3& x = statue.rest;
+  PerParticle area = PerParticle::Zero(x.cols());
+  double volume = 0;
+  for (const Triangle& t : statue.triangles) {
+    const Vector3 a = x.col(t[0]), b = x.col(t[1]), c = x.col(t[2]);
+    volume += a.cross(b).dot(c) / 6;
+    for (const int i : t) area[i] += (b - a).cross(c - a).norm() / 6;
+  }
+  // as it was designed: every limb and fold has a part in these
+  const std::array<double, 3> moments{0.0594365028, 0.268083368, 0.0301511016};  // m^4
+  CHECK(volume == Approx(0.116025753).epsilon(1e-8));
+  for (int axis = 0; axis < 3; ++axis)
+    CHECK(x.row(axis).cwiseAbs2().dot(area.transpose()) ==
+          Approx(moments[size_t(axis)]).epsilon(1e-8));
 }
 
 TEST_CASE("mesh: a made hinge is folded at the angle asked for, from N1 to N2 about E") {

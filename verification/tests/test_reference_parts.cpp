@@ -1,6 +1,8 @@
 // Parts of the reference: zones of colliding cloth, and prescribed motion where it does least.
+#include <barrier>
 #include <catch2/catch.hpp>
 
+#include "reference/fast/threads.h"
 #include "reference/filters/impact_zones.h"
 #include "reference/motion/pose.h"
 
@@ -50,4 +52,12 @@ TEST_CASE("the events of prescribed particles ascend, each once, without those t
                                                   {7, Vector3::Zero(), early}};
   CHECK(event_times(particles, 0.3) == std::vector<double>{0.7, 1.9});
   CHECK(event_times(particles, 0.1) == std::vector<double>{0.3, 0.7, 1.9});
+}
+
+TEST_CASE("threads: all parts of a loop are under way at once") {
+  for (const int parts : {2, 3}) {
+    std::barrier all_have_begun(parts);  // for which fewer threads would wait for ever
+    in_parallel(parts, [&](int) { all_have_begun.arrive_and_wait(); });
+    SUCCEED();
+  }
 }

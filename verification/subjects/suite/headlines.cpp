@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <variant>
 
 namespace foldproof {
@@ -35,6 +36,15 @@ const std::vector<HeadlineColumns>& headline_columns() {
       {"drape.stiff-ring-sags-as-a-plate",
        "distance from their middle and moves, over half the range",
        {"extrapolated", "of the plate, at least", "at most"}},
+      {"wrinkles.grow-as-tension-and-rigidity-say",
+       "of the difference, over what is allowed",
+       {"half waves", "stiffness to it", "of a plate"}},
+      {"floor.pressed-strip-slips-as-the-elastica",
+       "outside of both",
+       {"compression", "mu that just holds", "at least", "at most"}},
+      {"floor.clamped-fold-stands-as-high-as-the-elastica",
+       "outside of both and last move, over what is allowed",
+       {"of the fold", "measured", "at least", "at most"}},
       {"contact.sheet-rests-on-a-plane",
        "largest distance over what is allowed",
        {"deepest", "highest"}},
@@ -60,6 +70,7 @@ std::string cell_text(const Column& column, size_t row) {
     return fmt::format("{} {}", column.name, texts->at(row));
   const std::string unit = column.unit.empty() || column.unit == "1" ? "" : " " + column.unit;
   const double value = std::get<std::vector<double>>(column.values).at(row);
+  if (!std::isfinite(value)) return column.name + " no number";
   return fmt::format("{} {:.4g}{}", column.name, value, unit);
 }
 
