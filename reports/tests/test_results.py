@@ -185,7 +185,7 @@ class VerdictsSchema(unittest.TestCase):
         text = (REPORTS.parent / "verification" / "files" / "verdicts_file.cpp").read_text(
             encoding="utf-8"
         )
-        written = set(re.findall(r'(?:\{|\["program"\]\[)"(\w+)"[,\]]', text))
+        written = set(re.findall(r'(?:\{|json\["program"\]\[|row\[|json\[)"(\w+)"[,\]]', text))
         parts = self.schema["$defs"]
         decider = parts["claim"]["properties"]["decided_by"]["items"]
         described = set(self.schema["properties"]).union(
