@@ -68,6 +68,12 @@ TEST_CASE("subject: a strip without bending hangs limp, and the law says so in n
   CHECK(record.finding.note.find("limp, 1.00 of its length low") != std::string::npos);
 }
 
+TEST_CASE("subject: bending with play is found by strips of little weight, no other ones",
+          "[long]") {
+  CHECK(failing_laws("gives_at_small_angles", laws_of({"calibration", "cantilever"})) ==
+        std::set<std::string>{"cantilever.heavy-strip-hangs-as-the-elastica"});
+}
+
 TEST_CASE("subject: a strip without bending fails the laws of bent strips, and they say why") {
   const SolverCommand command = python("bad/wrong.py bends_not_at_all");
   const std::vector<Record> records =

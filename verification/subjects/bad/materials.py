@@ -279,20 +279,35 @@ class BendsFaceUpAlone(Bends):
         return found
 
 
-class StiffensWhenSharp(Bends):
-    """A law of bending that grows as tan(2 theta)/2: right at small angles, where rigidities are
-    measured."""
+class BendsByAngle(Bends):
+    """A law of bending whose stiffness depends on the angle."""
+
+    def stiffness(self, theta: np.ndarray) -> np.ndarray:
+        raise NotImplementedError  # over the scene's
 
     def bending(self) -> tuple[np.ndarray, float]:
         a, b, c, d = (self.x[self.corners[:, k]] for k in range(4))
         first, second = np.cross(d - c, a - c), np.cross(b - c, d - c)
-        cosine = np.sum(first * second, axis=1) / np.sqrt(
-            np.sum(first**2, axis=1) * np.sum(second**2, axis=1))
-        theta = np.arccos(np.clip(cosine, 0.8, 1))
-        given, self.over_area = self.over_area, self.over_area * (1 + 16 * theta**2)
+        sine = np.linalg.norm(np.cross(first, second), axis=1)
+        theta = np.arctan2(sine, np.sum(first * second, axis=1))
+        given, self.over_area = self.over_area, self.over_area * self.stiffness(theta)
         found = super().bending()
         self.over_area = given
         return found
+
+
+class StiffensWhenSharp(BendsByAngle):
+    """As tan(2 theta)/2 grows: right at small angles, where rigidities are measured."""
+
+    def stiffness(self, theta: np.ndarray) -> np.ndarray:
+        return 1 + 16 * np.minimum(theta, 0.64) ** 2
+
+
+class GivesAtSmallAngles(BendsByAngle):
+    """No moment below half a milliradian, as of a hinge with play."""
+
+    def stiffness(self, theta: np.ndarray) -> np.ndarray:
+        return np.maximum(0, 1 - 5e-4 / np.maximum(theta, 1e-12))
 
 
 class HeldStripsWeighTwice(Bends):

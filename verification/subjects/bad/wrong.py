@@ -257,6 +257,7 @@ KINDS = {
     "bends_upright_only": materials.BendsUprightOnly,
     "bends_face_up_alone": materials.BendsFaceUpAlone,
     "stiffens_when_sharp": materials.StiffensWhenSharp,
+    "gives_at_small_angles": materials.GivesAtSmallAngles,
     "held_strips_weigh_twice": materials.HeldStripsWeighTwice,
     "held_strips_weigh_a_tenth_more": materials.HeldStripsWeighATenthMore,
     "bends_one_way_alone": materials.BendsOneWayAlone,
