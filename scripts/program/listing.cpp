@@ -36,9 +36,11 @@ std::string comparison(const Record& record) {
                      unit);
 }
 
-/// What a finding measured: its headline, if it has one.
+/// What a finding measured: its headline, if it has one, then what was judged.
 std::string measured(const Record& record) {
-  return record.finding.headline.empty() ? comparison(record) : record.finding.headline;
+  const std::string judged = comparison(record);
+  if (record.finding.headline.empty()) return judged;
+  return record.finding.headline + "; " + judged.substr(judged.find_first_not_of(' '));
 }
 
 /// Lines below a row, each of the text's own.
@@ -70,10 +72,6 @@ std::string details(const Record& record, const std::vector<std::string>& others
   std::string text;
   add_below(text, record.claim);
   const bool has_number = !std::isnan(finding.verdict.measured);
-  if (!finding.headline.empty()) {
-    const std::string judged = comparison(record);
-    add_below(text, "Judged: " + judged.substr(judged.find_first_not_of(' ')));
-  }
   if (!finding.verdict.why_bound.empty())
     add_below(text, (has_number ? "The bound: " : "Required: ") + finding.verdict.why_bound);
   if (!finding.note.empty()) add_below(text, "Note: " + finding.note);

@@ -236,7 +236,7 @@ class Judge(unittest.TestCase):
     def test_failing_lines_say_what_is_true(self) -> None:
         done = run("judge", "--solver", bad("wrong", "gravity_scaled"), "gravity")
         self.assertRegex(
-            done.stdout, r"fails +gravity\.speed-grows-by-g-t +of the mean velocity along gravity, "
+            done.stdout, r"fails +gravity\.speed-grows-by-g-t +the mean velocity along gravity, "
             r"error 0\.02 g t\n"
         )
         self.assertRegex(done.stdout, r"Judged: [\d.e+]+ >  1 ")

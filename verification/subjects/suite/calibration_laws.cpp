@@ -90,6 +90,9 @@ struct Moduli {
 Moduli moduli_of(Trial& trial, const Specimen& specimen) {
   const Eigen::Vector2d x = stiffness_row(trial, specimen, 0),
                         y = stiffness_row(trial, specimen, 1);
+  if (!(std::abs(x[0] * y[1]) > 0))
+    throw FailedWithoutNumber("a stretched sheet does not pull: no half of it gains momentum",
+                              "a stress: lengths beyond those of the rest shape must pull");
   return {x[0] - x[1] * y[0] / y[1], y[1] - x[1] * y[0] / x[0], (x[1] + y[0]) / (2 * y[1])};
 }
 

@@ -64,10 +64,10 @@ const std::vector<HeadlineColumns>& headline_columns() {
 
 namespace {
 
-/// "observed 0.98": of a column, in this row.
+/// "observed 0.98": of a column, in this row; of the column "of", the text alone.
 std::string cell_text(const Column& column, size_t row) {
   if (const auto* texts = std::get_if<std::vector<std::string>>(&column.values))
-    return fmt::format("{} {}", column.name, texts->at(row));
+    return column.name == "of" ? texts->at(row) : fmt::format("{} {}", column.name, texts->at(row));
   const std::string unit = column.unit.empty() || column.unit == "1" ? "" : " " + column.unit;
   const double value = std::get<std::vector<double>>(column.values).at(row);
   if (!std::isfinite(value)) return column.name + " no number";

@@ -231,9 +231,11 @@ bool is_float(double number) { return double(float(number)) == number; }
 Finding results_need_their_digits(Trial& trial) {
   if (trial.declaration().is_single) throw NotOffered{"double precision"};
   const Snapshot end = trial.after(moving_sheet(), steps);
-  const long floats = std::count_if(end.x.data(), end.x.data() + end.x.size(), is_float);
-  Table measured{{"numbers", "1"}, {"share that single precision holds", "1"}};
-  measured.row(end.x.size(), double(floats) / double(end.x.size()));
+  Table measured{{"of", ""}, {"numbers", "1"}, {"share that single precision holds", "1"}};
+  for (const auto& [of, numbers] : {std::pair("positions", end.x), {"velocities", end.v}}) {
+    const long floats = std::count_if(numbers.data(), numbers.data() + numbers.size(), is_float);
+    measured.row(of, numbers.size(), double(floats) / double(numbers.size()));
+  }
   return judge_worst(measured, 0.1, "a number in double precision is one of single with 2^-29");
 }
 
@@ -256,7 +258,7 @@ std::vector<Law> repeat_laws() {
        "Each halving of the step changes the motion less than the one before.", "Cauchy",
        halved_steps_approach_a_limit},
       {"precision.results-need-the-declared-digits",
-       "Positions declared as double are not just single-precision values.", "IEEE 754",
+       "Positions and velocities declared as double are not just single-precision values.", "IEEE 754",
        results_need_their_digits},
   };
 }

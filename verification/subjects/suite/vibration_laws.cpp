@@ -100,6 +100,9 @@ double released_frequency(Trial& trial) {
     return std::acos(strains(trial, scene, {steps}).front() / amplitude) / angle;
   };
   const double coarse = frequency(16), fine = frequency(32);
+  if (!(coarse > 0 && fine > 0))
+    throw FailedWithoutNumber("a strained triangle does not swing back when it is let go",
+                              "a frequency: lengths beyond those of the rest shape must pull");
   return extrapolated(coarse, fine, trial.declaration());
 }
 
