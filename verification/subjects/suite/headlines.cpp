@@ -64,10 +64,10 @@ const std::vector<HeadlineColumns>& headline_columns() {
 
 namespace {
 
-/// "observed 0.98": of a column, in this row; of the column "of", the text alone.
+/// "observed 0.98": of a column, in this row.
 std::string cell_text(const Column& column, size_t row) {
   if (const auto* texts = std::get_if<std::vector<std::string>>(&column.values))
-    return column.name == "of" ? texts->at(row) : fmt::format("{} {}", column.name, texts->at(row));
+    return fmt::format("{} {}", column.name, texts->at(row));
   const std::string unit = column.unit.empty() || column.unit == "1" ? "" : " " + column.unit;
   const double value = std::get<std::vector<double>>(column.values).at(row);
   if (!std::isfinite(value)) return column.name + " no number";
@@ -86,7 +86,7 @@ std::string headline_of(std::string_view law, const Finding& finding) {
   std::string text;
   for (const std::string_view name : of->shown)
     text += (text.empty() ? "" : ", ") + cell_text(finding.evidence.column(name), row);
-  return text;
+  return text.starts_with("of ") ? text.substr(3) : text;  // "of the fold height"
 }
 
 std::string found_text(const std::array<double, 2>& found, const std::array<double, 2>& tried) {
