@@ -240,10 +240,12 @@ double mean_depth(const PortableScene& scene, const PerParticle3& x) {
 }
 
 /// How far the mass is not below the lighter one's [m]. The last moves of shapes at rest count
-/// against it; where shapes still move and that decides, nothing follows.
+/// against it where it is not lower. Where it is lower by less than they are, or where shapes still
+/// move and that decides, nothing follows.
 oracles::Estimate not_below(double before, double depth, double moves, bool at_rest) {
   const double most = std::max(0.0, before + moves - depth);
-  if (at_rest || most == 0) return {most, 0};
+  if (most == 0) return {0, 0};
+  if (at_rest && !(depth > before)) return {most, 0};
   return {std::max(0.0, before - depth), moves};
 }
 
@@ -277,8 +279,8 @@ Finding heavier_hangs_lower(Trial& trial, const SoftCloth& cloth) {
   }
   return judge_worst(measured, 0,
                      "of two shapes, each of less energy than the other under its own weight, the "
-                     "heavier one's mass lies lower; the last moves count against it, and of what "
-                     "still moves after 24 rounds nothing follows");
+                     "heavier one's mass lies lower; from less than the last moves, and of what "
+                     "still moves after 24 rounds, nothing follows");
 }
 
 }  // namespace
