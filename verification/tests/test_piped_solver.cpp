@@ -223,7 +223,8 @@ TEST_CASE("subject: lost momentum and hidden damping are found") {
 TEST_CASE("subject: damping that nobody asked for, and half of what was asked, are found") {
   CHECK(failing_laws("damped_unasked") == std::set<std::string>{"vibration.undamped-goes-on"});
   CHECK(failing_laws("damping_halved") ==
-        std::set<std::string>{"vibration.damped-decays-as-its-damping-says"});
+        std::set<std::string>{"damping.edges-damp-in-proportion-to-their-stiffness",
+                              "vibration.damped-decays-as-its-damping-says"});
 }
 
 TEST_CASE("subject: false claims of precision and order are found") {
@@ -332,6 +333,7 @@ TEST_CASE("subject: broken symmetries are found") {
 TEST_CASE("subject: wrong forces and loosely held particles are found") {
   CHECK(failing_laws("held_loosely") ==
         std::set<std::string>{"held.particles-stay", "stability.small-steps-gain-no-energy",
+                              "game-step.static-stretch-is-that-of-short-steps",
                               "chain.limp-strip-sags-as-a-catenary",
                               "drape.heavier-limp-ring-hangs-lower"});
   CHECK(failing_laws("held_sheets_weigh_twice") ==
@@ -380,7 +382,8 @@ TEST_CASE("subject: the toy in C++ meets every law that it does not decline") {
         !record.name.starts_with("contact.") && !record.name.starts_with("ball.") &&
         !record.name.starts_with("capstan.") && !record.name.starts_with("box.") &&
         !record.name.starts_with("capsule.") && !record.name.starts_with("damping.") &&
-        !record.name.starts_with("game-step.") && !record.name.starts_with("forces.of-a-bent-") &&
+        !record.name.starts_with("game-step.") && !record.name.starts_with("floor.") &&
+        !record.name.starts_with("forces.of-a-bent-") &&
         record.name != "rest.curved-sheet-keeps-its-rest-angles" &&
         !record.name.starts_with("buckling.") && !record.name.starts_with("strip.") &&
         record.name != "order.with-damping-is-as-claimed" &&
