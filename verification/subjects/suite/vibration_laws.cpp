@@ -127,6 +127,7 @@ double allowed(const Declaration& declared) {
 /// With dampers of `ratio`, c = 2 ratio k/omega, the rate is ratio omega of the scene's omega, and
 /// as much as the solver's own stiffness differs: its calibration is another law's.
 Finding vibrates_with(Trial& trial, const PortableScene& scene, double ratio) {
+  const double bound = narrow(allowed(trial.declaration()), trial.declaration());
   const double released = released_frequency(trial), decay = ratio * released * released;
   const double frequency = std::sqrt(released * released - decay * decay);
   std::vector<Oscillation> at;
@@ -145,7 +146,7 @@ Finding vibrates_with(Trial& trial, const PortableScene& scene, double ratio) {
                  {"difference", "omega"}};
   row(measured, "decay", &Oscillation::decay, decay);
   row(measured, "frequency", &Oscillation::frequency, frequency);
-  return judge_worst(measured, narrow(allowed(trial.declaration()), trial.declaration()),
+  return judge_worst(measured, bound,
                      "the scheme's own error falls with the step, as its order says: the next term "
                      "of the series is left, rounding, and the squared strain twice");
 }
