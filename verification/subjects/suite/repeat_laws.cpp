@@ -258,8 +258,8 @@ std::vector<Law> repeat_laws() {
        "Each halving of the step changes the motion less than the one before.", "Cauchy",
        halved_steps_approach_a_limit},
       {"precision.results-need-the-declared-digits",
-       "Positions and velocities declared as double are not just single-precision values.", "IEEE 754",
-       results_need_their_digits},
+       "Positions and velocities declared as double are not just single-precision values.",
+       "IEEE 754", results_need_their_digits},
   };
 }
 
