@@ -14,28 +14,6 @@
 
 namespace foldproof {
 
-namespace {
-
-SolverCommand broken(const std::string& kind) {
-  SolverCommand command = python("bad/broken.py " + kind);
-  command.limits.seconds = 20;
-  return command;
-}
-
-/// Of two steps of the small sheet.
-SolverFailure failure_of(const SolverCommand& command) {
-  try {
-    PipedSolver solver(command);
-    solver.prepare(suite::small_sheet());
-    solver.advance(1e-3, 2);
-  } catch (const SolverFailure& failure) {
-    return failure;
-  }
-  return {"none", "nothing failed"};
-}
-
-}  // namespace
-
 TEST_CASE("subject: parameters that mean something else are found") {
   const std::string young = "calibration.young-s-modulus-is-the-scene-s",
                     refined = "calibration.modulus-survives-refinement";
@@ -283,6 +261,13 @@ TEST_CASE(
 TEST_CASE("subject: a sheet of another stiffness may decay and vibrate as its own says") {
   for (const char* kind : {"scaled damped_young 0.8", "scaled damped_young 1.3"})
     CHECK(failing_laws(kind, laws_of({"vibration"})) == std::set<std::string>{});
+}
+
+TEST_CASE("subject: a strip whose rigidity is lost in rounding is judged by no law") {
+  for (const char* law : {"cantilever", "strip.wrinkles", "buckling.strip", "wrinkles"}) {
+    INFO(law);
+    CHECK(outcome_of_law("bends_in_substeps_of_single", law) == Outcome::not_applicable);
+  }
 }
 
 TEST_CASE("subject: rest angles that are ignored are found, and declined ones are no failure") {

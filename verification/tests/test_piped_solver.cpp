@@ -18,25 +18,6 @@ namespace foldproof {
 
 namespace {
 
-SolverCommand broken(const std::string& kind) {
-  SolverCommand command = python("bad/broken.py " + kind);
-  command.limits.seconds = 20;
-  return command;
-}
-
-/// The failure of the first advance that is followed by another call.
-SolverFailure failure_of(const SolverCommand& command) {
-  try {
-    PipedSolver solver(command);
-    solver.prepare(suite::small_sheet());
-    solver.advance(1e-3, 2);
-    solver.get_state();
-  } catch (const SolverFailure& failure) {
-    return failure;
-  }
-  return {"none", "nothing failed"};
-}
-
 void require_failure(const std::string& kind, const std::string& cause, const std::string& words) {
   INFO(kind);
   const SolverFailure failure = failure_of(broken(kind));

@@ -1,4 +1,5 @@
-// Solvers of bad/wrong.py, and the laws that they fail. For files that know SUBJECTS_FOLDER.
+// Solvers of bad/, how they break, and the laws that they fail. For files that know
+// SUBJECTS_FOLDER.
 #pragma once
 
 #include <algorithm>
@@ -9,11 +10,32 @@
 #include <vector>
 
 #include "verification/subjects/suite/laws.h"
+#include "verification/subjects/suite/scenes.h"
 
 namespace foldproof {
 
 inline SolverCommand python(const std::string& program) {
   return {"exec /usr/bin/python3 " SUBJECTS_FOLDER "/" + program, {}, {}};
+}
+
+/// A solver of bad/broken.py.
+inline SolverCommand broken(const std::string& kind) {
+  SolverCommand command = python("bad/broken.py " + kind);
+  command.limits.seconds = 20;
+  return command;
+}
+
+/// The failure of the first advance that is followed by another call.
+inline SolverFailure failure_of(const SolverCommand& command) {
+  try {
+    PipedSolver solver(command);
+    solver.prepare(suite::small_sheet());
+    solver.advance(1e-3, 2);
+    solver.get_state();
+  } catch (const SolverFailure& failure) {
+    return failure;
+  }
+  return {"none", "nothing failed"};
 }
 
 inline void ignore(const Record&) {}

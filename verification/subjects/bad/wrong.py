@@ -5,8 +5,8 @@ physics or one claim: wrong.py KIND
 The portable suite must find each by the laws that it breaks. "none" is the unspoiled toy;
 "backward_euler" and "trapezoidal", alone or after "damped_", and "in_turn" are other correct
 schemes, which must raise no alarm, at f8; "single", "backward_euler_single" and
-"substeps_in_single" are some at f4, "sleeps" is right but slow, and "clamps_where_held" right where
-bending begins behind a clamp.
+"substeps_in_single" are some at f4, as "bends_in_substeps_of_single", "sleeps" is right but slow,
+and "clamps_where_held" right where bending begins behind a clamp.
 """
 from __future__ import annotations
 
@@ -230,6 +230,10 @@ class SubstepsInSingle(Single):
             self.v = (self.x - start) / dt
 
 
+class BendsInSubstepsOfSingle(SubstepsInSingle, materials.Bends):
+    """Right; in steps of 0.1 ms a strip gains less speed by its bending than rounding gives it."""
+
+
 class HeldSheetsWeighTwice(ToySolver):
     """Gravity is added once more where particles are held."""
 
@@ -346,6 +350,7 @@ KINDS = {
     "stiffens_with_small_steps": StiffensWithSmallSteps,
     "stiffens_a_little_single": StiffensALittleInSingle,
     "substeps_in_single": SubstepsInSingle,
+    "bends_in_substeps_of_single": BendsInSubstepsOfSingle,
     "sleeps": processes.Sleeps,
     "asks_all_pairs": processes.AsksAllPairs,
     "waits_for_all_pairs": processes.WaitsForAllPairs,

@@ -40,23 +40,14 @@ struct Bent {
 };
 
 PortableScene flat_strip() {
-  PortableScene scene = free_strip(shape);
-  scene.name = "strip";
-  scene.material.young = young;
-  scene.material.bending_rigidity = given;
-  scene.dt = 2e-4;
-  return scene;
-}
-
-int row_of(const PortableScene& scene, Eigen::Index i) {
-  return int(std::lround((scene.mesh.rest(1, i) + shape.length() / 2) / h));
+  return free_strip(shape, {.young = young, .bending_rigidity = given}, 2e-4);
 }
 
 Eigen::Vector2d direction(double slope) { return {std::cos(slope), std::sin(slope)}; }
 
 /// Places of the rows from the middle of the first held panel, across and up [m], if bending begins
 /// `from` inside the middle of the held panels, and the strip weighs `heavier` times as much.
-Eigen::Matrix2Xd rows_of(const HeavyStrip& given_strip, double from, double heavier) {
+Eigen::Matrix2Xd rows_of_elastica(const HeavyStrip& given_strip, double from, double heavier) {
   HeavyStrip strip = given_strip;
   const double free = length - 2 * from;
   const Eigen::Vector2d first = from * direction(strip.first_slope),
@@ -89,24 +80,14 @@ PortableScene weightless_start(const Bent& bent, double gravity) {
   PortableScene scene = flat_strip();
   scene.name = bent.words;
   scene.gravity = Vector3(0, 0, -gravity);
-  const Eigen::Matrix2Xd rows = rows_of(bent.elastica, 0, 0);
+  const Eigen::Matrix2Xd rows = rows_of_elastica(bent.elastica, 0, 0);
+  const std::vector<int> row_of = rows_of(scene, shape);
   for (Eigen::Index i = 0; i < scene.x.cols(); ++i) {
-    const int row = row_of(scene, i);
+    const int row = row_of[size_t(i)];
     scene.x.col(i) << scene.mesh.rest(0, i), rows.col(row);
     if (row < 2 || row > shape.rows - 2) scene.held.push_back(int(i));
   }
   return scene;
-}
-
-/// Mean places of the rows [m].
-Eigen::Matrix2Xd rows_of(const PortableScene& scene, const PerParticle3& x) {
-  Eigen::Matrix2Xd rows = Eigen::Matrix2Xd::Zero(2, shape.rows + 1);
-  Eigen::RowVectorXd count = Eigen::RowVectorXd::Zero(shape.rows + 1);
-  for (Eigen::Index i = 0; i < x.cols(); ++i) {
-    rows.col(row_of(scene, i)) += x.col(i).tail<2>();
-    ++count[row_of(scene, i)];
-  }
-  return rows.array().rowwise() / count.array();
 }
 
 /// Where the elastica's rows are: between those of four strips.
@@ -132,7 +113,7 @@ Allowed allowed(const HeavyStrip& strip, double rounding) {
   for (const double from : {0.0, h / 2})
     for (const double heavier :
          {1 / (1 + off), 1 / ((1 - off) * (1 - largest_poisson * largest_poisson))}) {
-      const Eigen::Matrix2Xd rows = rows_of(strip, from, heavier);
+      const Eigen::Matrix2Xd rows = rows_of_elastica(strip, from, heavier);
       all.least = all.least.cwiseMin(rows);
       all.most = all.most.cwiseMax(rows);
     }
@@ -141,13 +122,7 @@ Allowed allowed(const HeavyStrip& strip, double rounding) {
 
 /// The mean of (turn from panel to panel)^2/24: a chord is shorter than its arc by this share.
 double share_of_chords(const Eigen::Matrix2Xd& rows) {
-  double sum = 0;
-  for (Eigen::Index k = 1; k + 1 < rows.cols(); ++k) {
-    const Eigen::Vector2d before = rows.col(k) - rows.col(k - 1),
-                          after = rows.col(k + 1) - rows.col(k);
-    sum += std::pow(std::acos(std::min(1.0, before.normalized().dot(after.normalized()))), 2);
-  }
-  return sum / double(rows.cols() - 2) / 24;
+  return squared_turns(rows) / double(rows.cols() - 2) / 24;
 }
 
 /// How far forces that round positions may change a row's weight [1]. Throws NotOffered if that
@@ -177,11 +152,11 @@ void compare(Trial& trial, const Bent& bent, double rigidity, Table& shapes) {
                gravity = bent.elastica.gamma * rigidity / (density * std::pow(length, 3));
   const PortableScene scene = weightless_start(bent, gravity);
   const Relaxed end = relaxed(trial, scene, {scene.x, length, 1e-4, 4e-3});
-  const Eigen::Matrix2Xd rows = rows_of(scene, end.x);
+  const Eigen::Matrix2Xd rows = mean_rows(scene, shape, end.x);
   const Allowed rest = allowed(bent.elastica, rounding_of_load(scene, trial.declaration()));
   const double outside = rest.outside(rows) / length, moved = end.last_move / length,
                stretch = density * gravity * length / (2 * young),
-               bound = share_of_chords(rows_of(bent.elastica, 0, 1)) + stretch;
+               bound = share_of_chords(rows_of_elastica(bent.elastica, 0, 1)) + stretch;
   constexpr int middle = shape.rows / 2;
   shapes.row(bent.words, rigidity, gravity, rows(1, middle) / length,
              rest.least(1, middle) / length, rest.most(1, middle) / length, outside, moved, bound,

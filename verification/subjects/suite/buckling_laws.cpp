@@ -29,11 +29,7 @@ const double longest = (shape_of_column.rows - 0.5) * shape_of_column.row_height
              shortest = (shape_of_column.rows - 1) * shape_of_column.row_height();
 
 PortableScene lying_strip() {
-  PortableScene scene = free_strip(shape_of_column);
-  scene.name = "strip";
-  scene.material.bending_rigidity = given;
-  scene.dt = 1e-3;
-  return scene;
+  return free_strip(shape_of_column, {.bending_rigidity = given}, 1e-3);
 }
 
 /// Upright, along z, bent towards x as it falls.

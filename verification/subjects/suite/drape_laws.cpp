@@ -75,26 +75,17 @@ Measured in_less_time(const std::function<double(double dt)>& measured) {
   return {half, std::abs(measured(dt) - half)};
 }
 
-PortableScene strip_of(const StripShape& shape, const PortableMaterial& material, double dt) {
-  PortableScene scene = free_strip(shape);
-  scene.name = "strip of the ring's cloth";
-  scene.material = material;
-  scene.mass = lumped_masses(scene.mesh, material.density);
-  scene.dt = dt;
-  return scene;
-}
-
 Plate plate_of(Trial& trial) {
   constexpr double twist = 0.05;  // rad/m
   const PortableMaterial cloth = stiff_cloth();
   const Measured bending = in_less_time([&](double dt) {
     return of_the_middle(
-        [&](const StripShape& s) { return measured_rigidity(trial, strip_of(s, cloth, dt), s); });
+        [&](const StripShape& s) { return measured_rigidity(trial, free_strip(s, cloth, dt), s); });
   });
   require_resistance("bending", bending.value, cloth.bending_rigidity);
   return {bending, in_less_time([&](double dt) {
             return of_the_middle([&](const StripShape& s) {
-              return measured_twisting(trial, strip_of(s, cloth, dt), s, twist);
+              return measured_twisting(trial, free_strip(s, cloth, dt), s, twist);
             });
           })};
 }
@@ -254,8 +245,8 @@ Finding heavier_hangs_lower(Trial& trial, const SoftCloth& cloth) {
   trial.require("held");
   PortableScene scene = waved(cloth);
   if (const double given = cloth.rigidity; given > 0) {
-    const PortableScene strip = strip_of(wide, scene.material, scene.dt);
-    require_resistance("bending", measured_rigidity(trial, strip, wide), given);
+    const PortableScene strip = free_strip(wide, scene.material, scene.dt);
+    require_resistance("bending", measured_rigidity(trial, strip, wide, 0.5), given);
   }
   const oracles::DrapeRadii radii{cloth.ring.edge(), cloth.ring.plate};
   const double hangs = radii.specimen - radii.plate, still = cloth.enough * hangs;  // m

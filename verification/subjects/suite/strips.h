@@ -20,16 +20,33 @@ struct StripShape {
   double width() const;       // of a full row [m]
 };
 
-/// In its rest shape, free, without gravity.
-PortableScene free_strip(const StripShape& shape);
+/// In its rest shape, without gravity; dt [s].
+PortableScene free_strip(const StripShape& shape, const PortableMaterial& material, double dt);
+
+/// Row of each particle, from 0 at the least y.
+std::vector<int> rows_of(const PortableScene& strip, const StripShape& shape);
+
+/// Mean places of the rows across the strip's width, of y and z [m].
+Eigen::Matrix2Xd mean_rows(const PortableScene& strip, const StripShape& shape,
+                           const PerParticle3& x);
+
+/// Of (turn from panel to panel)^2 between such rows, summed [rad^2].
+double squared_turns(const Eigen::Matrix2Xd& rows);
 
 /// Particles of the rows at this distance from y = 0, in the rest shape.
 std::vector<int> rows_at_distance(const PortableScene& strip, const StripShape& shape,
                                   double distance);
 
+/// What is measured of a sheet that lies `away` from where it is [m], for none. In single
+/// precision, the mean of four places; throws NotOffered if their range is over twice `most` of it.
+double beyond_rounding(Trial& trial, const char* of, double most,
+                       const std::function<double(const Vector3& away)>& measured);
+
 /// B as the law calibration.bending-rigidity-is-the-scene-s measures it, of this very strip [N m]:
-/// let go from a cylinder, half of it gains angular momentum by the moment in its middle.
-double measured_rigidity(Trial& trial, const PortableScene& strip, const StripShape& shape);
+/// let go from a cylinder, half of it gains angular momentum by the moment in its middle. Beyond
+/// rounding, to `most` of it.
+double measured_rigidity(Trial& trial, const PortableScene& strip, const StripShape& shape,
+                         double most = 0.02);
 
 /// GJ over the width, likewise [N m]: let go from an even twist [rad/m], half of the strip gains
 /// angular momentum by the torque in its middle.

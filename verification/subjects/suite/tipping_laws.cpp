@@ -30,12 +30,7 @@ const double h = ribbon.row_height(), longest = (ribbon.rows - 0.5) * h,
              shortest = (ribbon.rows - 1) * h;
 
 PortableScene lying_ribbon() {
-  PortableScene scene = free_strip(ribbon);
-  scene.name = "ribbon";
-  scene.material.young = young;
-  scene.material.bending_rigidity = given;
-  scene.dt = 2e-4;
-  return scene;
+  return free_strip(ribbon, {.young = young, .bending_rigidity = given}, 2e-4);
 }
 
 PortableScene ribbon_on_edge() {

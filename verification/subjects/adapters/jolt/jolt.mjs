@@ -1,19 +1,17 @@
 // Adapter of Jolt's soft bodies; `scripts/engines jolt` installs them.
-// Settings: iterations = substeps of each step (5); compliance_scale = of all edges (1).
+// Settings: iterations = substeps of each step (5); compliance_scale = of all edges and hinges (1).
 import fs from 'node:fs';
 import initialize from 'jolt-physics';
-import { Declined, Solver, serve } from '../foldproof_solver.mjs';
+import { Solver, serve } from '../foldproof_solver.mjs';
 
 const Jolt = await initialize();
-const version =
-  JSON.parse(fs.readFileSync(new URL('node_modules/jolt-physics/package.json', import.meta.url)))
-    .version;
+const about = new URL('node_modules/jolt-physics/package.json', import.meta.url);
+const { version } = JSON.parse(fs.readFileSync(about));
 
 class SoftBody extends Solver {
   name = 'Jolt soft body'; version = version; precision = 'f4';
-  scheme = 'position based, with compliance'; order = 0;
+  scheme = 'position based, with compliance'; order = 0; obstacles = [];
   capabilities = ['set_state', 'held', 'masses', 'planes', 'boxes', 'spheres', 'capsules'];
-  obstacles = [];
 
   constructor() {
     super();
@@ -33,18 +31,18 @@ class SoftBody extends Solver {
   }
 
   prepare(scene) {
-    if (scene.header.material.bending_rigidity > 0)
-      throw new Declined('a bending rigidity in N m: its hinges have a compliance in 1/J');
     this.remove();
-    const { gravity, settings } = scene.header;
-    const iterations = Number(settings.iterations ?? 5);
-    const scale = Number(settings.compliance_scale ?? 1);
+    const { gravity, material, settings } = scene.header;
+    const { iterations = 5, compliance_scale: scale = 1 } = settings;
     this.system.SetGravity(new Jolt.Vec3(...gravity));
     const sheet = this.sheet(scene, scale);
+    if (material.bending_rigidity > 0)
+      this.add_hinges(sheet, scene, scale / (2 * material.bending_rigidity));
+    sheet.Optimize();
     const origin = new Jolt.RVec3(0, 0, 0), unturned = Jolt.Quat.prototype.sIdentity();
     const creation = new Jolt.SoftBodyCreationSettings(sheet, origin, unturned, 0);
     Object.assign(creation, {
-      mNumIterations: iterations, mLinearDamping: 0, mMaxLinearVelocity: 1e6, mPressure: 0,
+      mNumIterations: Number(iterations), mLinearDamping: 0, mMaxLinearVelocity: 1e6, mPressure: 0,
       mFriction: 1, mUpdatePosition: false, mMakeRotationIdentity: false, mAllowSleeping: false,
     });
     this.place_obstacles(scene.header);
@@ -54,8 +52,9 @@ class SoftBody extends Solver {
     this.set_state(scene.x, scene.v);
     return {
       stretch: `each edge's compliance is ${scale} over its stiffness [m/N]`,
-      damping: 'none but that of the method', contact: 'friction mu^2, mean of it and 1: mu',
-      step: `${iterations} substeps`,
+      bending: `each hinge's compliance is ${scale} over 2 B w [1/J]`,
+      damping: 'none but that of the method', step: `${iterations} substeps`,
+      contact: 'friction mu^2, mean of it and 1: mu',
     };
   }
 
@@ -104,15 +103,24 @@ class SoftBody extends Solver {
       edge.mRestLength = rest_lengths[e];
       sheet.mEdgeConstraints.push_back(edge);
     }
-    sheet.Optimize();
     return sheet;
+  }
+
+  /// They store angle^2 / (2 compliance), the scene's B w angle^2, and count angles the other way.
+  add_hinges(sheet, { hinges, hinge_weights, rest_angles }, compliance) {
+    for (let h = 0; h < rest_angles.length; ++h) {
+      const [c, d, a, b] = hinges.slice(4 * h, 4 * h + 4);
+      const hinge = new Jolt.SoftBodySharedSettingsDihedralBend(a, b, d, c, 0);
+      hinge.mCompliance = compliance / hinge_weights[h];
+      hinge.mInitialAngle = rest_angles[h];
+      sheet.mDihedralBendConstraints.push_back(hinge);
+    }
   }
 
   remove() {
     for (const body of this.body ? [this.body, ...this.obstacles] : []) {
-      const id = body.GetID();
-      this.bodies.RemoveBody(id);
-      this.bodies.DestroyBody(id);
+      this.bodies.RemoveBody(body.GetID());
+      this.bodies.DestroyBody(body.GetID());
     }
     this.body = null, this.obstacles = [];
   }

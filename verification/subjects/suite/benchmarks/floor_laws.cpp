@@ -31,16 +31,7 @@ constexpr double young = 500;   // N/m
 const double h = shape.row_height(), length = shape.length() - h / 2;  // from that middle [m]
 
 PortableScene flat_strip() {
-  PortableScene scene = free_strip(shape);
-  scene.name = "strip";
-  scene.material.young = young;
-  scene.material.bending_rigidity = given;
-  scene.dt = 2e-4;
-  return scene;
-}
-
-int row_of(const PortableScene& scene, Eigen::Index i) {
-  return int(std::lround((scene.mesh.rest(1, i) + shape.length() / 2) / h));
+  return free_strip(shape, {.young = young, .bending_rigidity = given}, 2e-4);
 }
 
 /// On the branch that bulges to one side, as a clamped and pinned column does.
@@ -56,8 +47,9 @@ PortableScene strip_on_floor(double compression) {
   std::vector<double> arcs;
   for (int k = 2; k <= shape.rows; ++k) arcs.push_back((k - 0.5) * h / length);
   const oracles::StripShape bent = oracles::strip_by_collocation(pressed(0, compression - 1), arcs);
+  const std::vector<int> row_of = rows_of(scene, shape);
   for (Eigen::Index i = 0; i < scene.x.cols(); ++i) {
-    const int row = row_of(scene, i);
+    const int row = row_of[size_t(i)];
     scene.x.col(i) << scene.mesh.rest(0, i), 0, (0.5 - row) * h;
     if (row < 2) {
       scene.held.push_back(int(i));
@@ -71,11 +63,7 @@ PortableScene strip_on_floor(double compression) {
 }
 
 Eigen::Vector2d tip_of(const PortableScene& scene, const PerParticle3& x) {
-  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-  int count = 0;
-  for (Eigen::Index i = 0; i < x.cols(); ++i)
-    if (row_of(scene, i) == shape.rows) sum += x.col(i).tail<2>(), ++count;
-  return sum / count;
+  return mean_rows(scene, shape, x).rightCols<1>();
 }
 
 struct Threshold {

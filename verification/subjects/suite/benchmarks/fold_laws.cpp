@@ -29,16 +29,7 @@ constexpr double largest_poisson = 0.5;  // 1
 constexpr double measured_to = 0.02;     // of the rigidity [1]
 
 PortableScene flat_strip() {
-  PortableScene scene = free_strip(shape);
-  scene.name = "strip";
-  scene.material.young = young;
-  scene.material.bending_rigidity = given;
-  scene.dt = 2e-4;
-  return scene;
-}
-
-int row_of(const PortableScene& scene, Eigen::Index i) {
-  return int(std::lround((scene.mesh.rest(1, i) + shape.length() / 2) / h));
+  return free_strip(shape, {.young = young, .bending_rigidity = given}, 2e-4);
 }
 
 /// Points at these arc lengths, over the length [1].
@@ -76,35 +67,13 @@ PortableScene fold_on_floor(double gravity) {
   scene.gravity = Vector3(0, 0, -gravity);
   scene.planes = {{Vector3::Zero(), Vector3::UnitZ(), 0}};
   const Eigen::Matrix2Xd rows = rows_of_fold(gamma_of_start);
+  const std::vector<int> row_of = rows_of(scene, shape);
   for (Eigen::Index i = 0; i < scene.x.cols(); ++i) {
-    const int row = row_of(scene, i);
+    const int row = row_of[size_t(i)];
     scene.x.col(i) << scene.mesh.rest(0, i), rows.col(row);
     if (row < 2 || row > shape.rows - 2) scene.held.push_back(int(i));
   }
   return scene;
-}
-
-/// Mean places of the rows [m].
-Eigen::Matrix2Xd mean_rows(const PortableScene& scene, const PerParticle3& x) {
-  Eigen::Matrix2Xd rows = Eigen::Matrix2Xd::Zero(2, shape.rows + 1);
-  Eigen::RowVectorXd count = Eigen::RowVectorXd::Zero(shape.rows + 1);
-  for (Eigen::Index i = 0; i < x.cols(); ++i) {
-    rows.col(row_of(scene, i)) += x.col(i).tail<2>();
-    ++count[row_of(scene, i)];
-  }
-  return rows.array().rowwise() / count.array();
-}
-
-/// Of (turn from panel to panel)^2, summed [rad^2].
-double squared_turns(const Eigen::Matrix2Xd& rows) {
-  double sum = 0;
-  for (Eigen::Index k = 1; k + 1 < rows.cols(); ++k) {
-    const Eigen::Vector2d before = rows.col(k) - rows.col(k - 1),
-                          after = rows.col(k + 1) - rows.col(k);
-    sum +=
-        std::pow(std::acos(std::clamp(before.normalized().dot(after.normalized()), -1.0, 1.0)), 2);
-  }
-  return sum;
 }
 
 /// The largest of a row of numbers, by the parabola through it and its neighbours.
@@ -168,10 +137,10 @@ Finding stands_as_high_as_the_elastica(Trial& trial) {
   const double density = flat_strip().material.density,
                gravity = gamma_of_law * rigidity / (density * std::pow(length, 3));
   const PortableScene scene = fold_on_floor(gravity);
-  const Eigen::Matrix2Xd start = mean_rows(scene, scene.x);
+  const Eigen::Matrix2Xd start = mean_rows(scene, shape, scene.x);
   const double stored = rigidity * shape.width() * squared_turns(start) / (2 * h);
   const Relaxed end = relaxed(trial, scene, {scene.x, length, 1e-4, 4e-3, stored});
-  const Eigen::Matrix2Xd rows = mean_rows(scene, end.x);
+  const Eigen::Matrix2Xd rows = mean_rows(scene, shape, end.x);
   const Extent found = extent_of(rows);
   // forces that round positions, over a row's weight
   const double rounding =
