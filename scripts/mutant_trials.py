@@ -250,20 +250,20 @@ def line_of(one: Judgement) -> str:
 
 def read_explained() -> set[tuple[str, str, str]]:
     """File, line and what it becomes, of mutants that are declared equivalent;
-    refuses rows whose line is not there."""
+    refuses rows whose line does not stand there as often as they say."""
     try:
         rows = tomllib.loads((ROOT / EXPLAINED).read_text(encoding="utf-8")).get("mutant", [])
         found = {(row["file"], row["line"], row["becomes"]) for row in rows if row["reason"]}
+        times = {(row["file"], row["line"]): row.get("times", 1) for row in rows}
     except (OSError, tomllib.TOMLDecodeError, KeyError) as error:
         raise Unusable(f"{EXPLAINED}: {error}") from error
-    for file, line, _ in sorted(found):
+    for (file, line), expected in sorted(times.items()):
         occurrences = [
             text.strip() for text in (ROOT / file).read_text(encoding="utf-8").splitlines()
         ].count(line)
-        if occurrences != 1:
+        if occurrences != expected:
             raise Unusable(
-                f"{EXPLAINED}: '{line}' stands {occurrences} times in {file}; it must stand there"
-                " once"
+                f"{EXPLAINED}: '{line}' stands {occurrences} times in {file}, not {expected}"
             )
     return found
 
