@@ -85,7 +85,8 @@ TEST_CASE("subject: bending that is wrong where a sheet is turned over, or sharp
   const std::vector<Law> laws = laws_of({"calibration", "cantilever", "strip"});
   CHECK(failing_laws("bends_face_up_alone", laws) == std::set<std::string>{loops, rings, fold});
   CHECK(failing_laws("stiffens_when_sharp", laws) ==
-        std::set<std::string>{"cantilever.heavy-strip-hangs-as-the-elastica", loops, rings,
+        std::set<std::string>{"calibration.rigidity-survives-refinement",
+                              "cantilever.heavy-strip-hangs-as-the-elastica", loops, rings,
                               wrinkles, fold});
 }
 
@@ -261,6 +262,12 @@ TEST_CASE(
 TEST_CASE("subject: a sheet of another stiffness may decay and vibrate as its own says") {
   for (const char* kind : {"scaled damped_young 0.8", "scaled damped_young 1.3"})
     CHECK(failing_laws(kind, laws_of({"vibration"})) == std::set<std::string>{});
+}
+
+TEST_CASE("subject: bending that refinement changes is found") {
+  CHECK(failing_laws("bends_by_long_springs", laws_of({"calibration"})) ==
+        std::set<std::string>{"calibration.bending-rigidity-is-the-scene-s",
+                              "calibration.rigidity-survives-refinement"});
 }
 
 TEST_CASE("subject: a strip whose rigidity is lost in rounding is judged by no law") {

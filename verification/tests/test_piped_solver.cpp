@@ -374,6 +374,7 @@ TEST_CASE("subject: the toy in C++ meets every law that it does not decline") {
         record.name != "drape.heavier-disc-hangs-lower" && !record.name.starts_with("wrinkles.") &&
         record.name != "vibration.damped-decays-as-its-damping-says" &&
         record.name != "calibration.bending-rigidity-is-the-scene-s" &&
+        record.name != "calibration.rigidity-survives-refinement" &&
         record.name != "cantilever.heavy-strip-hangs-as-the-elastica";
     CHECK(record.outcome == (is_offered ? Outcome::holds : Outcome::not_applicable));
   }

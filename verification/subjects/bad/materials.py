@@ -326,6 +326,16 @@ class HeldStripsWeighATenthMore(HeldStripsWeighTwice):
     weight = 1.1
 
 
+class BendsByLongSprings(Bends):
+    """As springs between particles two edges apart bend a sheet: more on coarse meshes. The
+    rigidity is the scene's where edges are 5 cm long."""
+
+    def prepare(self, scene: Scene) -> dict[str, str]:
+        mapping = super().prepare(scene)
+        self.over_area *= (np.mean(scene.rest_lengths) / 0.05) ** 2
+        return mapping
+
+
 class BendsOneWayAlone(Bends):
     """Woven cloth whose edges within 25 degrees of y bend freely, as rods of one direction. A strip
     along y, with which rigidities are measured, has none of them."""

@@ -265,6 +265,7 @@ KINDS = {
     "held_strips_weigh_twice": materials.HeldStripsWeighTwice,
     "held_strips_weigh_a_tenth_more": materials.HeldStripsWeighATenthMore,
     "bends_one_way_alone": materials.BendsOneWayAlone,
+    "bends_by_long_springs": materials.BendsByLongSprings,
     "clamps_where_held": materials.ClampsWhereHeld,
     "weight_is_limited": materials.WeightIsLimited,
     "bends_with_limited_weight": materials.BendsWithLimitedWeight,

@@ -10,6 +10,11 @@ namespace foldproof {
 
 const std::vector<HeadlineColumns>& headline_columns() {
   static const std::vector<HeadlineColumns> all{
+      {"rest.no-force-no-motion-on-any-pattern",
+       "over rounding",
+       {"pattern", "largest displacement"}},
+      {"rest.curved-sheet-keeps-its-rest-angles", "over rounding", {"largest displacement"}},
+      {"inertia.free-sheet-keeps-its-velocity", "over rounding", {"of", "error"}},
       {"gravity.speed-grows-by-g-t", "error over rounding", {"of the mean velocity", "error"}},
       {"momentum.angular-drift-falls-with-the-step",
        "fine over coarse",

@@ -1,4 +1,6 @@
 // Smoke, rest, inertia, gravity, momentum, held particles.
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 
@@ -45,11 +47,12 @@ Finding stays_exactly(Trial& trial) {
 }
 
 Finding stays_on_every_pattern(Trial& trial) {
-  Table measured{{"pattern", ""}, {"displacement over rounding", "1"}};
+  Table measured{{"pattern", ""}, {"largest displacement", "m"}, {"over rounding", "1"}};
   for (const PortableScene& scene : sheets_at_rest()) {
-    const double moved = largest(trial.after(scene, few).x - scene.x) / size_of(scene.x);
-    measured.row(scene.name, moved / narrow(rounding_error(scene, few, trial.declaration()),
-                                            trial.declaration()));
+    const double moved = largest(trial.after(scene, few).x - scene.x);
+    const Declaration& declared = trial.declaration();
+    measured.row(scene.name, moved,
+                 moved / size_of(scene.x) / narrow(rounding_error(scene, few, declared), declared));
   }
   return judge_worst(measured, 1, "rounding of rest lengths, enlarged by elastic forces");
 }
@@ -68,9 +71,10 @@ Finding stays_curved(Trial& trial) {
   scene.material.bending_rigidity = 0.005;
   for (const Hinge& hinge : scene.mesh.hinges)
     scene.rest_angles.push_back(angle(scene.x, hinge.particles));
-  Table measured{{"steps", "1"}, {"displacement over rounding", "1"}};
-  measured.row(few,
-               largest(trial.after(scene, few).x - scene.x) / size_of(scene.x) /
+  Table measured{{"steps", "1"}, {"largest displacement", "m"}, {"over rounding", "1"}};
+  const double moved = largest(trial.after(scene, few).x - scene.x);
+  measured.row(few, moved,
+               moved / size_of(scene.x) /
                    narrow(rounding_error(scene, few, trial.declaration()), trial.declaration()));
   return judge_worst(measured, 1, "rounding of rest lengths and angles, enlarged by forces");
 }
@@ -82,15 +86,17 @@ Finding keeps_its_velocity(Trial& trial) {
   const double path = scene.v.col(0).norm() * time;
   const double rounding =
       narrow(rounding_error(scene, few, trial.declaration()), trial.declaration());
-  Table measured{{"of", ""}, {"error over rounding", "1"}};
-  measured.row("positions",
-               largest(end.x - scene.x - time * scene.v) / (rounding * (size_of(scene.x) + path)));
+  Table measured{{"of", ""}, {"error", ""}, {"over rounding", "1"}};
+  const auto row = [&](const char* of, const char* unit, double error, double scale) {
+    measured.row(of, fmt::format("{:.3g} {}", error, unit), error / (rounding * scale));
+  };
+  row("positions", "m", largest(end.x - scene.x - time * scene.v), size_of(scene.x) + path);
   // a position error of rounding, made within one step, is a velocity error of it over the step
-  measured.row("velocities", largest(end.v - scene.v) /
-                                 (rounding * (size_of(scene.x) / scene.dt + largest(scene.v))));
+  row("velocities", "m/s", largest(end.v - scene.v),
+      size_of(scene.x) / scene.dt + largest(scene.v));
   const PerParticle3 lost = (end.v - scene.v) * scene.mass.asDiagonal();
-  measured.row("mean velocity",
-               lost.rowwise().sum().norm() / scene.mass.sum() / (rounding * scene.v.col(0).norm()));
+  row("mean velocity", "m/s", lost.rowwise().sum().norm() / scene.mass.sum(),
+      scene.v.col(0).norm());
   return judge_worst(measured, 1, "rounding alone: no force acts");
 }
 
