@@ -162,16 +162,16 @@ Finding folds_never_pass_through(const FrameMotion& motion) {
     const Turns turns = turns_between(before, now);
     measured.row(frame.time, turns.fastest_seen, turns.largest);
     if (turns.largest > 180 &&
-        turns.largest - turns.fastest_seen / 2 > worst.largest - worst.fastest_seen / 2)
+        turns.largest - turns.fastest_seen > worst.largest - worst.fastest_seen)
       worst = turns;
     before = now;
   }
   Finding finding = judge_worst(measured, 180,
-                                "an angle in [-180, 180] that changes by more has passed 180, "
-                                "unless a fold turned the long way round: uncertain by half the "
-                                "fastest turn of other hinges between the same frames (empirical)");
+                                "an angle in [-180, 180] that changes by more has passed 180, or "
+                                "was the other way open by a fast turn: uncertain by the fastest "
+                                "turn of other hinges between the same frames (empirical)");
   if (worst.largest > 180)
-    finding.verdict.measured = worst.largest, finding.verdict.uncertainty = worst.fastest_seen / 2;
+    finding.verdict.measured = worst.largest, finding.verdict.uncertainty = worst.fastest_seen;
   return finding;
 }
 

@@ -40,13 +40,13 @@ struct BulletBody : Solver {
     world.reset(), constraints.reset();
   }
 
-  static int setting(const Scene& scene, const char* key, int otherwise) {
-    return std::stoi(scene.header["scene"]["settings"].value(key, std::to_string(otherwise)));
+  static double setting(const Scene& scene, const char* key, int otherwise) {
+    return std::stod(scene.header["scene"]["settings"].value(key, std::to_string(otherwise)));
   }
 
   /// The body and what its world needs; springs, edges and masses are the scene's.
-  void prepare_body(const Scene& scene) {
-    if (scene.header["scene"]["material"]["bending_rigidity"] > 0)
+  void prepare_body(const Scene& scene, bool bends = false) {
+    if (!bends && scene.header["scene"]["material"]["bending_rigidity"] > 0)
       throw Declined("a bending rigidity in N m: Bullet bends by springs two edges apart");
     clear();
     x = scene.numbers.at("x"), v = scene.numbers.at("v");

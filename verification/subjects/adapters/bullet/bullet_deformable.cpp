@@ -1,5 +1,6 @@
 // Adapter of Bullet's deformable bodies with mass-spring forces; `scripts/engines bullet` builds
-// it. Setting: implicit = 1 (Euler backward, one Newton iteration, the default) or 0 (symplectic).
+// it. Settings: implicit = 1 (Euler backward, one Newton iteration, the default) or 0 (symplectic);
+// bending = stiffness of its springs two edges apart, in place of a declined rigidity [N/m].
 #include <BulletSoftBody/btDeformableBodySolver.h>
 #include <BulletSoftBody/btDeformableGravityForce.h>
 #include <BulletSoftBody/btDeformableMassSpringForce.h>
@@ -28,7 +29,10 @@ struct Deformable : BulletBody {
   ~Deformable() override { clear(); }  // the world before what it refers to
 
   Mapping prepare(const Scene& scene) override {
-    prepare_body(scene);
+    const Json& material = scene.header["scene"]["material"];
+    const double bending = setting(scene, "bending", 0);
+    prepare_body(scene, bending > 0);
+    if (bending > 0 && material["bending_rigidity"] > 0) add_long_springs(scene.numbers.at("rest"));
     const bool implicit = setting(scene, "implicit", 1) != 0;
     const Numbers& stiffness = scene.numbers.at("edge_stiffness");
     const double sum = std::accumulate(stiffness.begin(), stiffness.end(), 0.0);
@@ -37,10 +41,9 @@ struct Deformable : BulletBody {
     solver->setDeformableSolver(deformable.get());
     auto made = std::make_unique<btDeformableMultiBodyDynamicsWorld>(
         &dispatcher, broadphase.get(), solver.get(), &configuration, deformable.get());
-    const Json& material = scene.header["scene"]["material"];
     const double mean = sum / double(stiffness.size()), young = material["young"];
     const double damper = young > 0 ? mean * double(material["stretch_damping"]) / young : 0;
-    springs = std::make_unique<btDeformableMassSpringForce>(mean, damper);
+    springs = std::make_unique<btDeformableMassSpringForce>(mean, damper, true, bending);
     weight = std::make_unique<btDeformableGravityForce>(gravity);
     made->setGravity(gravity);
     made->setImplicit(implicit);
@@ -54,8 +57,22 @@ struct Deformable : BulletBody {
     constraints = std::move(solver), world = std::move(made);
     place_obstacles(scene);
     return {{"stretch", "one stiffness [N/m] for all edges, the mean of the scene's"},
+            {"bending", "springs two edges apart, if the setting says so"},
             {"damping", "one damper [N s/m] for all edges, along them"},
             {"step", implicit ? "backward Euler, one Newton iteration" : "symplectic Euler"}};
+  }
+
+  void add_long_springs(const Numbers& rest) {
+    body->generateBendingConstraints(2);
+    body->m_bUpdateRtCst = false;  // again
+    for (int k = 0; k < body->m_links.size(); ++k) {
+      btSoftBody::Link& link = body->m_links[k];
+      if (!link.m_bbending) continue;
+      const double *a = &rest[3 * size_t(link.m_n[0]->index)],
+                   *b = &rest[3 * size_t(link.m_n[1]->index)];
+      link.m_rl = (btVector3(a[0], a[1], a[2]) - btVector3(b[0], b[1], b[2])).length();
+      link.m_c1 = link.m_rl * link.m_rl;
+    }
   }
 
   Numbers summed(const std::function<void(btDeformableLagrangianForce::TVStack&)>& add) {

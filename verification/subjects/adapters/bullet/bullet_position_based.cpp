@@ -15,7 +15,7 @@ struct PositionBased : BulletBody {
     auto made = std::make_unique<btSoftRigidDynamicsWorld>(&dispatcher, broadphase.get(),
                                                            constraints.get(), &configuration);
     made->setGravity(gravity);
-    body->m_cfg.piterations = setting(scene, "iterations", 10);
+    body->m_cfg.piterations = (int)setting(scene, "iterations", 10);
     body->updateLinkConstants();
     made->addSoftBody(body);
     world = std::move(made);
