@@ -25,7 +25,7 @@ Finding start_is_the_case_s(const FrameMotion& motion) {
   const Scene& scene = motion.of.scene;
   require_start(motion);
   const double edge = rest_lengths(scene.mesh).mean();
-  Table measured{{"particle", "1"}, {"distance from the case's start", "mean edge"}};
+  Table measured{{"particle", "1"}, {"distance from the case's start", "of the mean edge"}};
   for (Eigen::Index i = 0; i < first.x.cols(); ++i)
     measured.row(i, (first.x.col(i) - scene.x.col(i)).norm() / edge);
   return judge_worst(measured, 0.01,
@@ -35,7 +35,7 @@ Finding start_is_the_case_s(const FrameMotion& motion) {
 Finding end_is_reached(const FrameMotion& motion) {
   const Schedule& schedule = motion.of.scene.schedule;
   const double last = motion.frames.back().time;
-  Table measured{{"last frame", "s"}, {"end of the case", "s"}, {"missing", "its frames"}};
+  Table measured{{"last frame", "s"}, {"end of the case", "s"}, {"missing", "frames"}};
   measured.row(last, schedule.end, std::max(0.0, schedule.end - last) / schedule.frame_interval);
   return judge_worst(measured, 1, "the last frame is at most one frame before the end");
 }

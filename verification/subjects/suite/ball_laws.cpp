@@ -146,7 +146,7 @@ Finding slides_as_coulomb_says(Trial& trial) {
                  {"mu", "1"},
                  {"distance down", "m"},
                  {"by Coulomb's law", "m"},
-                 {"difference", "frictionless distance"}};
+                 {"difference", "of the frictionless distance"}};
   struct Slide {
     double degrees, friction;
   };

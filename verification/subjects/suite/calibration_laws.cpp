@@ -112,7 +112,7 @@ Finding modulus_is_the_scene_s(Trial& trial) {
   Table measured{{"along", ""},
                  {"Young's modulus", "N/m"},
                  {"Poisson's ratio", "1"},
-                 {"difference from the scene's", "its modulus"}};
+                 {"difference from the scene's", "of the scene's"}};
   for (const auto& [axis, modulus] : {std::pair("x", found.along_x), std::pair("y", found.along_y)})
     measured.row(axis, modulus, found.poisson, std::abs(modulus / young - 1));
   return judge_worst(measured, 0.05, relaxed);
@@ -218,7 +218,7 @@ Finding rigidity_is_the_scene_s(Trial& trial) {
   Table measured{{"along", ""},
                  {"columns", "1"},
                  {"bending rigidity", "N m"},
-                 {"difference from the scene's", "its rigidity"}};
+                 {"difference from the scene's", "of the scene's"}};
   for (const auto& [name, axis] : {std::pair("x", 0), {"y", 1}})
     for (const int columns : {8, 12}) {
       const Specimen specimen{SheetPattern::equilateral, columns};

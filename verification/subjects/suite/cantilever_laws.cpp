@@ -114,7 +114,7 @@ Finding hangs_as_the_elastica(Trial& trial) {
                  {"as a plate", "L"},
                  {"as a beam", "L"},
                  {"last move", "L"},
-                 {"outside of both", "the elastica's"}};
+                 {"outside of both", "of the elastica's"}};
   std::string note;
   for (const double gamma : gammas) {
     if (rounding_of_moment(gamma, trial.declaration()) > most_rounding) continue;

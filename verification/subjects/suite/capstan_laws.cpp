@@ -121,7 +121,7 @@ Finding slips_at_euler_s_ratio(Trial& trial) {
   Table measured{{"heavy over light end", "1"},
                  {"mu that just holds", ""},
                  {"by Euler's law", "1"},
-                 {"difference", "mu"}};
+                 {"difference", "of mu"}};
   for (const double mu : {0.23, 0.41}) {
     const double heavy = mass_that_holds(mu), expected = friction_of_that_share(heavy, mu);
     PortableScene scene = strip_over_a_capsule(heavy, mu);

@@ -88,7 +88,7 @@ Finding slides_as_coulomb_says(Trial& trial) {
                  {"distance down", "m"},
                  {"distance sideways", "m"},
                  {"by Coulomb's law", "m"},
-                 {"difference", "frictionless distance"}};
+                 {"difference", "of the frictionless distance"}};
   for (const Slope& slope : {Slope{10, 0.3, 20},
                              {15, 0.5, 57},
                              {20, 0.6, 94},
@@ -131,7 +131,7 @@ Finding slips_at_coulomb_s_slope(Trial& trial) {
                  {"way down", "degrees"},
                  {"slope that slips", ""},
                  {"by Coulomb's law", "1"},
-                 {"difference", "mu"}};
+                 {"difference", "of mu"}};
   for (const auto& [friction, heading] : {std::pair(0.23, 25.0), {0.61, 70.0}}) {
     const double least = 0.7 * friction, most = 1.3 * friction;
     double rests = least, moves = most;

@@ -87,7 +87,7 @@ Finding edges_damp_as_stiff_as_they_are(Trial& trial) {
   const PerParticle3 expected = force_of_springs(trial, tau_of(rattled_sheet()) * found.v);
   Table measured{{"force of dampers", "N"},
                  {"of springs, displaced by tau v", "N"},
-                 {"difference", "force of springs"}};
+                 {"difference", "of the force of springs"}};
   measured.row(found.force.norm(), expected.norm(),
                (found.force - expected).norm() / expected.norm());
   return judge_worst(measured, explained + 2 * found.rounding, reason);
@@ -113,7 +113,7 @@ Finding stated_forces_are_inner_ones(Trial& trial) {
     torque += Vector3(scene.x.col(i)).cross(Vector3(f.col(i)));
   const double scale =
       tau_of(scene) * edge_stiffness(scene).sum() * scene.v.colwise().norm().maxCoeff();
-  Table measured{{"of", ""}, {"sum", "sum of c |v|, times the size"}};
+  Table measured{{"of", ""}, {"sum", "of the sum of c |v|, times the size"}};
   measured.row("forces", f.rowwise().sum().norm() / scale);
   measured.row("torques", torque.norm() / (scale * size_of(scene.x)));
   constexpr double roundings = 64;  // of a sum over the dampers of six edges a particle
@@ -129,7 +129,7 @@ Finding stated_forces_are_those_of_the_motion(Trial& trial) {
   };
   Table measured{{"power of the stated forces", "W"},
                  {"power in the motion", "W"},
-                 {"difference", "force in the motion"}};
+                 {"difference", "of the force in the motion"}};
   measured.row(power(f), power(found.force), (found.force - f).norm() / found.force.norm());
   return judge_worst(measured, explained + found.rounding, reason);
 }

@@ -80,7 +80,7 @@ Finding gains_no_energy(Trial& trial, const char* capability, Drop (*over)(doubl
   trial.require(capability);
   Table measured{{"height", "m"},
                  {"speed", "m/s"},
-                 {"gained energy", "m g times the fall around the obstacle"}};
+                 {"gained energy", "of the weight times the fall around the obstacle"}};
   for (const double height : {0.2, 1.25}) {
     const Drop drop = over(height);
     const double fall = height + drop.depth, gained = gained_energy(trial, drop.scene, fall);

@@ -41,7 +41,7 @@ double bending_scale(const PortableScene& scene) {
 
 Finding sum_to_zero(Trial& trial, const PortableScene& scene) {
   const PerParticle3 f = forces_at_start(trial, scene);
-  Table measured{{"particles", "1"}, {"net force", "sum of k L and B/L"}};
+  Table measured{{"particles", "1"}, {"net force", "of the sum of k L and B/L"}};
   measured.row(f.cols(), f.rowwise().sum().norm() / (spring_scale(scene) + bending_scale(scene)));
   return judge_worst(measured, roundings * trial.declaration().rounding(), "rounding of a sum");
 }
@@ -51,7 +51,7 @@ Finding torque_is_zero(Trial& trial, const PortableScene& scene) {
   Vector3 torque = Vector3::Zero();
   for (Eigen::Index i = 0; i < f.cols(); ++i)
     torque += Vector3(scene.x.col(i)).cross(Vector3(f.col(i)));
-  Table measured{{"particles", "1"}, {"net torque", "size times the sum of k L and B/L"}};
+  Table measured{{"particles", "1"}, {"net torque", "of the size times the sum of k L and B/L"}};
   measured.row(f.cols(),
                torque.norm() / ((spring_scale(scene) + bending_scale(scene)) * size_of(scene.x)));
   return judge_worst(measured, roundings * trial.declaration().rounding(), "rounding of a sum");
@@ -70,7 +70,7 @@ Finding weight_is_mass_times_g(Trial& trial) {
   Table measured{{"particles", "1"},
                  {"net force", "N"},
                  {"weight", "N"},
-                 {"error of the net force", "m g + sum of k L"}};
+                 {"error of the net force", "of the weight + sum of k L"}};
   measured.row(f.cols(), net.norm(), weight.norm(),
                (net - weight).norm() / (weight.norm() + spring_scale(scene)));
   return judge_worst(measured, roundings * trial.declaration().rounding(), "rounding of a sum");
@@ -79,7 +79,7 @@ Finding weight_is_mass_times_g(Trial& trial) {
 Finding rest_is_force_free(Trial& trial) {
   const PortableScene scene = sheet_at_rest();
   const PerParticle3 f = forces_at_start(trial, scene);
-  Table measured{{"particles", "1"}, {"largest force", "largest k times size"}};
+  Table measured{{"particles", "1"}, {"largest force", "of the largest k times the size"}};
   measured.row(f.cols(), f.colwise().norm().maxCoeff() /
                              (edge_stiffness(scene).maxCoeff() * size_of(scene.x)));
   return judge_worst(measured, roundings * trial.declaration().rounding(),
@@ -101,7 +101,7 @@ Finding are_the_energy_gradient(Trial& trial, PortableScene scene) {
   const double slope = (energy_at(way) - energy_at(-way)) / (2 * way);
   const double weight = scene.mass.sum() * scene.gravity.norm();
   const double scale = spring_scale(scene) + bending_scale(scene) + weight;
-  Table measured{{"distance", "m"}, {"slope plus power", "m g + sum of k L and B/L"}};
+  Table measured{{"distance", "m"}, {"slope plus power", "of the weight + sum of k L and B/L"}};
   measured.row(way, std::abs(slope + (f.array() * along.array()).sum()) / scale);
   // third derivative: k/L^2 and B/L^3 at most; rounding: of the energy, over the distance
   const double relative = way / rest_lengths(scene.mesh).minCoeff();
@@ -130,7 +130,7 @@ Finding are_of_the_present_state(Trial& trial) {
   trial.require_level(2);
   const PortableScene scene = moving_sheet();
   const double scale = edge_stiffness(scene).maxCoeff() * size_of(scene.x);
-  Table measured{{"state", ""}, {"difference of forces", "largest k times size"}};
+  Table measured{{"state", ""}, {"difference of forces", "of the largest k times the size"}};
   constexpr long steps = 20;
   trial.prepare(scene);
   const Snapshot moved = trial.solver().advance(scene.dt, steps);

@@ -49,7 +49,7 @@ Finding stretch_does_not_depend_on_the_step(Trial& trial) {
                in_short_steps = static_stretch(trial, game_step / parts);
   Table measured{{"stretch in steps of 1/60 s", "m"},
                  {"in steps of 1/960 s", "m"},
-                 {"difference", "the second"}};
+                 {"difference", "of the second"}};
   measured.row(at_game_step, in_short_steps, std::abs(at_game_step / in_short_steps - 1));
   return judge_worst(measured, 0.05,
                      "at rest no force depends on the step; each shape is at rest to 3e-4 of the "

@@ -20,7 +20,7 @@ double largest(const PerParticle3& vectors) { return vectors.colwise().norm().ma
 Finding stays_roughly(Trial& trial) {
   const PortableScene scene = sheet_at_rest();
   const double edge = rest_lengths(scene.mesh).mean();
-  Table measured{{"steps", "1"}, {"largest displacement", "mean edge"}};
+  Table measured{{"steps", "1"}, {"largest displacement", "of the mean edge"}};
   measured.row(few, largest(trial.after(scene, few).x - scene.x) / edge);
   return judge_worst(measured, 0.01,
                      "a hundredth of an edge: any correctly driven solver stays below it");
@@ -31,7 +31,7 @@ Finding falls_roughly(Trial& trial) {
   const double time = many * scene.dt;
   const Vector3 fall = scene.gravity * time * time / 2;
   const PerParticle3 moved = trial.after(scene, many).x - scene.x;
-  Table measured{{"steps", "1"}, {"error of the fall", "g t^2/2"}};
+  Table measured{{"steps", "1"}, {"error of the fall", "of g t^2/2"}};
   measured.row(many, largest(moved.colwise() - fall) / fall.norm());
   return judge_worst(measured, 0.05, "a first order method errs by 2 %; two and a half times that");
 }
@@ -39,7 +39,7 @@ Finding falls_roughly(Trial& trial) {
 Finding stays_exactly(Trial& trial) {
   const PortableScene scene = sheet_at_rest();
   const PerParticle3 moved = trial.after(scene, few).x - scene.x;
-  Table measured{{"steps", "1"}, {"largest displacement", "largest position"}};
+  Table measured{{"steps", "1"}, {"largest displacement", "of the largest position"}};
   measured.row(few, largest(moved) / size_of(scene.x));
   return judge_worst(measured,
                      narrow(rounding_error(scene, few, trial.declaration()), trial.declaration()),
@@ -168,7 +168,8 @@ Finding keeps_momentum(Trial& trial, const PortableScene& scene) {
   const double scale =
       (scene.v.colwise().norm() * scene.mass.asDiagonal()).sum() +
       scene.mass.sum() * size_of(scene.x) * std::sqrt(squared_phase(scene, 1)) / scene.dt;
-  Table measured{{"steps", "1"}, {"change of linear momentum", "sum of m (|v| + omega size)"}};
+  Table measured{{"steps", "1"},
+                 {"change of linear momentum", "of the sum of m (|v| + omega size)"}};
   measured.row(few, (momentum_of(scene, end.v) - momentum_of(scene, scene.v)).norm() / scale);
   const Declaration& declared = trial.declaration();
   const double bound = 8 * few * declared.rounding() + few * declared.solve_tolerance;
@@ -222,7 +223,7 @@ Finding held_particles_stay(Trial& trial) {
   trial.require("held");
   const PortableScene scene = hanging_sheet();
   const Snapshot end = trial.after(scene, many);
-  Table measured{{"particle", "1"}, {"displacement", "largest position"}};
+  Table measured{{"particle", "1"}, {"displacement", "of the largest position"}};
   for (const int i : scene.held)
     measured.row(i, (end.x.col(i) - scene.x.col(i)).norm() / size_of(scene.x));
   return judge_worst(measured, 8 * trial.declaration().rounding(), "a few roundings of a position");

@@ -47,8 +47,9 @@ double gained_or_failed(Trial& trial, double step) {
 Finding small_steps_gain_no_energy(Trial& trial) {
   trial.require("held");
   const double usual = hanging_sheet().dt;
-  Table measured{
-      {"step", "s"}, {"gained energy", "m g size"}, {"gained in a small step", "m g size"}};
+  Table measured{{"step", "s"},
+                 {"gained energy", "of the weight times the size"},
+                 {"gained in a small step", "of the weight times the size"}};
   double stable = 0;
   for (double step = usual / 8; step <= duration / 2; step *= 2) {
     const bool is_small = step < usual / 4;

@@ -44,7 +44,7 @@ Finding same_when_moved(Trial& trial, const Eigen::Matrix3d& turn, const Vector3
   const PortableScene scene = moved(turn, shift);
   const PerParticle3 expected = (turn * trial.after(original(), steps).x).colwise() + shift;
   const double error = (trial.after(scene, steps).x - expected).colwise().norm().maxCoeff();
-  Table measured{{"steps", "1"}, {"difference of positions", "largest position"}};
+  Table measured{{"steps", "1"}, {"difference of positions", "of the largest position"}};
   measured.row(steps, error / size_of(scene.x));
   return judge_worst(measured, allowed(trial, scene),
                      "both runs round differently, within the bound of one each");
@@ -68,7 +68,7 @@ Finding same_in_the_mirror(Trial& trial) {
   PerParticle3 expected = trial.after(original(), steps).x;
   expected.row(0) *= -1;
   const double error = (trial.after(scene, steps).x - expected).colwise().norm().maxCoeff();
-  Table measured{{"steps", "1"}, {"difference of positions", "largest position"}};
+  Table measured{{"steps", "1"}, {"difference of positions", "of the largest position"}};
   measured.row(steps, error / size_of(scene.x));
   return judge_worst(measured, allowed(trial, scene),
                      "sums in another order round differently, within the bound of one run each");
@@ -86,7 +86,7 @@ Finding same_in_other_units(Trial& trial) {
   scene.dt *= time;
   const PerParticle3 expected = length * trial.after(first, steps).x;
   const double error = (trial.after(scene, steps).x - expected).colwise().norm().maxCoeff();
-  Table measured{{"steps", "1"}, {"difference of positions", "largest position"}};
+  Table measured{{"steps", "1"}, {"difference of positions", "of the largest position"}};
   measured.row(steps, error / size_of(scene.x));
   return judge_worst(measured, allowed(trial, scene),
                      "both runs round differently, within the bound of one each");
