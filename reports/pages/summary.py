@@ -196,8 +196,8 @@ def _scope(judged: Judged) -> list[Piece]:
     if judged.provenance.get("subject") == REFERENCE:
         return [
             (
-                "Tells whether the program does what the paper describes, and where the method"
-                " errs. Tells neither whether real cloth moves like this nor whether your own"
+                "This tells whether the program does what the paper describes, and where the method"
+                " errs. It tells neither whether real cloth moves like this nor whether your own"
                 " solver is right: for that, run "
             ),
             Quoted("foldproof judge", "command", is_name=True),
@@ -205,12 +205,12 @@ def _scope(judged: Judged) -> list[Piece]:
         ]
     if judged.trial and is_of_frames(judged.trial):
         return [
-            "Tells whether the frames can be a run of this case. Tells neither whether another case"
-            " would show more nor whether real cloth moves like this."
+            "This tells whether the frames can be a run of this case. It tells neither whether"
+            " another case would show more nor whether real cloth moves like this."
         ]
     return [
-        "Tells whether this solver meets laws of cloth, where its adapter"
-        " offers what they need. Does not tell whether real cloth moves like this."
+        "This tells whether the solver meets laws of cloth, where its adapter"
+        " offers what they need, not whether real cloth moves like this."
     ]
 
 

@@ -18,10 +18,11 @@ from plots.study_plots import plot_study_figure
 
 SECONDS, ERROR = "seconds by the clock", "error"
 CAPTION = (
-    "The same 0.04 s of a moving sheet, a mark for each number of steps. Seconds are a clock of "
-    "one machine, read through a pipe: the least of a few readings. The error is against the "
-    "solver's own limit, extrapolated: it is an error of the time step, not of the model. Where a "
-    "curve turns up, rounding, measured a few metres from the origin, hides the changes."
+    "The same 0.04 s of a moving sheet, a mark for each number of steps. Seconds are by the clock "
+    "of one machine, read through a pipe, for solvers in different languages: the least of a few "
+    "readings. The error is against the solver's own limit, extrapolated: it is an error of the "
+    "time step, not of the model. Where a curve turns up, rounding, measured a few metres from the "
+    "origin, hides the changes."
 )
 
 

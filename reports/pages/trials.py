@@ -50,7 +50,7 @@ class Trials:
         """Headings, and the laws below each: those that a solver does not meet first."""
         some = [row for row in self.rows if row.differs]
         rest = [row for row in self.rows if not row.differs]
-        titles = ("Some solver differs", "Holds wherever it was judged")
+        titles = ("At least one solver differs", "Holds wherever it was judged")
         return [(title, rows) for title, rows in zip(titles, (some, rest)) if rows]
 
     @property

@@ -230,7 +230,7 @@ class JudgedSolvers(unittest.TestCase):
         self.assertEqual(
             [(title, [row.law.name for row in rows]) for title, rows in said.groups],
             [
-                ("Some solver differs", ["one", "two", "three"]),
+                ("At least one solver differs", ["one", "two", "three"]),
                 ("Holds wherever it was judged", ["four", "five"]),
             ],
         )
@@ -278,7 +278,7 @@ class JudgedSolvers(unittest.TestCase):
         self.assertEqual(section.count('<svg class="plot"'), 1)
         self.assertEqual(section.count('<svg class="key"'), 1)
         for words in (
-            "Seconds are a clock of one machine",
+            "Seconds are by the clock of one machine",
             "an error of the time step, not of the model",
             f"No curve, since the law that measures it does not hold: mine ({self.b}).",
             "1 point not drawn",

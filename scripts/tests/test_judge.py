@@ -398,7 +398,7 @@ class Judge(unittest.TestCase):
             [20, 40, 80, 160],
         )
         for words in (
-            "5 solvers on trial", "f4", "Seconds are a clock of one machine", "a spring per edge",
+            "5 solvers on trial", "f4", "Seconds are by the clock of one machine", "a spring per edge",
             "iterations</b> 20",
             "calibration.modulus-survives-refinement"
         ):

@@ -174,8 +174,8 @@ Finding sags_as_a_plate(Trial& trial) {
       measured, 1,
       "half the range: both rigidities as far off as halving the time of their measurement changes "
       "them; three times (Roache's factor for two meshes) what the same extrapolation leaves of "
-      "hinges, or of a plate clamped at the second circle; stretch if nothing moves sideways. "
-      "Moves that are left count 3.3 times, as the extrapolation takes them at most");
+      "hinges, or of a plate clamped at the second circle; stretch if nothing moves sideways. What "
+      "it still moves is added 3.3 times over, the most that extrapolation makes of it");
 }
 
 // --- a soft ring, under one weight and another ---
@@ -270,8 +270,8 @@ Finding heavier_hangs_lower(Trial& trial, const SoftCloth& cloth) {
   }
   return judge_worst(measured, 0,
                      "of two shapes, each of less energy than the other under its own weight, the "
-                     "heavier one's mass lies lower; from less than the last moves, and of what "
-                     "still moves after 24 rounds, nothing follows");
+                     "heavier one's mass lies lower; inconclusive where the difference is less "
+                     "than the last moves, or where a shape still moves after 24 rounds");
 }
 
 }  // namespace

@@ -233,8 +233,9 @@ Finding held_particles_stay(Trial& trial) {
 
 std::vector<Law> motion_laws() {
   return {
-      {"smoke.sheet-at-rest-stays", "A sheet in its rest shape, without forces, stays.",
-       "equilibrium", stays_roughly},
+      {"smoke.sheet-at-rest-stays",
+       "A sheet in its rest shape, with no forces on it, does not move.", "equilibrium",
+       stays_roughly},
       {"smoke.free-fall-within-5-percent", "A free sheet falls by g t^2/2, within 5 %.", "Galilei",
        falls_roughly},
       {"rest.no-force-no-motion", "A sheet in its rest shape stays, to rounding.", "equilibrium",

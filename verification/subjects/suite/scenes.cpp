@@ -183,7 +183,7 @@ double narrow(double bound, const Declaration& declared) {
   if (bound < widest_bound) return bound;
   throw CannotTell(
       fmt::format("what the solver declares ({}, solve_tolerance {:g}) allows an error of {:.2g} "
-                  "of what is measured; from {:g} on nothing follows from what holds",
+                  "of what is measured; from {:g} on, a law that holds says nothing",
                   declared.is_single ? "f4" : "f8", declared.solve_tolerance, bound, widest_bound));
 }
 

@@ -155,11 +155,12 @@ Finding slips_as_the_elastica(Trial& trial) {
     measured.row(compression, rigidity, found, least, most, strip.last_move / length,
                  std::max({0.0, 1 - found / least, found / most - 1}));
   }
-  return judge_worst(measured, 0.02,
-                     "half of the last bracket is 0.5 %; sixteen folds instead of a curve, "
-                     "(1/16)^2, 0.4 %; a strip with 0.25 % less friction goes just as far as is "
-                     "asked in the time; a first order method and the strip's own waves are "
-                     "allowed as much. Bending begins at the held row or half a row before it");
+  return judge_worst(
+      measured, 0.02,
+      "half of the last bracket is 0.5 %; sixteen folds instead of a curve, (1/16)^2, 0.4 %; a "
+      "strip that has 0.25 % too little friction slips just far enough to be seen in the time; a "
+      "first order method and the strip's own waves are allowed as much. Bending begins at the "
+      "held row or half a row before it");
 }
 
 }  // namespace
