@@ -12,6 +12,7 @@ from typing import Any
 from data.trials import Answer, Law, Trial
 from pages.page import OUTCOMES, new_environment
 from pages.solver_words import APART, DECLINED, is_of_frames
+from pages.portraits import portraits_of
 from pages.trial_costs import cost_rows, costs_of
 
 
@@ -180,4 +181,6 @@ def render_trials(said: Trials, figures: Path) -> str:
         is_of_frames=is_of_frames, all_frames=all(is_of_frames(trial) for trial in said.trials)
     )
     costs = costs_of(said.trials, said.labels, figures)
-    return environment.get_template("trials.html.j2").render(said=said, costs=costs)
+    portraits = portraits_of(said.trials, said.labels)
+    template = environment.get_template("trials.html.j2")
+    return template.render(said=said, costs=costs, portraits=portraits)

@@ -11,9 +11,10 @@ from typing import Any
 
 import h5py
 
-from data.trials import is_trial, read_trial
+from data.trials import Trial, is_trial, read_trial
 from data.unreadable import Unreadable
 from make_report import compare_trials, make_summary
+from pages.portraits import portraits_of
 from pages.trials import render_trials, trials_of
 from tests.made_up_run import put, put_finding
 from tests.report_test import ReportTest
@@ -309,3 +310,36 @@ class JudgedSolvers(unittest.TestCase):
                 with self.assertRaisesRegex(Unreadable, name):
                     read_trial(self.a)
             (self.a / name).write_text(kept, encoding="utf-8")
+
+
+class PortraitsTest(unittest.TestCase):
+    """Pictures of one scene in several solvers."""
+
+    @staticmethod
+    def trial(portrait: dict[str, Any] | None) -> Trial:
+        return Trial("folder", "subject", {"portrait": portrait}, {}, [], {})
+
+    @staticmethod
+    def sheet(height: float) -> dict[str, Any]:
+        """Of two triangles, so high above the ball's middle."""
+        x = [[0, 0, height], [0.3, 0, height], [0.3, 0.3, height], [0, 0.3, height]]
+        return {"about": "A sheet.", "x": x, "triangles": [[0, 1, 2], [0, 2, 3]],
+                "centre": [0.1, 0.1, 0], "radius": 0.25}
+
+    def test_what_has_no_picture_says_why(self) -> None:
+        trials = [self.trial(self.sheet(0.25)), self.trial({"why_none": "it has no balls"}),
+                  self.trial(None), self.trial(self.sheet(-9)), self.trial(self.sheet(0.1))]
+        said = portraits_of(trials, list("abcde"))
+        self.assertIsNotNone(said)
+        self.assertEqual(said.about, "A sheet.")
+        self.assertEqual([bool(one.uri) for one in said.all], [True, False, False, False, True])
+        self.assertTrue(said.all[0].uri.startswith("data:image/webp;base64,"))
+        self.assertEqual([one.words for one in said.all[1:4]],
+                         ["it has no balls", "not asked: only some laws were",
+                          "the sheet is not at the ball"])
+        self.assertEqual(said.all[0].words, "lowest corner 0.000 m below the ball's top")
+        self.assertIn("mm deep in the ball", said.all[4].words)
+
+    def test_without_any_there_is_no_section(self) -> None:
+        nothing = [self.trial(None), self.trial({"why_none": "x"})]
+        self.assertIsNone(portraits_of(nothing, ["a", "b"]))

@@ -19,6 +19,7 @@
 #include "verification/subjects/served/reference_server.h"
 #include "verification/subjects/suite/conformance.h"
 #include "verification/subjects/suite/laws.h"
+#include "verification/subjects/suite/portrait.h"
 
 namespace foldproof {
 
@@ -104,6 +105,24 @@ std::vector<std::string> options_that_matter(const Options& options) {
   return words;
 }
 
+/// Null where it is not asked for: with some laws alone, or without a folder.
+nlohmann::json portrait_json(const SolverCommand& command, const Options& options,
+                             bool smoke_holds) {
+  if (!options.names.empty() || options.out.empty()) return nullptr;
+  if (!smoke_holds) return {{"why_none", "not asked: a smoke law fails"}};
+  const suite::Portrait portrait = suite::portrait_of(command);
+  if (!portrait.why_none.empty()) return {{"why_none", portrait.why_none}};
+  const PortableSphere& ball = portrait.scene.spheres.front();
+  nlohmann::json x = nlohmann::json::array();
+  for (Eigen::Index i = 0; i < portrait.x.cols(); ++i)
+    x.push_back({portrait.x(0, i), portrait.x(1, i), portrait.x(2, i)});
+  return {{"about", portrait.about},
+          {"x", x},
+          {"triangles", portrait.scene.mesh.triangles},
+          {"centre", {ball.centre.x(), ball.centre.y(), ball.centre.z()}},
+          {"radius", ball.radius}};
+}
+
 /// What the solver says of itself, and how it was asked; empty texts if it did not start.
 std::string solver_json(const Judgement& judgement, const SolverCommand& command,
                         const Options& options) {
@@ -126,7 +145,8 @@ std::string solver_json(const Judgement& judgement, const SolverCommand& command
                {"settings", json::object()},
                {"mapping", json::object()},
                {"calibration", evidence_json(judgement.records, "calibration.")},
-               {"cost", evidence_json(judgement.records, law_of_cost)}};
+               {"cost", evidence_json(judgement.records, law_of_cost)},
+               {"portrait", portrait_json(command, options, judgement.smoke_holds)}};
   for (const auto& [key, value] : command.settings) said["settings"][key] = value;
   for (const auto& [key, value] : judgement.mapping) {
     json& words = said["mapping"][key];  // scenes may be mapped otherwise

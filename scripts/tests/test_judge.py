@@ -9,6 +9,7 @@ scripts/tests/test_judge.py [--program FILE] [Judge.test_...]
 from __future__ import annotations
 
 import json
+import math
 import os
 import re
 import shlex
@@ -398,11 +399,21 @@ class Judge(unittest.TestCase):
             [20, 40, 80, 160],
         )
         for words in (
-            "5 solvers on trial", "f4", "Seconds are by the clock of one machine", "a spring per edge",
-            "iterations</b> 20",
-            "calibration.modulus-survives-refinement"
+            "5 solvers on trial", "f4", "Seconds are by the clock of one machine",
+            "a spring per edge", "iterations</b> 20",
+            "calibration.modulus-survives-refinement", "m below the ball"
         ):
             self.assertIn(words, text)
+        for name in solvers:
+            facts = json.loads((self.path / name / "solver.json").read_text(encoding="utf-8"))
+            portrait = facts["portrait"]
+            if "x" not in portrait:
+                self.assertNotIn("spheres", facts["capabilities"])
+                continue
+            away = [math.dist(x, portrait["centre"]) for x in portrait["x"]]
+            self.assertEqual(len(away), 21 * 21)
+            self.assertGreater(min(away), 0.99 * portrait["radius"])
+            self.assertLess(min(away), 1.02 * portrait["radius"])
 
     def test_folders_that_are_not_all_trials_are_refused(self) -> None:
         kept = self.keep_baseline(TOY).parent
