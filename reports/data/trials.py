@@ -103,7 +103,20 @@ def _facts(path: Path) -> dict[str, Any]:
                 key: [_evidence(one) for one in facts.get(key, [])]
                 for key in ("calibration", "cost")
             },
+            "portrait": _portrait(facts.get("portrait")),
         }
+
+
+def _portrait(said: dict[str, Any] | None) -> dict[str, Any] | None:
+    """One scene's shape at the end, or why there is none; None if it was not asked."""
+    if said is None or "x" not in said:
+        return said and {"why_none": str(said["why_none"])}
+    return {
+        "about": str(said["about"]), "radius": float(said["radius"]),
+        "x": [[float(one) for one in row] for row in said["x"]],
+        "centre": [float(one) for one in said["centre"]],
+        "triangles": [[int(one) for one in row] for row in said["triangles"]],
+    }
 
 
 def _evidence(table: dict[str, Any]) -> dict[str, Any]:

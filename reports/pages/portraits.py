@@ -12,6 +12,7 @@ from pictures.case_pictures import picture_uri
 from pictures.cloth_picture import Cloth, Scenery, picture_of
 
 UP = np.array([0.0, 0.0, 1.0])
+DRAWN = 0.985  # of the ball: cloth that lies on it hides it
 FAR = 3.0  # of the ball's radius: what is farther off its centre has left the picture
 
 
@@ -34,7 +35,7 @@ def portraits_of(trials: list[Trial], labels: list[str]) -> Portraits | None:
     drawn = [one for one in asked if one and "x" in one and _is_near(one)]
     if not drawn:
         return None
-    ball, ball_triangles = _sphere(np.array(drawn[0]["centre"]), drawn[0]["radius"])
+    ball, ball_triangles = _sphere(np.array(drawn[0]["centre"]), DRAWN * drawn[0]["radius"])
     shapes = [np.array(one["x"]) for one in drawn]
     triangles = np.array(drawn[0]["triangles"])
     camera = choose_camera(shapes, triangles, ball, UP)
@@ -57,7 +58,7 @@ def _portrait(label: str, one: dict[str, Any] | None, camera: Any, scenery: Scen
     cloth = Cloth(x, np.array(one["triangles"]), np.zeros(len(x), dtype=bool))
     depth = one["radius"] - np.linalg.norm(x - one["centre"], axis=1).min()
     lowest = one["centre"][2] + one["radius"] - x[:, 2].min()
-    words = f"lowest corner {lowest:.3f} m below the ball's top"
+    words = f"lowest point {lowest:.3f} m below the ball's top"
     if depth > 0.01 * one["radius"]:
         words += f"; {1000 * depth:.0f} mm deep in the ball"
     return Portrait(label, picture_uri(picture_of(cloth, camera, scenery)), words)

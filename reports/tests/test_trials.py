@@ -12,6 +12,7 @@ from typing import Any
 import h5py
 
 from data.trials import Trial, is_trial, read_trial
+from data.trials import _facts as facts_of_file
 from data.unreadable import Unreadable
 from make_report import compare_trials, make_summary
 from pages.portraits import portraits_of
@@ -319,6 +320,16 @@ class PortraitsTest(unittest.TestCase):
     def trial(portrait: dict[str, Any] | None) -> Trial:
         return Trial("folder", "subject", {"portrait": portrait}, {}, [], {})
 
+    def test_a_file_of_facts_keeps_its_portrait(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "solver.json"
+            facts = {key: "" for key in ("version", "level", "precision", "scheme", "command")}
+            facts |= {"settings": {}, "mapping": {}, "capabilities": [], "order": 1,
+                      "solve_tolerance": 0, "portrait": self.sheet(0.25)}
+            for portrait in (self.sheet(0.25), {"why_none": "no balls"}, None):
+                path.write_text(json.dumps(facts | {"portrait": portrait}), encoding="utf-8")
+                self.assertEqual(facts_of_file(path)["portrait"], portrait)
+
     @staticmethod
     def sheet(height: float) -> dict[str, Any]:
         """Of two triangles, so high above the ball's middle."""
@@ -337,7 +348,7 @@ class PortraitsTest(unittest.TestCase):
         self.assertEqual([one.words for one in said.all[1:4]],
                          ["it has no balls", "not asked: only some laws were",
                           "the sheet is not at the ball"])
-        self.assertEqual(said.all[0].words, "lowest corner 0.000 m below the ball's top")
+        self.assertEqual(said.all[0].words, "lowest point 0.000 m below the ball's top")
         self.assertIn("mm deep in the ball", said.all[4].words)
 
     def test_without_any_there_is_no_section(self) -> None:
