@@ -57,7 +57,7 @@ def is_trial(folder: Path) -> bool:
 def read_trial(folder: Path) -> Trial:
     """Throws Unreadable naming the file."""
     path = folder / "verdicts.json"
-    facts, verdicts = _facts(folder / FACTS), _object(path)
+    facts, verdicts = facts_of_file(folder / FACTS), _object(path)
     with reading(path):
         rows, program = verdicts["findings"], verdicts["program"]
         return Trial(
@@ -88,7 +88,8 @@ def _object(path: Path) -> dict[str, Any]:
     return value
 
 
-def _facts(path: Path) -> dict[str, Any]:
+def facts_of_file(path: Path) -> dict[str, Any]:
+    """What a judged solver says of itself, and how it was asked: solver.json."""
     facts = _object(path)
     texts = ("version", "level", "precision", "scheme", "command")
     with reading(path):

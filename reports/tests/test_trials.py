@@ -11,8 +11,7 @@ from typing import Any
 
 import h5py
 
-from data.trials import Trial, is_trial, read_trial
-from data.trials import _facts as facts_of_file
+from data.trials import Trial, facts_of_file, is_trial, read_trial
 from data.unreadable import Unreadable
 from make_report import compare_trials, make_summary
 from pages.portraits import portraits_of
