@@ -14,7 +14,7 @@
 
 namespace foldproof {
 
-TEST_CASE("subject: parameters that mean something else are found") {
+TEST_CASE("subject: parameters that mean something else are found", "[long]") {
   const std::string young = "calibration.young-s-modulus-is-the-scene-s",
                     refined = "calibration.modulus-survives-refinement";
   const std::vector<Law> laws = laws_of({"calibration"});
@@ -233,7 +233,8 @@ struct Slip {
 };
 
 TEST_CASE(
-    "subject: laws find slips of a few per cent, or of a few roundings, and allow smaller ones") {
+    "subject: laws find slips of a few per cent, or of a few roundings, and allow smaller ones",
+    "[long]") {
   for (const Slip& slip : {
            Slip{"gravity.speed-grows-by-g-t", "gravity", "1.0000000000001", "1.000000000001"},
            {"momentum.linear-is-conserved", "one_end", "1.00000000001", "1.0000000001"},
@@ -318,7 +319,7 @@ TEST_CASE("subject: a floor that holds a fold down is found, no other one", "[lo
         std::set<std::string>{stands});
 }
 
-TEST_CASE("subject: wrong contact with balls is found") {
+TEST_CASE("subject: wrong contact with balls is found", "[long]") {
   const std::string outside = "ball.falling-sheet-stays-outside",
                     gains = "ball.fall-gains-no-energy", rests = "ball.sheet-comes-to-rest",
                     slides = "ball.slides-as-coulomb-says";
@@ -332,7 +333,7 @@ TEST_CASE("subject: wrong contact with balls is found") {
   CHECK(failing_laws("round_bodies_stick", laws) == std::set<std::string>{slides});
 }
 
-TEST_CASE("subject: wrong contact with capsules is found") {
+TEST_CASE("subject: wrong contact with capsules is found", "[long]") {
   const std::string lies = "capstan.strip-lies-on-the-capsule",
                     slips = "capstan.slips-at-euler-s-ratio";
   const std::vector<Law> laws = laws_of({"capstan"});
@@ -350,7 +351,7 @@ TEST_CASE("subject: a sheet that stands still has passed no test of collisions")
     CHECK(outcome_of_law("starts_from_rest", law) == Outcome::not_applicable);
 }
 
-TEST_CASE("subject: correct contact with round bodies raises no alarm") {
+TEST_CASE("subject: correct contact with round bodies raises no alarm", "[long]") {
   for (const char* kind : {"on_round_bodies", "on_round_bodies_single"}) {
     INFO(kind);
     CHECK(failing_laws(kind, laws_of({"ball", "capstan"})) == std::set<std::string>{});

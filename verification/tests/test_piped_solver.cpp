@@ -201,7 +201,8 @@ TEST_CASE("subject: lost momentum and hidden damping are found") {
         std::set<std::string>{"momentum.angular-drift-falls-with-the-step", "symmetry.units"});
 }
 
-TEST_CASE("subject: damping that nobody asked for, and half of what was asked, are found") {
+TEST_CASE("subject: damping that nobody asked for, and half of what was asked, are found",
+          "[long]") {
   CHECK(failing_laws("damped_unasked") == std::set<std::string>{"vibration.undamped-goes-on"});
   CHECK(failing_laws("damping_halved") ==
         std::set<std::string>{"damping.edges-damp-in-proportion-to-their-stiffness",
