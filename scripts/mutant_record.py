@@ -8,7 +8,7 @@ import time
 from pathlib import Path
 
 from mutant_trials import Judgement, Mutant, read_explained, score_interval
-from mutants import ROOT, Unusable, run, write_at_once
+from mutants import ROOT, Unusable, write_at_once
 
 RECORD = ROOT / "verification/faults/mutants.json"
 ASKED = ("killed", "SURVIVED", "equivalent")
@@ -23,15 +23,6 @@ def read_record(path: Path = RECORD) -> list[dict]:
         return json.loads(path.read_text(encoding="utf-8"))["mutants"] if path.is_file() else []
     except (ValueError, KeyError) as error:
         raise Unusable(f"{path}: {error!r}") from error
-
-
-def clean_commit() -> str:
-    """The commit of the working tree; Unusable if a file but the record differs."""
-    record = f":!{RECORD.relative_to(ROOT)}"
-    changed = run(["git", "status", "--porcelain", "--", ".", record], ROOT)
-    if changed.returncode or changed.stdout:
-        raise Unusable("--record needs a working tree without changes: commit them first")
-    return run(["git", "rev-parse", "HEAD"], ROOT).stdout.strip()
 
 
 def not_recorded(mutants: list[Mutant], rows: list[dict]) -> list[Mutant]:

@@ -83,6 +83,16 @@ def run(command: list, folder: Path, clock: float | None = None) -> subprocess.C
     return ran
 
 
+def clean_commit(record: Path) -> str:
+    """The commit of the working tree; Unusable if a file but the record differs: what is recorded
+    must be repeatable."""
+    but = f":!{record.relative_to(ROOT)}"
+    status = run(["git", "status", "--porcelain", "--untracked-files=no", "--", ".", but], ROOT)
+    if status.returncode or status.stdout:
+        raise Unusable("--record needs a working tree without changes: commit them first")
+    return run(["git", "rev-parse", "HEAD"], ROOT).stdout.strip()
+
+
 # ---- how the unedited program is made ------------------------------------------------------------
 
 

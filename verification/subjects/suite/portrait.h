@@ -15,7 +15,7 @@ struct Portrait {
   std::string why_none;  // in words
 };
 
-/// Asks a process of its own; a failure of the solver is told in words.
+/// Starts the solver once more. A failure of it becomes `why_none`.
 Portrait portrait_of(const SolverCommand& command);
 
 }  // namespace foldproof::suite

@@ -37,8 +37,8 @@ double squared_turns(const Eigen::Matrix2Xd& rows);
 std::vector<int> rows_at_distance(const PortableScene& strip, const StripShape& shape,
                                   double distance);
 
-/// What is measured of a sheet that lies `away` from where it is [m], for none. In single
-/// precision, the mean of four places; throws NotOffered if their range is over twice `most` of it.
+/// Measures a sheet where it is. In single precision, also in three other places `away` [m], and
+/// returns the mean; throws NotOffered if their range is over twice `most` of it.
 double beyond_rounding(Trial& trial, const char* of, double most,
                        const std::function<double(const Vector3& away)>& measured);
 
