@@ -130,6 +130,8 @@ void read_element(Reader& reader, const std::vector<std::string_view>& words, He
   if (words.size() != 3 || !is_number(words[2], element.count))
     reject(reader, "an element is written 'element NAME COUNT'");
   element.name = words[1];
+  if (std::ranges::count(header.elements, element.name, &Element::name) > 0)
+    reject(reader, "a second element " + quote(element.name) + "; name each once");
   header.elements.push_back(element);
 }
 

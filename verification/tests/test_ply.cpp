@@ -82,6 +82,8 @@ TEST_CASE("PLY files are refused in a line that says what is wrong") {
            {with("ascii", "text"), "bad.ply:2: 'text' is no format"},
            {with("property float x", "property half x"), "bad.ply:5: 'half' is no type"},
            {with("element vertex 4", "element vertex -4"), "bad.ply:4: an element is written"},
+           {with("end_header\n", "element vertex 0\nproperty float x\nend_header\n"),
+            "bad.ply:12: a second element 'vertex'"},
            {with("vertex 4", "vertex 9"), "ends before its last element"},
            {with("list uchar int vertex", "list float int vertex"), "no whole number"},
            {with("4 0 1 2 3", "4 0 1 2 4"), "bad.ply:17: an index of a vertex is not from 0 to 3"},
