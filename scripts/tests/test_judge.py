@@ -1,7 +1,5 @@
 #!/usr/bin/python3
-"""Tests of `foldproof judge` and `foldproof subject --check` as an adapter's author meets them, and
-of the protocol's page: its transcript and all that the program really sends
-are what the schema describes.
+"""Tests of `foldproof judge` as the author of an adapter meets it.
 
 scripts/tests/test_judge.py [--program FILE] [Judge.test_...]
 --program: instead of build/foldproof
@@ -15,100 +13,52 @@ import re
 import shlex
 import subprocess
 import sys
-import tempfile
 import unittest
 from pathlib import Path
-from typing import Any
-from unittest import mock
 
 sys.dont_write_bytecode = True
 
 import h5py  # noqa: E402
-from jsonschema import Draft202012Validator  # noqa: E402
 
-from program_case import PROGRAM, ROOT  # noqa: E402
+from judge_case import SUBJECTS, TOY, JudgeCase, bad  # noqa: E402
+from program_case import PROGRAM, ROOT, run  # noqa: E402
 
-SUBJECTS = ROOT / "verification" / "subjects"
-PYTHON = "exec /usr/bin/python3"
-TOY = f"{PYTHON} '{SUBJECTS}/adapters/toy_solver.py'"
-SCHEMA = json.loads((SUBJECTS / "protocol.schema.json").read_text(encoding="utf-8"))
 LAWS = 77  # of the portable suite
-BYTES = {"f8": 8, "f4": 4, "i4": 4}
-
-# An adapter that writes down every header that comes or goes, and states its settings as its
-# mapping.
-LOGGING = """
-import json, sys
-sys.path.insert(0, {adapters!r})
-from foldproof_solver import Pipe, open_pipe, serve
-from toy_solver import ToySolver
-
-class Logging(Pipe):
-    def receive(self):
-        message = super().receive()
-        if message:
-            print(json.dumps([">", message[0]]), file=log, flush=True)
-        return message
-    def send(self, header, arrays=None):
-        print(json.dumps(["<", header]), file=log, flush=True)
-        super().send(header, arrays)
-
-class Stating(ToySolver):
-    capabilities = (*ToySolver.capabilities, *{more!r})
-    def prepare(self, scene):
-        return {{**super().prepare(scene), **scene.header["scene"]["settings"]}}
-
-log = open({log!r}, "a")
-inner = open_pipe()
-serve(Stating(), Logging(inner.source, inner.sink))
-"""
-
-
-def run(*arguments: str) -> subprocess.CompletedProcess[str]:
-    return subprocess.run([str(PROGRAM), *arguments], capture_output=True, text=True, check=False)
-
-
-def bad(program: str, kind: str) -> str:
-    return f"{PYTHON} '{SUBJECTS}/bad/{program}.py' {kind}"
+TOY_DECLINES = {
+    "rest.curved-sheet-keeps-its-rest-angles", "order.with-damping-is-as-claimed",
+    "momentum.linear-under-damping-is-conserved",
+    "damping.edges-damp-in-proportion-to-their-stiffness",
+    "damping.stated-forces-sum-to-zero",
+    "game-step.static-stretch-is-that-of-short-steps",
+    "damping.stated-forces-are-those-of-the-motion",
+    "contact.fall-gains-no-energy", "floor.pressed-strip-slips-as-the-elastica",
+    "floor.clamped-fold-stands-as-high-as-the-elastica",
+    "forces.of-a-bent-sheet-sum-to-zero",
+    "forces.of-a-bent-sheet-exert-no-torque",
+    "forces.of-a-bent-sheet-are-minus-the-energy-gradient",
+    "calibration.bending-rigidity-is-the-scene-s",
+    "calibration.rigidity-survives-refinement", "contact.sheet-rests-on-a-plane",
+    "contact.resting-sheet-is-still", "contact.slides-as-coulomb-says",
+    "contact.slips-at-coulomb-s-slope", "ball.falling-sheet-stays-outside",
+    "ball.fall-gains-no-energy", "box.fall-gains-no-energy",
+    "capsule.fall-gains-no-energy", "ball.sheet-comes-to-rest",
+    "ball.slides-as-coulomb-says", "capstan.strip-lies-on-the-capsule",
+    "capstan.slips-at-euler-s-ratio",
+    "buckling.upright-strip-falls-at-greenhill-s-load",
+    "buckling.strip-on-edge-tips-at-its-load",
+    "drape.stiff-ring-sags-as-a-plate", "drape.heavier-ring-hangs-lower",
+    "drape.heavier-disc-hangs-lower", "wrinkles.grow-as-tension-and-rigidity-say",
+    "strip.loops-hang-as-the-elastica", "strip.rings-take-the-elastica-s-shape",
+    "strip.wrinkles-take-the-elastica-s-shape",
+    "strip.folds-take-the-elastica-s-shape",
+    "vibration.damped-decays-as-its-damping-says",
+    "cantilever.heavy-strip-hangs-as-the-elastica",
+    "tunnelling.thin-box-stops-a-slow-sheet",
+    "self-collision.folded-sheet-never-passes-through-itself"
+}
 
 
-def validator(kind: str) -> Draft202012Validator:
-    """Of one of the schema's $defs: request, declaration or answer."""
-    return Draft202012Validator({**SCHEMA, "$ref": f"#/$defs/{kind}"})
-
-
-def transcript() -> list[tuple[str, dict[str, Any]]]:
-    """The worked example of PROTOCOL.md: '>' or '<', and the header."""
-    page = (SUBJECTS / "PROTOCOL.md").read_text(encoding="utf-8")
-    return [(line[0], json.loads(line[2:])) for line in re.findall(r"^[<>] \{.*$", page, re.M)]
-
-
-def bytes_due(header: dict[str, Any]) -> int:
-    total = 0
-    for entry in header.get("arrays", []):
-        count = BYTES[entry["type"]]
-        for extent in entry["shape"]:
-            count *= extent
-        total += count
-    return total
-
-
-class Judge(unittest.TestCase):
-    def setUp(self) -> None:
-        folder = tempfile.TemporaryDirectory(prefix="foldproof judge ")
-        self.addCleanup(folder.cleanup)
-        self.path = Path(folder.name)
-
-    def logging_solver(self, *more: str) -> tuple[str, Path]:
-        """A command, and the file of its headers. It declares more capabilities, and ignores what
-        it is then sent."""
-        log, program = self.path / "log", self.path / "logging.py"
-        program.write_text(
-            LOGGING.format(adapters=str(SUBJECTS / "adapters"), log=str(log), more=more),
-            encoding="utf-8"
-        )
-        return f"{PYTHON} '{program}'", log
-
+class Judge(JudgeCase):
     def test_the_toy_meets_every_law_and_its_results_are_written(self) -> None:
         out = self.path / "toy"
         done = run("judge", "--solver", TOY, "--name", "my toy", "--out", str(out))
@@ -131,41 +81,7 @@ class Judge(unittest.TestCase):
         declined = {
             row["name"] for row in verdicts["findings"] if row["outcome"] == "not applicable"
         }
-        self.assertEqual(
-            declined,
-            {
-                "rest.curved-sheet-keeps-its-rest-angles", "order.with-damping-is-as-claimed",
-                "momentum.linear-under-damping-is-conserved",
-                "damping.edges-damp-in-proportion-to-their-stiffness",
-                "damping.stated-forces-sum-to-zero",
-                "game-step.static-stretch-is-that-of-short-steps",
-                "damping.stated-forces-are-those-of-the-motion",
-                "contact.fall-gains-no-energy", "floor.pressed-strip-slips-as-the-elastica",
-                "floor.clamped-fold-stands-as-high-as-the-elastica",
-                "forces.of-a-bent-sheet-sum-to-zero",
-                "forces.of-a-bent-sheet-exert-no-torque",
-                "forces.of-a-bent-sheet-are-minus-the-energy-gradient",
-                "calibration.bending-rigidity-is-the-scene-s",
-                "calibration.rigidity-survives-refinement", "contact.sheet-rests-on-a-plane",
-                "contact.resting-sheet-is-still", "contact.slides-as-coulomb-says",
-                "contact.slips-at-coulomb-s-slope", "ball.falling-sheet-stays-outside",
-                "ball.fall-gains-no-energy", "box.fall-gains-no-energy",
-                "capsule.fall-gains-no-energy", "ball.sheet-comes-to-rest",
-                "ball.slides-as-coulomb-says", "capstan.strip-lies-on-the-capsule",
-                "capstan.slips-at-euler-s-ratio",
-                "buckling.upright-strip-falls-at-greenhill-s-load",
-                "buckling.strip-on-edge-tips-at-its-load",
-                "drape.stiff-ring-sags-as-a-plate", "drape.heavier-ring-hangs-lower",
-                "drape.heavier-disc-hangs-lower", "wrinkles.grow-as-tension-and-rigidity-say",
-                "strip.loops-hang-as-the-elastica", "strip.rings-take-the-elastica-s-shape",
-                "strip.wrinkles-take-the-elastica-s-shape",
-                "strip.folds-take-the-elastica-s-shape",
-                "vibration.damped-decays-as-its-damping-says",
-                "cantilever.heavy-strip-hangs-as-the-elastica",
-                "tunnelling.thin-box-stops-a-slow-sheet",
-                "self-collision.folded-sheet-never-passes-through-itself"
-            },
-        )
+        self.assertEqual(declined, TOY_DECLINES)
         facts = json.loads((out / "solver.json").read_text(encoding="utf-8"))
         self.assertEqual(
             [table["law"] for table in facts["calibration"]],
@@ -340,28 +256,6 @@ class Judge(unittest.TestCase):
         self.assertIn("worse: the solver declares f4; the baseline f8: bounds are wider",
                       done.stdout)
 
-    def test_progress_is_told_at_most_once_a_second(self) -> None:
-        told = []
-
-        class Sink:
-            def write(self, data: bytes) -> None:
-                told.append(json.loads(data.splitlines()[0]))
-
-            def flush(self) -> None:
-                pass
-
-        sys.path.insert(0, str(SUBJECTS / "adapters"))
-        import foldproof_solver as helper
-        pipe = helper.Pipe(None, Sink())
-        with mock.patch.object(helper.time, "monotonic", side_effect=lambda: self.clock):
-            for tenths in range(35):
-                self.clock = pipe.told + 1 if tenths in (10, 20, 30) else pipe.told + 0.9
-                pipe.send_progress(7, tenths / 35)
-        self.assertEqual([one["progress"] for one in told], [10 / 35, 20 / 35, 30 / 35])
-        for header in told:
-            self.assertEqual(header["id"], 7)
-            validator("answer").validate(header)
-
     def test_judged_solvers_stand_on_one_page(self) -> None:
         """The toys, a wrong one and the reference, as `foldproof report` shows them."""
         solvers = {
@@ -497,19 +391,6 @@ class Judge(unittest.TestCase):
             self.assertIn(told, done.stderr)
             self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
 
-    def test_check_accepts_the_toys_and_names_the_first_breach(self) -> None:
-        for toy in (TOY, f"'{ROOT}/build/toy_solver'"):
-            done = run("subject", "--check", toy)
-            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-            self.assertEqual(done.stdout.splitlines()[-1], "the adapter keeps to the protocol")
-        done = run("subject", "--check", bad("broken", "wrong_shape"))
-        self.assertEqual(done.returncode, 1)
-        *_, breach, end = done.stdout.splitlines()
-        self.assertRegex(
-            breach, r"^BROKEN +advance returns the state .*shape \[52,2\] instead of \[52,3\]"
-        )
-        self.assertEqual(end, "the adapter does not keep to the protocol")
-
     def test_settings_reach_the_solver(self) -> None:
         command, _ = self.logging_solver()
         done = run("judge", "--solver", command, "--settings", "iterations=20")
@@ -524,78 +405,6 @@ class Judge(unittest.TestCase):
         self.assertEqual(
             shlex.split(kept)[-5:], ["judge", "--solver", command, "--out", str(out)]
         )
-
-    def test_all_that_is_sent_is_what_the_schema_describes(self) -> None:
-        command, log = self.logging_solver()
-        for words in (["judge", "--solver"], ["subject", "--check"]):
-            self.assertEqual(run(*words, command).returncode, 0)
-        rows = [json.loads(line) for line in log.read_text(encoding="utf-8").splitlines()]
-        operations = {header["op"] for side, header in rows if side == ">"}
-        self.assertLessEqual(
-            {
-                "start", "run", "prepare", "advance", "get_state", "step", "forces", "damping",
-                "energy", "stop"
-            },
-            operations,
-        )
-        for side, header in rows:
-            validator("request" if side == ">" else "answer").validate(header)
-
-    def test_obstacles_are_sent_as_the_schema_describes(self) -> None:
-        kinds = {"planes", "boxes", "spheres", "capsules"}
-        command, log = self.logging_solver(*sorted(kinds))
-        self.assertEqual(run("subject", "--check", command).returncode, 0)
-        rows = [json.loads(line) for line in log.read_text(encoding="utf-8").splitlines()]
-        sent = [header for side, header in rows if side == ">"]
-        self.assertLessEqual(kinds, {key for header in sent for key in header.get("scene", ())})
-        for header in sent:
-            validator("request").validate(header)
-        validator("declaration").validate(rows[1][1])
-        (ball,) = [header for header in sent if "spheres" in header.get("scene", ())]
-        ball["scene"]["spheres"][0]["radius"] = 0
-        self.assertFalse(validator("request").is_valid(ball))
-
-    def test_the_transcript_is_what_the_schema_describes(self) -> None:
-        rows = transcript()
-        self.assertEqual([side for side, _ in rows], [">", "<"] * (len(rows) // 2))
-        for side, header in rows:
-            validator("request" if side == ">" else "answer").validate(header)
-        validator("declaration").validate(rows[1][1])
-
-    def test_the_schema_rejects_other_headers(self) -> None:
-        request, declaration = transcript()[4][1], transcript()[1][1]
-        spoiled = [
-            ("request", {**request, "op": "prepare"}), ("request", {**request, "dt": 0}),
-            ("request", {**request, "id": "3"}), ("request", {**request, "speed": 1}),
-            ("answer", {"declined": "no id"}),
-            ("answer", {"id": 3, "arrays": [{"name": "x", "type": "f2", "shape": [3]}]}),
-            ("declaration", {**declaration, "level": "L4"}),
-            ("declaration", {**declaration, "solve_tolerance": 1})
-        ]
-        for kind, header in spoiled:
-            self.assertFalse(validator(kind).is_valid(header), header)
-
-    def test_the_toy_answers_as_in_the_transcript(self) -> None:
-        (read_requests, write_requests), (read_answers, write_answers) = os.pipe(), os.pipe()
-        environment = {
-            **os.environ, "FOLDPROOF_IN": str(read_requests), "FOLDPROOF_OUT": str(write_answers)
-        }
-        toy = subprocess.Popen(
-            ["/usr/bin/python3", "-W", "ignore", str(SUBJECTS / "adapters/toy_solver.py")],
-            env=environment, pass_fds=(read_requests, write_answers)
-        )
-        os.close(read_requests), os.close(write_answers)
-        with os.fdopen(write_requests, "wb") as requests, os.fdopen(read_answers, "rb") as answers:
-            for side, header in transcript():
-                # arrays of zeros: the headers of the answers are those of any numbers
-                if side == ">":
-                    requests.write(json.dumps(header).encode() + b"\n" + bytes(bytes_due(header)))
-                    requests.flush()
-                    continue
-                answer = json.loads(answers.readline())
-                answers.read(bytes_due(answer))
-                self.assertEqual(answer, header)
-        self.assertEqual(toy.wait(), 0)
 
 
 if __name__ == "__main__":
