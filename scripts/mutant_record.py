@@ -1,38 +1,36 @@
-"""The shipped record of mutants: each with what the first run that asked it found, so that a score
-is that of mutants which nobody has mended anything for. Of scripts/mutate.
+"""The shipped record of mutants: what is added to it, and which survivors are asked again. Of
+scripts/mutate; reports/data/mutant_record.py says what it is.
 """
 
-import collections
 import json
+import sys
 import time
 from pathlib import Path
 
-from mutant_trials import Judgement, Mutant, read_explained, score_interval
-from mutants import ROOT, Unusable, write_at_once
+from edits import Change
+from mutant_trials import Judgement, Mutant, read_explained
+from mutants import ROOT, write_at_once
 
-RECORD = ROOT / "verification/faults/mutants.json"
+sys.path.insert(0, str(ROOT / "reports"))
+from data.mutant_record import (  # noqa: E402
+    RECORD,
+    Row,
+    key_of_row,
+    read_rows,
+    scores_by_room,
+)
+
 ASKED = ("killed", "SURVIVED", "equivalent")
 
 
-def key_of_row(row: dict) -> tuple[str, str, str]:
-    return row["file"], row["before"], row["after"]
-
-
-def read_record(path: Path = RECORD) -> list[dict]:
-    try:
-        return json.loads(path.read_text(encoding="utf-8"))["mutants"] if path.is_file() else []
-    except (ValueError, KeyError) as error:
-        raise Unusable(f"{path}: {error!r}") from error
-
-
-def not_recorded(mutants: list[Mutant], rows: list[dict]) -> list[Mutant]:
+def not_recorded(mutants: list[Mutant], rows: list[Row]) -> list[Mutant]:
     known = {key_of_row(row) for row in rows}
     return [one for one in mutants if (one.file, one.before, one.after) not in known]
 
 
 def with_outcomes(
-    rows: list[dict], room: str, judged: list[Judgement], seed: int, commit: str
-) -> list[dict]:
+    rows: list[Row], room: str, judged: list[Judgement], seed: int, commit: str
+) -> list[Row]:
     """The rows, and behind them those of the outcomes that are not among them."""
     known, today = {key_of_row(row) for row in rows}, time.strftime("%Y-%m-%d", time.gmtime())
     added = []
@@ -47,41 +45,65 @@ def with_outcomes(
     return rows + added
 
 
-def write_record(rows: list[dict], path: Path = RECORD) -> None:
+def write_record(rows: list[Row], path: Path = RECORD) -> None:
     lines = [f" {json.dumps(row, ensure_ascii=False)}" for row in rows]
     write_at_once(path, '{"mutants": [\n' + ",\n".join(lines) + "\n]}\n")
 
 
-def scores(rows: list[dict], explained: set[tuple[str, str, str]]) -> dict[str, dict]:
-    """By room, and of all: how many were killed, survived, or are explained; the share of the first
-    in the first two, and its interval."""
-    counts: dict[str, collections.Counter] = collections.defaultdict(collections.Counter)
-    for row in rows:
-        outcome = "equivalent" if key_of_row(row) in explained else row["outcome"]
-        for room in (row["room"], "all"):
-            counts[room][outcome] += 1
-    table = {}
-    for room in sorted(counts, key=lambda name: (name == "all", name)):
-        killed, survived = counts[room]["killed"], counts[room]["SURVIVED"]
-        low, high = score_interval(killed, killed + survived)
-        table[room] = {
-            "killed": killed, "survived": survived, "equivalent": counts[room]["equivalent"],
-            "score": killed / (killed + survived) if killed + survived else None,
-            "low": low, "high": high
-        }
-    return table
+# ---- survivors, asked again ----------------------------------------------------------------------
+
+
+def open_survivors(rows: list[Row], explained: set[tuple[str, str, str]]) -> list[Mutant]:
+    """Those that nothing has noticed since and no sentence explains, as edits of the files of
+    today; one whose line is gone cannot be asked."""
+    found = []
+    for number, row in enumerate(rows):
+        is_open = row["outcome"] == "SURVIVED" and "noticed_by" not in row
+        if is_open and key_of_row(row) not in explained:
+            text = (ROOT / row["file"]).read_text(encoding="utf-8")
+            place = nearest_line(text, row["before"], row["line"])
+            if place is not None:
+                line, at = place
+                change = Change(at, row["before"], row["after"], "recorded")
+                found.append(
+                    Mutant(row["file"], number, change, line, row["before"], row["after"])
+                )
+    return found
+
+
+def nearest_line(text: str, line: str, to: int) -> tuple[int, int] | None:
+    """Number and place of the line that reads so, without its margin, next to the number `to`."""
+    places, at = [], 0
+    for number, each in enumerate(text.splitlines(keepends=True), start=1):
+        if each.strip() == line:
+            places.append((abs(number - to), number, at + len(each) - len(each.lstrip())))
+        at += len(each)
+    return min(places)[1:] if places else None
+
+
+def with_noticed(rows: list[Row], judged: list[Judgement], commit: str) -> list[Row]:
+    """The rows; those of mutants that are killed now say by what, and since when it is known."""
+    noticed = {one.mutant.number: one for one in judged if one.outcome == "killed"}
+    return [
+        {**row, "noticed_by": noticed[k].by or noticed[k].what, "noticed_at": commit}
+        if k in noticed else row for k, row in enumerate(rows)
+    ]
+
+
+# ---- what is said of it --------------------------------------------------------------------------
 
 
 def print_record() -> None:
-    rows, explained = read_record(), read_explained()
-    print(f"{'':32}{'killed':>9}{'survived':>10}{'equivalent':>12}{'score':>22}")
-    for room, row in scores(rows, explained).items():
+    rows, explained = read_rows(), read_explained()
+    print(f"{'':32}{'killed':>9}{'survived':>10}{'equivalent':>12}{'score':>22}{'open':>7}")
+    for row in scores_by_room(rows, explained):
         share = "-"
-        if row["score"] is not None:
-            score, low, high = (100 * row[key] for key in ("score", "low", "high"))
-            share = f"{score:.1f} ({low:.0f} to {high:.0f}) %"
-        print(f"{room:32}{row['killed']:>9}{row['survived']:>10}{row['equivalent']:>12}{share:>22}")
+        if row.share is not None:
+            share = f"{100 * row.share:.1f} ({100 * row.low:.0f} to {100 * row.high:.0f}) %"
+        print(f"{row.room:32}{row.killed:>9}{row.survived:>10}{row.equivalent:>12}{share:>22}"
+              f"{row.survived - row.noticed_since:>7}")
     for row in rows:
         if row["outcome"] == "SURVIVED" and key_of_row(row) not in explained:
+            since = f"\n    noticed since by {row['noticed_by']}" if "noticed_by" in row else ""
             print(f"{row['file']}:{row['line']} at {row['commit'][:8]}\n    - {row['before']}\n"
-                  f"    + {row['after']}")
+                  f"    + {row['after']}{since}")

@@ -5,7 +5,6 @@ Of scripts/mutate.
 import concurrent.futures
 import functools
 import itertools
-import math
 import re
 import shutil
 import subprocess
@@ -183,6 +182,7 @@ class Targets:
     def __init__(
         self, plan: Plan, seed: int, questions: Questions, explained: set[tuple[str, str, str]]
     ) -> None:
+        self.explained = explained
         self.made: dict[str, Target] = {}
         self.lock = threading.Lock()
         self.make = lambda file: Target(file, plan, seed, questions, explained)
@@ -266,14 +266,3 @@ def read_explained() -> set[tuple[str, str, str]]:
                 f"{EXPLAINED}: '{line}' stands {occurrences} times in {file}, not {expected}"
             )
     return found
-
-
-def score_interval(hits: int, of: int) -> tuple[float | None, float | None]:
-    """What share 95 % of such samples leave possible: Wilson's interval (Wilson, J. Am. Stat.
-    Assoc. 22, 1927)."""
-    if not of:
-        return None, None
-    z, share = 1.959964, hits / of
-    middle = (share + z * z / (2 * of)) / (1 + z * z / of)
-    half = z * math.sqrt(share * (1 - share) / of + z * z / (4 * of * of)) / (1 + z * z / of)
-    return middle - half, middle + half

@@ -3,9 +3,11 @@ reports/tests/test_reports.py."""
 from __future__ import annotations
 
 import json
+from unittest import mock
 
 import h5py
 
+from data.mutant_record import load_mutant_record
 from tests.made_up_run import HOSTILE, put, put_run
 from tests.report_test import ReportTest
 
@@ -29,6 +31,29 @@ class Beside(ReportTest):
         self.assertIn("90.0 % of 40 lines", text)
         self.assertIn("3–5, 9", text)
         self.read(text)
+
+    def test_random_slips_are_shown_with_what_notices_those_that_were_missed(self) -> None:
+        put_run(self.root)
+        row = {"room": "reference/forces", "file": "a.cpp", "line": 7, "before": "a < b",
+               "after": "a > b", "outcome": "killed", "by": "check.x", "seed": 1, "commit": "abc"}
+        missed = {**row, "after": HOSTILE, "outcome": "SURVIVED"}
+        equal = {**row, "after": "a <= b", "outcome": "SURVIVED"}
+        rows = [row, {**row, "after": "b"}, {**missed, "noticed_by": "check.y"},
+                {**missed, "after": "a"}, equal]
+        record, reasons = self.root / "mutants.json", self.root / "reasons.toml"
+        record.write_text(json.dumps({"mutants": rows}))
+        reasons.write_text('[[mutant]]\nfile = "a.cpp"\nline = "a < b"\nbecomes = "a <= b"\n'
+                           'reason = "they are never equal"\n')
+        with mock.patch("make_report.load_mutant_record",
+                        lambda: load_mutant_record(record, reasons)):
+            text = self.made()
+        section = text[text.index('id="mutants"'):]
+        self.assertIn('<td class="num">2</td><td class="num">2</td><td class="num">1</td>'
+                      '<td class="num">1</td><td class="num">50.0 %</td>'
+                      '<td class="num">15 to 85 %</td>', section)
+        for said in ("<td>check.y</td>", "<td>nothing</td>", "they are never equal"):
+            self.assertIn(said, section)
+        self.read(section)
 
     def test_variants_are_shown_with_their_false_alarms(self) -> None:
         put_run(self.root)

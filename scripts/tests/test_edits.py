@@ -10,7 +10,7 @@ sys.dont_write_bytecode = True
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from edits import apply, changes_of, place_of, sample, tokens_of  # noqa: E402
-from mutant_trials import sample_of, score_interval  # noqa: E402
+from mutant_trials import sample_of  # noqa: E402
 from mutants import run  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -115,15 +115,6 @@ double f(const Points& x, int n, double a, double b) {
         self.assertEqual(len(drawn), sum(len(changes_of(text)) for text in sources.values()))
         self.assertEqual(drawn, sample_of("reference/motion", 3))
         self.assertNotEqual([one.file for one in drawn], sorted(one.file for one in drawn))
-
-    def test_the_interval_of_a_score_is_wilsons(self) -> None:
-        # the roots of (p - share)^2 = z^2 p (1 - p) / n
-        for hits, of in ((0, 10), (9, 10), (57, 60)):
-            for end in score_interval(hits, of):
-                if 0 < end < 1:
-                    wanted = 1.959964**2 * end * (1 - end) / of
-                    self.assertAlmostEqual((end - hits / of) ** 2, wanted, places=12)
-        self.assertEqual(score_interval(0, 0), (None, None))
 
     def test_the_clock_of_a_mutant_is_the_processors(self) -> None:
         run(["sleep", "1.5"], ROOT, 1)

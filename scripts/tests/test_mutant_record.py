@@ -13,12 +13,15 @@ from script_module import ROOT  # noqa: E402
 from edits import Change  # noqa: E402
 from mutant_record import (  # noqa: E402
     RECORD,
+    nearest_line,
     not_recorded,
-    read_record,
-    scores,
+    read_rows,
+    scores_by_room,
+    with_noticed,
     with_outcomes,
     write_record,
 )
+from data.mutant_record import score_interval  # noqa: E402
 from mutant_trials import Judgement, Mutant  # noqa: E402
 
 
@@ -42,23 +45,45 @@ class Record(unittest.TestCase):
         judged = [Judgement(mutant(text), "killed", "", "check.x") for text in "abcdefgh"]
         judged += [Judgement(mutant("lost"), "SURVIVED"), Judgement(mutant("equal"), "SURVIVED")]
         rows = with_outcomes([], "reference/forces", judged, 1, "c")
-        table = scores(rows, {("reference/a.cpp", "a + b", "equal")})
-        self.assertEqual(set(table), {"reference/forces", "all"})
-        row = table["reference/forces"]
-        self.assertEqual((row["killed"], row["survived"], row["equivalent"]), (8, 1, 1))
-        self.assertAlmostEqual(row["score"], 8 / 9)
-        self.assertLess(row["low"], 0.6)  # nine mutants say little
+        row, of_all = scores_by_room(rows, {("reference/a.cpp", "a + b", "equal")})
+        self.assertEqual((row.room, of_all.room), ("reference/forces", "all"))
+        self.assertEqual((row.killed, row.survived, row.equivalent), (8, 1, 1))
+        self.assertAlmostEqual(row.share, 8 / 9)
+        self.assertLess(row.low, 0.6)  # nine mutants say little
+
+    def test_what_notices_a_survivor_later_leaves_its_score(self) -> None:
+        rows = with_outcomes([], "reference", [Judgement(mutant("lost"), "SURVIVED")], 1, "c1")
+        self.assertEqual(with_noticed(rows, [Judgement(mutant("x"), "SURVIVED")], "c2"), rows)
+        rows = with_noticed(rows, [Judgement(mutant("lost"), "killed", "", "check.x")], "c2")
+        self.assertEqual((rows[0]["noticed_by"], rows[0]["noticed_at"]), ("check.x", "c2"))
+        row = scores_by_room(rows, set())[0]
+        self.assertEqual((row.killed, row.survived, row.noticed_since), (0, 1, 1))
+
+    def test_a_recorded_line_is_found_where_it_stands_today(self) -> None:
+        text = "a;\n  b;\nc;\n    b;\n"
+        self.assertEqual(nearest_line(text, "b;", 5), (4, 15))
+        self.assertEqual(nearest_line(text, "b;", 1), (2, 5))
+        self.assertIsNone(nearest_line(text, "d;", 1))
 
     def test_a_record_is_read_as_it_was_written(self) -> None:
         rows = with_outcomes([], "reference", [Judgement(mutant("a < \"b\""), "killed")], 1, "c")
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "mutants.json"
-            self.assertEqual(read_record(path), [])
+            self.assertEqual(read_rows(path), [])
             write_record(rows, path)
-            self.assertEqual(read_record(path), rows)
+            self.assertEqual(read_rows(path), rows)
+
+    def test_the_interval_of_a_score_is_wilsons(self) -> None:
+        # the roots of (p - share)^2 = z^2 p (1 - p) / n
+        for hits, of in ((0, 10), (9, 10), (57, 60)):
+            for end in score_interval(hits, of):
+                if 0 < end < 1:
+                    wanted = 1.959964**2 * end * (1 - end) / of
+                    self.assertAlmostEqual((end - hits / of) ** 2, wanted, places=12)
+        self.assertEqual(score_interval(0, 0), (None, None))
 
     def test_the_shipped_record_is_of_files_of_the_project(self) -> None:
-        rows = read_record(RECORD)
+        rows = read_rows(RECORD)
         for row in rows:
             self.assertTrue((ROOT / row["file"]).is_file(), row["file"])
             self.assertTrue(row["file"].startswith(row["room"]), row)

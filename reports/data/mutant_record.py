@@ -1,0 +1,114 @@
+"""Random slips and who noticed them, as `scripts/mutate --record` keeps them: each with what the
+first run that asked it found, so that a score is that of slips for which nobody has mended
+anything."""
+from __future__ import annotations
+
+import json
+import math
+import tomllib
+from collections import Counter, defaultdict
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from data.unreadable import reading
+
+FAULTS = Path(__file__).resolve().parents[2] / "verification" / "faults"
+RECORD = FAULTS / "mutants.json"
+EXPLAINED = FAULTS / "equivalent_mutants.toml"
+
+Row = dict[str, Any]
+Key = tuple[str, str, str]  # file, line, and what the line becomes
+
+
+@dataclass
+class Score:
+    """What became of the mutants of one folder, or of all."""
+    room: str
+    killed: int
+    survived: int
+    equivalent: int
+    noticed_since: int    # of those that survived
+    share: float | None   # of the killed in those that are not equivalent; None of none
+    low: float | None     # what 95 % of such samples leave possible
+    high: float | None
+
+
+@dataclass
+class MutantRecord:
+    """The record as a page shows it."""
+    scores: list[Score]    # by folder, of all last
+    survivors: list[Row]   # that are not explained
+    explained: list[Row]   # with the reason
+    commits: list[str]
+
+
+def key_of_row(row: Row) -> Key:
+    """What tells a mutant from others."""
+    return row["file"], row["before"], row["after"]
+
+
+def read_rows(path: Path = RECORD) -> list[Row]:
+    """The mutants of a record, none if there is no such file; Unreadable for another file."""
+    if not path.is_file():
+        return []
+    with reading(path):
+        rows: list[Row] = json.loads(path.read_text(encoding="utf-8"))["mutants"]
+        return rows
+
+
+def load_mutant_record(record: Path = RECORD, explained: Path = EXPLAINED) -> MutantRecord | None:
+    """The record for a page; None of an empty one. Throws Unreadable if a file is damaged."""
+    rows = read_rows(record)
+    if not rows:
+        return None
+    with reading(explained):
+        said = tomllib.loads(explained.read_text(encoding="utf-8"))["mutant"]
+        reasons = {(row["file"], row["line"], row["becomes"]): row["reason"] for row in said}
+    with reading(record):
+        table = scores_by_room(rows, set(reasons))
+        return MutantRecord(
+            table,
+            [
+                row for row in rows
+                if row["outcome"] == "SURVIVED" and key_of_row(row) not in reasons
+            ],
+            [
+                {**row, "reason": reasons[key_of_row(row)]} for row in rows
+                if key_of_row(row) in reasons
+            ],
+            sorted({row["commit"][:10] for row in rows}),
+        )
+
+
+def scores_by_room(rows: list[Row], explained: set[Key]) -> list[Score]:
+    """By folder, those of all last; what is explained counts as equivalent, whatever was found."""
+    counts: dict[str, Counter[str]] = defaultdict(Counter)
+    for row in rows:
+        outcome = "equivalent" if key_of_row(row) in explained else row["outcome"]
+        for room in (row["room"], "all"):
+            counts[room][outcome] += 1
+            counts[room]["since"] += outcome == "SURVIVED" and bool(row.get("noticed_by"))
+    rooms = sorted(counts, key=lambda name: (name == "all", name))
+    return [_score(room, counts[room]) for room in rooms]
+
+
+def _score(room: str, count: Counter[str]) -> Score:
+    killed, survived = count["killed"], count["SURVIVED"]
+    of = killed + survived
+    low, high = score_interval(killed, of)
+    return Score(
+        room, killed, survived, count["equivalent"], count["since"], killed / of if of else None,
+        low, high
+    )
+
+
+def score_interval(hits: int, of: int) -> tuple[float | None, float | None]:
+    """What share 95 % of such samples leave possible: Wilson's interval (Wilson, J. Am. Stat.
+    Assoc. 22, 1927)."""
+    if not of:
+        return None, None
+    z, share = 1.959964, hits / of
+    middle = (share + z * z / (2 * of)) / (1 + z * z / of)
+    half = z * math.sqrt(share * (1 - share) / of + z * z / (4 * of * of)) / (1 + z * z / of)
+    return middle - half, middle + half
