@@ -84,3 +84,20 @@ TEST_CASE("a case's accuracy decides the cells of its grid or octree, and is rep
   CHECK_THROWS_WITH(scene_of("accuracy = 0.01\nrepair = \"winding\"\n"),
                     Contains("some.toml:10: a mesh that is repaired has no exact distance"));
 }
+
+TEST_CASE("what a recipe's keys decide is refused at their place, and nothing else is") {
+  const std::string grid = "grid: too fine", octree = "octree: too fine",
+                    cells = "'cells' must be less", accuracy = "an error of 1 m cannot be had",
+                    other = "the mesh has no triangle";
+  const FieldRecipe recipe{GridRecipe{}, "some.toml:7", 0};
+  Body body = RigidObject{};
+  for (const std::string& said : {grid, octree, cells, accuracy, other}) {
+    const LevelSetProvider refuses{
+        [&](const TriangleSoup&, const GridMethod&, Repair) -> std::shared_ptr<const Grid> {
+          throw InputError(said);
+        },
+        {}};
+    CHECK_THROWS_WITH(make_field(recipe, refuses, body),
+                      said == other ? said : "some.toml:7: " + said);
+  }
+}
