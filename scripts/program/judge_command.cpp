@@ -156,11 +156,11 @@ std::string solver_json(const Judgement& judgement, const SolverCommand& command
 }
 
 /// The evidence of that law as a curve; none where it does not hold: without a limit, no error.
-std::optional<StudyRecord> error_against_cost(const Judgement& judgement) {
+std::optional<StudyRecord> error_against_cost(const Judgement& judgement, const std::string& name) {
   const auto record = std::ranges::find(judgement.records, law_of_cost, &Record::name);
   if (record == judgement.records.end() || record->outcome != Outcome::holds) return {};
   const Table& rows = record->finding.evidence;
-  const Curve curve = curve_of(judgement.declaration.name, rows, "seconds by the clock", "error");
+  const Curve curve = curve_of(name, rows, "seconds by the clock", "error");
   StudyRecord study;
   study.name = "solver.error-against-cost";
   study.claim = "What error does a second of the solver buy?";
@@ -191,7 +191,7 @@ RunRecord run_of(const Judgement& judgement, double seconds, const Options& opti
   run.records = judgement.records;
   if (const Declaration& d = judgement.declaration; !d.name.empty())
     run.declared = {d.level, d.is_single ? "f4" : "f8", d.order, d.solve_tolerance, d.capabilities};
-  if (const auto study = error_against_cost(judgement)) run.studies.push_back(*study);
+  if (const auto study = error_against_cost(judgement, run.subject)) run.studies.push_back(*study);
   return run;
 }
 

@@ -74,6 +74,10 @@ class Judge(JudgeCase):
                 (file.attrs["subject"], file.attrs["subject_version"]), ("my toy", "1.0")
             )
             seconds = float(file.attrs["seconds"])
+            figure = file["studies/solver.error-against-cost/figures/error_against_cost"]
+            self.assertEqual(
+                [curve.attrs["label"] for curve in figure["curves"].values()], ["my toy"]
+            )
         verdicts = json.loads((out / "verdicts.json").read_text(encoding="utf-8"))
         of_laws = sum(row["seconds"] for row in verdicts["findings"])
         self.assertGreater(of_laws, 0)
