@@ -2,6 +2,7 @@
 #include <barrier>
 #include <catch2/catch.hpp>
 
+#include "reference/dynamics/system.h"
 #include "reference/fast/threads.h"
 #include "reference/filters/impact_zones.h"
 #include "reference/motion/pose.h"
@@ -59,5 +60,37 @@ TEST_CASE("threads: all parts of a loop are under way at once") {
     std::barrier all_have_begun(parts);  // for which fewer threads would wait for ever
     in_parallel(parts, [&](int) { all_have_begun.arrive_and_wait(); });
     SUCCEED();
+  }
+}
+
+TEST_CASE("sticking that forecasts allows steps of twice its time, if nothing else forbids them") {
+  System system = make_system((PerParticle(3) << 0.5, 0.02, 0.3).finished());
+  State s;
+  s.x = PerParticle3(3, 3);
+  s.x << 0, 1, 2, 0, 0, 0, 0.01, 0, 0;
+  s.v = PerParticle3::Zero(3, 3);
+  const StretchSprings springs{{{1, 2, 1.0, 30.0, 0.0}}};
+  system.forces.emplace_back(springs);
+  const double of_springs = elastic_limit(system, s);
+  CHECK(widened_limit(system, s, 0.001) == 0.001);  // nothing sticks
+
+  StickyPatch patch;
+  patch.triangles = {{0, 1, 2}};
+  patch.place = [](double) {
+    return (PerParticle3(3, 3) << -1, 1, 0, -1, -1, 2, 0, 0, 0).finished();
+  };
+  patch.velocity = [](double) { return PerParticle3(PerParticle3::Zero(3, 3)); };
+  patch.particles = {0};
+  patch.stiffness = 1e7;
+  patch.near = patch.far = 0.1;
+  for (const double forecast : {0.2 * of_springs, 3 * of_springs}) {
+    patch.forecast_time = forecast;
+    system.forces = {springs, Sticking{{patch}}};
+    begin_step(system, s);
+    REQUIRE(s.bonds.size() == 1);
+    const double wanted = std::min(of_springs, 2 * forecast);
+    CHECK(elastic_limit(system, s) < 0.1 * wanted);
+    CHECK(widened_limit(system, s, elastic_limit(system, s)) == Approx(wanted).epsilon(1e-14));
+    CHECK(widened_limit(system, s, 7 * of_springs) == 7 * of_springs);
   }
 }
