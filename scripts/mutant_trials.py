@@ -2,6 +2,7 @@
 Of scripts/mutate.
 """
 
+import collections
 import concurrent.futures
 import functools
 import itertools
@@ -11,7 +12,7 @@ import subprocess
 import threading
 import time
 import tomllib
-from collections.abc import Callable
+from collections.abc import Callable, Set
 from pathlib import Path
 from typing import NamedTuple
 
@@ -30,6 +31,7 @@ from mutants import (
 )
 from reach import Table
 
+MOST_UNITS = 20  # that a header may be part of to be drawn from a folder
 EXPLAINED = "verification/faults/equivalent_mutants.toml"
 
 
@@ -194,11 +196,20 @@ class Targets:
         return self.made[mutant.file].judge(mutant)
 
 
-def sample_of(name: str, seed: int) -> list[Mutant]:
-    """Every mutant of a file, or of all files of a folder, in an order that the seed decides: each
-    edit is as likely as any other, so long files get more of them."""
+def wide_headers(plan: Plan) -> set[Path]:
+    """Those of whose edits each is most of a build."""
+    counts = collections.Counter(path for unit in plan.units for path in unit.made_from)
+    return {path for path, units in counts.items() if units > MOST_UNITS and path.suffix == ".h"}
+
+
+def sample_of(name: str, seed: int, left_out: Set[Path] = frozenset()) -> list[Mutant]:
+    """Every mutant of a file, or of all files of a folder but some, in an order that the seed
+    decides: each edit is as likely as any other, so long files get more of them."""
     path = ROOT / name
-    sources = [*path.glob("*.cpp"), *path.glob("*.h")] if path.is_dir() else [path]
+    sources = [path]
+    if path.is_dir():
+        sources = [file for ending in ("cpp", "h") for file in path.glob(f"*.{ending}")]
+        sources = [file for file in sources if file.resolve() not in left_out]
     texts = {
         str(file.relative_to(ROOT)): file.read_text(encoding="utf-8") for file in sorted(sources)
     }

@@ -160,7 +160,8 @@ def key_of(plan: Plan) -> str:
         (ROOT / "verification/claims").glob("*.toml")
     )
     read += [file for file in PYTHON_TESTS.values() if file.parent.name == "tests"]
-    read += [ROOT / "scripts/tests/program_case.py"] + files_of_independent()
+    read += [ROOT / f"scripts/tests/{name}_case.py" for name in ("program", "judge")]
+    read += files_of_independent()
     for path in objects + read:
         key.update(path.read_bytes())
     return key.hexdigest()
