@@ -72,10 +72,7 @@ class Team {
 /// Of the calling thread, which keeps it for its next loop.
 Team& team_of(int threads) {
   thread_local std::unique_ptr<Team> team;
-  if (!team || team->threads() != threads) {
-    team.reset();
-    team = std::make_unique<Team>(threads);
-  }
+  if (!team || team->threads() != threads) team = std::make_unique<Team>(threads);
   return *team;
 }
 
