@@ -5,6 +5,7 @@
 #include "reference/dynamics/system.h"
 #include "reference/fast/threads.h"
 #include "reference/filters/impact_zones.h"
+#include "reference/filters/strain_limit.h"
 #include "reference/motion/pose.h"
 
 using namespace foldproof;
@@ -112,4 +113,22 @@ TEST_CASE("threads: a share has the elements that touch its particles, in runs o
   CHECK(sharing->shares[0].end == 3);
   CHECK(sharing->shares[1].end == 6);
   CHECK_FALSE(share_out(1, 6, {}));
+}
+
+TEST_CASE("sweeps of strain limiting end at the tolerance, not below it") {
+  // the long spring is met last, and leaves the short one too long
+  const std::vector<Spring> springs{{0, 1, 0.5, 1, 0}, {1, 2, 2, 1, 0}};
+  const PerParticle3 x = (PerParticle3(3, 3) << 0, 0.5, 2.8, 0, 0, 0, 0, 0, 0).finished();
+  const PerParticle inverse_mass = (PerParticle(3) << 0, 1, 0).finished();
+  const auto limited = [&](double tolerance) {
+    StrainLimits limits;
+    limits.tolerance = tolerance;
+    PerParticle3 v = PerParticle3::Zero(3, 3);
+    return limit_strain(make_strain_limiter(limits, springs, inverse_mass), 1, x, v);
+  };
+  const StrainSweeps once = limited(1);
+  CHECK(once.sweeps == 1);
+  CHECK(once.remaining_violation == Approx(0.1));
+  CHECK(limited(once.remaining_violation).sweeps == 1);
+  CHECK(limited(std::nextafter(once.remaining_violation, 0)).sweeps > 1);
 }
