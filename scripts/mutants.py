@@ -16,6 +16,7 @@ import shlex
 import signal
 import subprocess
 import threading
+import time
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -41,6 +42,7 @@ PYTHON_TESTS = {
     "IndependentTest": ROOT / "verification/independent/test_independent.py",
 }
 APART_FOLDER = BUILD / "faults" / "apart"
+BUSY_TRIES, NOT_EXECUTED = 25, 126  # exit code of prlimit
 CLOCK = 240  # s: how long the processor may take for a mutant
 
 
@@ -77,7 +79,11 @@ def run(command: list, folder: Path, clock: float | None = None) -> subprocess.C
         command = ["prlimit", f"--cpu={most}:{most + 5}", "--", *command]
     text = {"capture_output": True, "text": True, "errors": "replace"}
     latest = None if clock is None else 10 * clock
-    ran = subprocess.run(command, cwd=folder, stdin=subprocess.DEVNULL, timeout=latest, **text)
+    for _ in range(BUSY_TRIES):
+        ran = subprocess.run(command, cwd=folder, stdin=subprocess.DEVNULL, timeout=latest, **text)
+        if clock is None or ran.returncode != NOT_EXECUTED:
+            break
+        time.sleep(0.2)  # a process of another thread still has the linked file open for writing
     if ran.returncode == -signal.SIGXCPU:
         raise subprocess.TimeoutExpired(command, clock)
     return ran

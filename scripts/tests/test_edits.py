@@ -1,8 +1,11 @@
 #!/usr/bin/python3
 """Tests of the mutator: what it edits, and what it leaves alone."""
 
+import shutil
 import subprocess
 import sys
+import tempfile
+import threading
 import unittest
 from pathlib import Path
 
@@ -122,6 +125,13 @@ double f(const Points& x, int n, double a, double b) {
             run([sys.executable, "-c", "while True: pass"], ROOT, 1)
         with self.assertRaises(subprocess.TimeoutExpired):
             run(["sleep", "60"], ROOT, 0.1)
+
+    def test_a_program_that_is_still_written_to_is_waited_for(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            program = shutil.copy("/bin/true", folder)
+            writer = open(program, "ab")
+            threading.Timer(0.5, writer.close).start()
+            self.assertEqual(run([program], ROOT, 1).returncode, 0)
 
 
 if __name__ == "__main__":
