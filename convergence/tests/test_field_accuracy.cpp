@@ -78,6 +78,12 @@ TEST_CASE("a case's accuracy decides the cells of its grid or octree, and is rep
     const std::string report = accuracy_report(*scene.objects[0].field, built.objects[0].body);
     CHECK_THAT(report, Contains(" cells, error 0.00"));
     CHECK_THAT(report, !StartsWith("4 cells"));
+    const auto* recipe = std::get_if<GridRecipe>(&scene.objects[0].field->of);
+    if (!recipe) continue;
+    const Solid& solid = std::get<RigidObject>(built.objects[0].body).solid;
+    const double cells = bounds_of(recipe->soup.rest).sizes().maxCoeff() /
+                         std::get<GridSolid>(solid).grid->lattice.spacing;
+    CHECK_THAT(report, StartsWith(std::to_string(std::lround(cells)) + " cells, "));
   }
   CHECK_THROWS_WITH(scene_of("accuracy = 0.01\nfield = \"exact\"\n"),
                     Contains("some.toml:10: field = \"exact\" has no error to choose"));

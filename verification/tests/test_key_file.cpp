@@ -108,3 +108,8 @@ TEST_CASE("letters outside ASCII stand in quotes and comments, and are refused e
   set_key(*root, "title=\u0496");
   CHECK(root->text("title") == "\u0496");
 }
+
+TEST_CASE("quotes begin a text after a sign or a blank, not inside a word") {
+  CHECK(parse_keys("a=\"\xC3\xA9\"\n", "some.toml")->text("a") == "\xC3\xA9");
+  CHECK_THROWS_WITH(parse_keys("a = b\"\xC3\xA9\"\n", "some.toml"), Contains("outside ASCII"));
+}
