@@ -2,10 +2,13 @@
 #include <barrier>
 #include <catch2/catch.hpp>
 
+#include "reference/bodies/self_intersection.h"
 #include "reference/dynamics/system.h"
 #include "reference/fast/threads.h"
 #include "reference/filters/impact_zones.h"
 #include "reference/filters/strain_limit.h"
+#include "reference/mesh/nearest_point.h"
+#include "reference/mesh/seams.h"
 #include "reference/mesh/shapes.h"
 #include "reference/motion/pose.h"
 #include "reference/post/smooth_cloth.h"
@@ -181,4 +184,54 @@ TEST_CASE("points of a smooth cloth are held back by halves") {
   }
   CHECK(between > 0);
   CHECK(cloth.share.maxCoeff() == 1);
+}
+
+TEST_CASE("prescribed motion has no velocity before it begins and from its end on") {
+  Motion motion;
+  motion.from = 0.3, motion.until = 0.7;
+  motion.velocity = {1, 0, 0};
+  for (const double time : {0.1, 0.7, 0.9})
+    CHECK(velocity_at(motion, Vector3(1, 2, 3), time) == Vector3::Zero());
+  for (const double time : {0.3, 0.5})
+    CHECK(velocity_at(motion, Vector3(1, 2, 3), time) == motion.velocity);
+}
+
+TEST_CASE("rotations of keyframes are normalised") {
+  Keyframe key{0, {}};
+  key.pose.rotation.coeffs() *= 2;
+  CHECK(make_keyframes({key}).keys[0].pose.rotation.norm() == 1);
+}
+
+TEST_CASE("what lies between two regions of a triangle belongs to its corner") {
+  const Corners3 corners{Vector3(0, 0, 0), Vector3(1, 0, 0), Vector3(0, 1, 0)};
+  CHECK(nearest_on_triangle(corners, {0, -1, 0}).feature == Feature::a);
+  CHECK(nearest_on_triangle(corners, {1, -1, 0}).feature == Feature::b);
+  CHECK(nearest_on_triangle(corners, {-1, 1, 0}).feature == Feature::c);
+  CHECK(nearest_on_triangle(corners, {0.5, -1, 0}).feature == Feature::ab);
+}
+
+TEST_CASE("dampers are shared out as springs are if each spring has one") {
+  StretchSprings springs{{{0, 1, 1, 1, 0.1}, {1, 2, 1, 1, 0.1}}};
+  springs.use_threads(2, 3);
+  CHECK(springs.sharing);
+  CHECK(springs.damper_sharing == springs.sharing);
+  springs.springs[1].damping = 0;
+  springs.use_threads(2, 3);
+  CHECK_FALSE(springs.damper_sharing);
+}
+
+TEST_CASE("triangles of one plane intersect where only their edges cross") {
+  PerParticle3 x(3, 6);
+  x << 0, 4, 2, 0, 4, 2, 0, 0, 3, 2, 2, -1, 0, 0, 0, 0, 0, 0;
+  const std::vector<Triangle> star{{0, 1, 2}, {3, 4, 5}};
+  CHECK(self_intersections(x, star).size() == 1);
+  x.rightCols(3).row(0).array() += 4.5;
+  CHECK(self_intersections(x, star).empty());
+}
+
+TEST_CASE("seams need a distance") {
+  const TriangleMesh sheet = make_sheet({SheetPattern::one_diagonal, 1, 1, 1, 1});
+  for (const double distance : {0.0, -1.0, double(INFINITY)})
+    CHECK_THROWS_WITH(close_seams({sheet.rest, sheet.triangles, {}}, distance),
+                      Catch::Contains("seams need a distance > 0 m"));
 }
