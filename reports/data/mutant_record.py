@@ -82,7 +82,7 @@ def load_mutant_record(record: Path = RECORD, explained: Path = EXPLAINED) -> Mu
 
 
 def scores_by_room(rows: list[Row], explained: set[Key]) -> list[Score]:
-    """By folder, those of all last; what is explained counts as equivalent, whatever was found."""
+    """One score a folder, then one of all. A mutant with a reason counts as equivalent."""
     counts: dict[str, Counter[str]] = defaultdict(Counter)
     for row in rows:
         outcome = "equivalent" if key_of_row(row) in explained else row["outcome"]

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """Tests of `foldproof subject --check` as an adapter's author meets it, and of the protocol's page:
-its transcript and all that the program really sends are what the schema describes.
+the schema must describe its transcript and every header that the program sends.
 
 scripts/tests/test_protocol.py [--program FILE] [Protocol.test_...]
 --program: instead of build/foldproof
