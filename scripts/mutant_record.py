@@ -8,6 +8,7 @@ import time
 from pathlib import Path
 
 from edits import Change
+from mutant_questions import FOLDER
 from mutant_trials import Judgement, Mutant, read_explained
 from mutants import ROOT, write_at_once
 
@@ -17,32 +18,62 @@ from data.mutant_record import (  # noqa: E402
     Row,
     key_of_row,
     read_rows,
-    scores_by_room,
+    samples_of,
 )
 
 ASKED = ("killed", "SURVIVED", "equivalent")
+ASKED_LOG = FOLDER / "asked.jsonl"
 
 
-def not_recorded(mutants: list[Mutant], rows: list[Row]) -> list[Mutant]:
-    known = {key_of_row(row) for row in rows}
+def not_recorded(mutants: list[Mutant], rows: list[Row], commit: str) -> list[Mutant]:
+    """Those that the sample of this commit does not have."""
+    known = {key_of_row(row) for row in rows if row["commit"] == commit}
     return [one for one in mutants if (one.file, one.before, one.after) not in known]
 
 
-def with_outcomes(
-    rows: list[Row], room: str, judged: list[Judgement], seed: int, commit: str
-) -> list[Row]:
-    """The rows, and behind them those of the outcomes that are not among them."""
-    known, today = {key_of_row(row) for row in rows}, time.strftime("%Y-%m-%d", time.gmtime())
+def rows_of(room: str, judged: list[Judgement], seed: int, commit: str) -> list[Row]:
+    """What is kept of the mutants that were asked."""
+    today = time.strftime("%Y-%m-%d", time.gmtime())
+    return [
+        {
+            "room": room, "file": one.mutant.file, "line": one.mutant.line,
+            "before": one.mutant.before, "after": one.mutant.after, "outcome": one.outcome,
+            "by": one.by or one.what, "seed": seed, "commit": commit, "date": today
+        }
+        for one in judged if one.outcome in ASKED
+    ]
+
+
+def with_new(rows: list[Row], more: list[Row]) -> list[Row]:
+    """The rows, and behind them those of mutants that the sample of their commit does not have."""
+    known = {(*key_of_row(row), row["commit"]) for row in rows}
     added = []
-    for one in judged:
-        mutant = one.mutant
-        if one.outcome in ASKED and (mutant.file, mutant.before, mutant.after) not in known:
-            added.append({
-                "room": room, "file": mutant.file, "line": mutant.line, "before": mutant.before,
-                "after": mutant.after, "outcome": one.outcome, "by": one.by or one.what,
-                "seed": seed, "commit": commit, "date": today
-            })
+    for row in more:
+        if (key := (*key_of_row(row), row["commit"])) not in known:
+            known.add(key)
+            added.append(row)
     return rows + added
+
+
+# ---- what was asked in this tree, by whichever run -----------------------------------------------
+
+
+def log_asked(rows: list[Row], path: Path = ASKED_LOG) -> None:
+    """A line each; runs of a campaign may do so at the same time."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with path.open("a", encoding="utf-8") as log:
+        log.write("".join(f"{json.dumps(row, ensure_ascii=False)}\n" for row in rows))
+
+
+def read_asked(commit: str, path: Path = ASKED_LOG) -> list[Row]:
+    """All that was asked at this commit; a line that was cut off is left out."""
+    rows = []
+    for line in path.read_text(encoding="utf-8").splitlines() if path.is_file() else []:
+        try:
+            rows.append(json.loads(line))
+        except ValueError:
+            continue
+    return [row for row in rows if row["commit"] == commit]
 
 
 def write_record(rows: list[Row], path: Path = RECORD) -> None:
@@ -94,14 +125,17 @@ def with_noticed(rows: list[Row], judged: list[Judgement], commit: str) -> list[
 
 
 def print_record() -> None:
+    """Sample by sample, the newest last, then the survivors of all."""
     rows, explained = read_rows(), read_explained()
-    print(f"{'':32}{'killed':>9}{'survived':>10}{'equivalent':>12}{'score':>22}{'open':>7}")
-    for row in scores_by_room(rows, explained):
-        share = "-"
-        if row.share is not None:
-            share = f"{100 * row.share:.1f} ({100 * row.low:.0f} to {100 * row.high:.0f}) %"
-        print(f"{row.room:32}{row.killed:>9}{row.survived:>10}{row.equivalent:>12}{share:>22}"
-              f"{row.survived - row.noticed_since:>7}")
+    for sample in samples_of(rows, explained):
+        print(f"{sample.date}, {sample.commit[:10]}\n"
+              f"{'':32}{'killed':>9}{'survived':>10}{'equivalent':>12}{'score':>22}{'open':>7}")
+        for row in sample.scores:
+            share = "-"
+            if row.share is not None:
+                share = f"{100 * row.share:.1f} ({100 * row.low:.0f} to {100 * row.high:.0f}) %"
+            print(f"{row.room:32}{row.killed:>9}{row.survived:>10}{row.equivalent:>12}{share:>22}"
+                  f"{row.survived - row.noticed_since:>7}")
     for row in rows:
         if row["outcome"] == "SURVIVED" and key_of_row(row) not in explained:
             since = f"\n    noticed since by {row['noticed_by']}" if "noticed_by" in row else ""

@@ -25,6 +25,7 @@ from mutants import (
     Plan,
     Unusable,
     compile_mutant,
+    compile_unedited,
     findings,
     link_mutant,
     unit_tests,
@@ -85,7 +86,7 @@ class Target:
         self.text = (ROOT / file).read_text(encoding="utf-8")
         name = re.sub(r"\W", "-", file)
         self.overlay = FOLDER / f"{name}-{seed}"  # another seed may be run at the same time
-        self.unedited = self.compile(self.text, "unedited")
+        self.unedited = compile_unedited(plan, file)
         self.code = code_of(self.unedited)
 
     def folder(self, name: str) -> Path:
@@ -166,6 +167,7 @@ class Target:
     @functools.cache
     def control(self, program: str) -> Path:
         """The unedited program, its file compiled as a mutant's is."""
+        self.folder("unedited").mkdir(parents=True, exist_ok=True)
         try:
             return link_mutant(self.plan, self.unedited, program, self.folder("unedited"))
         except Unusable as error:  # says nothing of a mutant

@@ -183,11 +183,8 @@ def compile_mutant(plan: Plan, edit: Edit, overlay: Path) -> dict[str, list[Path
     copy = overlay / edit.file
     copy.parent.mkdir(parents=True)
     copy.write_text(edit.text, encoding="utf-8")
-    touched = [unit for unit in plan.units if original in unit.made_from]
-    if not touched:
-        raise Unusable(f"nothing in the program is made from {edit.file}")
     objects = {}
-    for number, unit in enumerate(touched):
+    for number, unit in enumerate(units_made_from(plan, edit.file)):
         together = sources_of(unit)
         objects[unit.object] = [overlay / f"{number}.o"]
         source = copy if original in together else Path(unit.command[-1])
@@ -196,6 +193,26 @@ def compile_mutant(plan: Plan, edit: Edit, overlay: Path) -> dict[str, list[Path
             objects[unit.object] += [
                 compile_apart(plan, unit, other) for other in together if other != original
             ]
+    return objects
+
+
+def units_made_from(plan: Plan, file: str) -> list[Unit]:
+    original = (ROOT / file).resolve()
+    touched = [unit for unit in plan.units if original in unit.made_from]
+    if not touched:
+        raise Unusable(f"nothing in the program is made from {file}")
+    return touched
+
+
+def compile_unedited(plan: Plan, file: str) -> dict[str, list[Path]]:
+    """The objects that a mutant of this file replaces, of the unedited file, compiled as a
+    mutant's are: once after each change, whoever asks."""
+    original, objects = (ROOT / file).resolve(), {}
+    for unit in units_made_from(plan, file):
+        together = sources_of(unit)
+        apart = [original, *(other for other in together if other != original)]
+        sources = apart if original in together else [Path(unit.command[-1])]
+        objects[unit.object] = [compile_apart(plan, unit, source) for source in sources]
     return objects
 
 

@@ -1,6 +1,6 @@
 """Random slips and who noticed them, as `scripts/mutate --record` keeps them: each with what the
-first run that asked it found, so that a score is that of slips for which nobody has mended
-anything."""
+first run that asked it at a commit found, so that the score of a sample is that of slips for which
+nobody has mended anything."""
 from __future__ import annotations
 
 import json
@@ -35,12 +35,20 @@ class Score:
 
 
 @dataclass
+class Sample:
+    """The mutants that were drawn at one commit."""
+    commit: str
+    date: str              # of the latest
+    scores: list[Score]    # by folder, of all last
+
+
+@dataclass
 class MutantRecord:
     """The record as a page shows it."""
-    scores: list[Score]    # by folder, of all last
-    survivors: list[Row]   # that are not explained
+    newest: Sample
+    earlier: list[Sample]  # the latest first
+    survivors: list[Row]   # of all samples, that are not explained
     explained: list[Row]   # with the reason
-    commits: list[str]
 
 
 def key_of_row(row: Row) -> Key:
@@ -66,9 +74,10 @@ def load_mutant_record(record: Path = RECORD, explained: Path = EXPLAINED) -> Mu
         said = tomllib.loads(explained.read_text(encoding="utf-8"))["mutant"]
         reasons = {(row["file"], row["line"], row["becomes"]): row["reason"] for row in said}
     with reading(record):
-        table = scores_by_room(rows, set(reasons))
+        *earlier, newest = samples_of(rows, set(reasons))
         return MutantRecord(
-            table,
+            newest,
+            earlier[::-1],
             [
                 row for row in rows
                 if row["outcome"] == "SURVIVED" and key_of_row(row) not in reasons
@@ -77,8 +86,19 @@ def load_mutant_record(record: Path = RECORD, explained: Path = EXPLAINED) -> Mu
                 {**row, "reason": reasons[key_of_row(row)]} for row in rows
                 if key_of_row(row) in reasons
             ],
-            sorted({row["commit"][:10] for row in rows}),
         )
+
+
+def samples_of(rows: list[Row], explained: set[Key]) -> list[Sample]:
+    """By commit, in the order of their dates."""
+    by_commit: dict[str, list[Row]] = defaultdict(list)
+    for row in rows:
+        by_commit[row["commit"]].append(row)
+    samples = [
+        Sample(commit, max(row["date"] for row in drawn), scores_by_room(drawn, explained))
+        for commit, drawn in by_commit.items()
+    ]
+    return sorted(samples, key=lambda sample: sample.date)
 
 
 def scores_by_room(rows: list[Row], explained: set[Key]) -> list[Score]:

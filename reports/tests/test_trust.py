@@ -35,11 +35,13 @@ class Beside(ReportTest):
     def test_random_slips_are_shown_with_what_notices_those_that_were_missed(self) -> None:
         put_run(self.root)
         row = {"room": "reference/forces", "file": "a.cpp", "line": 7, "before": "a < b",
-               "after": "a > b", "outcome": "killed", "by": "check.x", "seed": 1, "commit": "abc"}
+               "after": "a > b", "outcome": "killed", "by": "check.x", "seed": 1, "commit": "abc",
+               "date": "2026-02-01"}
         missed = {**row, "after": HOSTILE, "outcome": "SURVIVED"}
         equal = {**row, "after": "a <= b", "outcome": "SURVIVED"}
         rows = [row, {**row, "after": "b"}, {**missed, "noticed_by": "check.y"},
-                {**missed, "after": "a"}, equal]
+                {**missed, "after": "a"}, equal,
+                {**row, "commit": "old", "date": "2026-01-01"}]
         record, reasons = self.root / "mutants.json", self.root / "reasons.toml"
         record.write_text(json.dumps({"mutants": rows}))
         reasons.write_text('[[mutant]]\nfile = "a.cpp"\nline = "a < b"\nbecomes = "a <= b"\n'
@@ -51,6 +53,8 @@ class Beside(ReportTest):
         self.assertIn('<td class="num">2</td><td class="num">2</td><td class="num">1</td>'
                       '<td class="num">1</td><td class="num">50.0 %</td>'
                       '<td class="num">15 to 85 %</td>', section)
+        self.assertIn('<td>2026-01-01</td><td><code>old</code></td><td class="num">1</td>'
+                      '<td class="num">0</td><td class="num">100.0 %</td>', section)
         for said in ("<td>check.y</td>", "<td>nothing</td>", "they are never equal"):
             self.assertIn(said, section)
         self.read(section)

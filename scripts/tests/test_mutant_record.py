@@ -13,12 +13,15 @@ from script_module import ROOT  # noqa: E402
 from edits import Change  # noqa: E402
 from mutant_record import (  # noqa: E402
     RECORD,
+    log_asked,
     nearest_line,
     not_recorded,
+    read_asked,
     read_rows,
-    scores_by_room,
+    rows_of,
+    samples_of,
+    with_new,
     with_noticed,
-    with_outcomes,
     write_record,
 )
 from data.mutant_record import score_interval  # noqa: E402
@@ -30,33 +33,54 @@ def mutant(after: str) -> Mutant:
 
 
 class Record(unittest.TestCase):
-    def test_a_mutant_stays_as_it_was_first_found(self) -> None:
-        first = with_outcomes([], "reference", [Judgement(mutant("a - b"), "SURVIVED")], 1, "c1")
+    def test_a_mutant_stays_as_it_was_first_found_at_a_commit(self) -> None:
+        first = rows_of("reference", [Judgement(mutant("a - b"), "SURVIVED")], 1, "c1")
         again = [Judgement(mutant("a - b"), "killed", "", "check.x"),
                  Judgement(mutant("a * b"), "killed", "crash", "signal 11"),
                  Judgement(mutant("a / b"), "same code")]
-        rows = with_outcomes(first, "reference", again, 2, "c2")
+        rows = with_new(first, rows_of("reference", again, 2, "c1"))
         found = [(row["after"], row["outcome"], row["seed"], row["commit"]) for row in rows]
-        self.assertEqual(found, [("a - b", "SURVIVED", 1, "c1"), ("a * b", "killed", 2, "c2")])
+        self.assertEqual(found, [("a - b", "SURVIVED", 1, "c1"), ("a * b", "killed", 2, "c1")])
         self.assertEqual(rows[1]["by"], "crash")
-        self.assertEqual(not_recorded([mutant("a - b"), mutant("b")], rows), [mutant("b")])
+        self.assertEqual(not_recorded([mutant("a - b"), mutant("b")], rows, "c1"), [mutant("b")])
+        self.assertEqual(len(with_new(rows, rows_of("reference", again, 2, "c2"))), 4)
+        self.assertEqual(len(not_recorded([mutant("a - b")], rows, "c2")), 1)
 
     def test_scores_leave_explained_mutants_out(self) -> None:
         judged = [Judgement(mutant(text), "killed", "", "check.x") for text in "abcdefgh"]
         judged += [Judgement(mutant("lost"), "SURVIVED"), Judgement(mutant("equal"), "SURVIVED")]
-        rows = with_outcomes([], "reference/forces", judged, 1, "c")
-        row, of_all = scores_by_room(rows, {("reference/a.cpp", "a + b", "equal")})
+        rows = rows_of("reference/forces", judged, 1, "c")
+        row, of_all = samples_of(rows, {("reference/a.cpp", "a + b", "equal")})[0].scores
         self.assertEqual((row.room, of_all.room), ("reference/forces", "all"))
         self.assertEqual((row.killed, row.survived, row.equivalent), (8, 1, 1))
         self.assertAlmostEqual(row.share, 8 / 9)
         self.assertLess(row.low, 0.6)  # nine mutants say little
 
+    def test_samples_of_two_commits_are_not_mixed(self) -> None:
+        rows = rows_of("reference", [Judgement(mutant("x"), "SURVIVED")], 1, "c1")
+        rows = [{**row, "date": "2020-01-01"} for row in rows]
+        rows += rows_of("reference", [Judgement(mutant("x"), "killed", "", "check.x")], 1, "c2")
+        found = [(one.commit, one.scores[-1].killed) for one in samples_of(rows[::-1], set())]
+        self.assertEqual(found, [("c1", 0), ("c2", 1)])
+
+    def test_what_a_campaign_asked_is_read_again_but_for_a_torn_line(self) -> None:
+        row = rows_of("reference", [Judgement(mutant("x"), "killed", "", "check.x")], 1, "c1")
+        other = [{**row[0], "commit": "c2"}]
+        with tempfile.TemporaryDirectory() as folder:
+            log = Path(folder) / "some" / "asked.jsonl"
+            self.assertEqual(read_asked("c1", log), [])
+            log_asked(row, log)
+            log_asked(other, log)
+            with log.open("a") as file:
+                file.write('{"room": "refer')
+            self.assertEqual(read_asked("c1", log), row)
+
     def test_what_notices_a_survivor_later_leaves_its_score(self) -> None:
-        rows = with_outcomes([], "reference", [Judgement(mutant("lost"), "SURVIVED")], 1, "c1")
+        rows = rows_of("reference", [Judgement(mutant("lost"), "SURVIVED")], 1, "c1")
         self.assertEqual(with_noticed(rows, [Judgement(mutant("x"), "SURVIVED")], "c2"), rows)
         rows = with_noticed(rows, [Judgement(mutant("lost"), "killed", "", "check.x")], "c2")
         self.assertEqual((rows[0]["noticed_by"], rows[0]["noticed_at"]), ("check.x", "c2"))
-        row = scores_by_room(rows, set())[0]
+        row = samples_of(rows, set())[0].scores[0]
         self.assertEqual((row.killed, row.survived, row.noticed_since), (0, 1, 1))
 
     def test_a_recorded_line_is_found_where_it_stands_today(self) -> None:
@@ -66,7 +90,7 @@ class Record(unittest.TestCase):
         self.assertIsNone(nearest_line(text, "d;", 1))
 
     def test_a_record_is_read_as_it_was_written(self) -> None:
-        rows = with_outcomes([], "reference", [Judgement(mutant("a < \"b\""), "killed")], 1, "c")
+        rows = rows_of("reference", [Judgement(mutant("a < \"b\""), "killed")], 1, "c")
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "mutants.json"
             self.assertEqual(read_rows(path), [])
@@ -88,7 +112,8 @@ class Record(unittest.TestCase):
             self.assertTrue((ROOT / row["file"]).is_file(), row["file"])
             self.assertTrue(row["file"].startswith(row["room"]), row)
             self.assertIn(row["outcome"], ("killed", "SURVIVED", "equivalent"))
-        self.assertEqual(len({(r["file"], r["before"], r["after"]) for r in rows}), len(rows))
+        keys = {(row["file"], row["before"], row["after"], row["commit"]) for row in rows}
+        self.assertEqual(len(keys), len(rows))
 
 
 if __name__ == "__main__":
