@@ -16,7 +16,7 @@ from mutants import (
     Plan,
     Unusable,
     findings,
-    key_of,
+    keys_of,
     listed,
     unit_tests,
     write_at_once,
@@ -44,9 +44,14 @@ def seconds_by_name(plan: Plan, checks_only: bool) -> dict[str, float]:
         "unit tests": lambda: unit_tests(TESTS, [], None),
         "studies and cases": lambda: [timed(name) for name in studies_and_cases()],
     }
-    stored, build = FOLDER / "seconds.json", key_of(plan)
+    stored, keys = FOLDER / "seconds.json", keys_of(plan)
     known = json.loads(stored.read_text(encoding="utf-8")) if stored.is_file() else {}
-    seconds = known["seconds"] if known.get("build") == build else {}
+    build = {kind: keys["tests" if kind == "unit tests" else "foldproof"] for kind in asked}
+    seconds = {
+        kind: known["seconds"][kind]
+        for kind in asked
+        if kind in known.get("seconds", {}) and known["build"][kind] == build[kind]
+    }
     for kind, ask in asked.items():
         if kind not in seconds and not (checks_only and kind != "checks"):
             print(f"baseline: {kind} of the unedited program, once for this build", flush=True)

@@ -69,6 +69,7 @@ class Unit(NamedTuple):
 class Plan(NamedTuple):
     units: list[Unit]
     links: dict[str, list[str]]  # program: the command that links it, as ninja runs it in build/
+    objects: dict[str, set[str]]  # program: all that are linked
 
 
 def run(command: list, folder: Path, clock: float | None = None) -> subprocess.CompletedProcess:
@@ -111,7 +112,7 @@ def read_plan(programs: list[str]) -> Plan:
     if built.returncode:
         raise Unusable(f"the unedited program does not build:\n{built.stdout}{built.stderr}")
     made_from = files_by_object()
-    units, links = {}, {}
+    units, links, objects = {}, {}, {}
     for program in programs:
         lines = run(["ninja", "-t", "commands", program], BUILD).stdout.splitlines()
         # `: && c++ ... && :`
@@ -120,7 +121,8 @@ def read_plan(programs: list[str]) -> Plan:
             if "-c" in words and "-o" in words and words[-1].endswith((".cpp", ".cxx")):
                 name = words[words.index("-o") + 1]
                 units[name] = Unit(words, name, made_from.get(name, set()))
-    return Plan(list(units.values()), links)
+                objects.setdefault(program, set()).add(name)
+    return Plan(list(units.values()), links, objects)
 
 
 def files_by_object() -> dict[str, set[Path]]:
@@ -146,20 +148,25 @@ def sources_of(unit: Unit) -> list[Path]:
     return [Path(path).resolve() for path in listed]
 
 
+def keys_of(plan: Plan) -> dict[str, str]:
+    return {program: key_of(plan, program) for program in plan.objects}
+
+
 def files_of_independent() -> list[Path]:
     """The independent program, its test and its cases."""
     files = PYTHON_TESTS["IndependentTest"].parent.rglob("*.*")
     return sorted(path for path in files if path.suffix in (".py", ".toml", ".obj"))
 
 
-def key_of(plan: Plan) -> str:
-    """Changes with whatever can change an answer of the unedited programs, or of a test of them:
-    their code, but not the commit's name in it, the cases, the claims, and the
-    scripts that test the program."""
+def key_of(plan: Plan, program: str | None = None) -> str:
+    """Changes with whatever can change an answer of the unedited programs (or of one), or of a test
+    of them: their code, but not the commit's name in it, the cases, the claims, and the scripts
+    that test the program."""
     objects = [
         BUILD / unit.object
         for unit in plan.units
-        if not any(path.name == "build_facts.h" for path in unit.made_from)
+        if (program is None or unit.object in plan.objects[program])
+        and not any(path.name == "build_facts.h" for path in unit.made_from)
     ]
     key = hashlib.sha256()
     read = sorted((ROOT / "cases").rglob("*.*")) + sorted(

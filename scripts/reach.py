@@ -1,8 +1,8 @@
 """Which checks, studies, cases and unit tests reach a function. Of scripts/mutate.
 
 build-reach/ holds the programs built once more, with a hook at the entry of each function of ours
-(scripts/reach_hook.cpp). Each name runs there in a process of its own, once for each build. The
-hook also sees what is inlined, which counters of executed code do not.
+(scripts/reach_hook.cpp). Each name runs there in a process of its own, once for each build of its
+program. The hook also sees what is inlined, which counters of executed code do not.
 
 A name that does not reach an edited function cannot notice the edit, with these exceptions:
 - it reaches the function only at times (clocks, threads, memory that was never set);
@@ -23,7 +23,7 @@ import json
 import os
 import subprocess
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Set
 from pathlib import Path
 from typing import NamedTuple
 
@@ -37,7 +37,7 @@ from mutant_questions import (
     does_not_hold,
     faults_listed,
 )
-from mutants import ROOT, Plan, Unusable, findings, key_of, run, unit_tests, write_at_once
+from mutants import ROOT, Plan, Unusable, findings, keys_of, run, unit_tests, write_at_once
 from occurrences import occurrences
 
 BUILD = ROOT / "build-reach"
@@ -122,36 +122,53 @@ class Table(NamedTuple):
         return {name for k, name in enumerate(self.names) if mask >> k & 1}
 
 
-def to_json(table: Table, build: str) -> str:
+def to_json(table: Table, keys: dict[str, str]) -> str:
     masks = {
         file: {str(line): f"{mask:x}" for line, mask in lines.items()}
         for file, lines in table.reached.items()
     }
     return json.dumps(
-        {"build": build, "names": table.names, "unknown": sorted(table.unknown), "reached": masks}
+        {"keys": keys, "names": table.names, "unknown": sorted(table.unknown), "reached": masks}
     )
 
 
-def from_json(text: str, build: str) -> Table:
-    """An empty table where the text is of another build."""
+def from_json(text: str, keys: dict[str, str]) -> Table:
+    """Without the names that a program of another build was asked."""
     kept = json.loads(text)
-    if kept["build"] != build:
-        return Table([], set(), {})
     reached = {
         file: {int(line): int(mask, 16) for line, mask in lines.items()}
         for file, lines in kept["reached"].items()
     }
-    return Table(kept["names"], set(kept["unknown"]), reached)
+    table = Table(kept["names"], set(kept["unknown"]), reached)
+    same = {program for program, key in keys.items() if kept["keys"].get(program) == key}
+    return table if same == set(keys) else only(table, same)
+
+
+def only(table: Table, programs: Set[str]) -> Table:
+    """The names that these programs answer; functions that none of them reaches are forgotten."""
+    places = [k for k, name in enumerate(table.names) if program_of(name) in programs]
+    names = [table.names[k] for k in places]
+    reached: dict[str, dict[int, int]] = {}
+    for file, lines in table.reached.items():
+        for line, mask in lines.items():
+            if bits := sum(1 << new for new, old in enumerate(places) if mask >> old & 1):
+                reached.setdefault(file, {})[line] = bits
+    return Table(names, table.unknown & set(names), reached)
+
+
+def program_of(name: str) -> str:
+    return "tests" if name.startswith(TEST) else "foldproof"
 
 
 def read_table(plan: Plan, seconds: dict[str, float], jobs: int) -> Table:
     """Measures those of the names that are not yet in the file."""
-    stored, build = FOLDER / "reach.json", key_of(plan)
+    stored, keys = FOLDER / "reach.json", keys_of(plan)
     FOLDER.mkdir(parents=True, exist_ok=True)
     with open(FOLDER / "reach.lock", "w", encoding="utf-8") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)  # samples with other seeds may run at the same time
-        text = stored.read_text(encoding="utf-8") if stored.is_file() else '{"build": ""}'
-        table = from_json(text, build)
+        table = Table([], set(), {})
+        if stored.is_file():
+            table = from_json(stored.read_text(encoding="utf-8"), keys)
         missing = {name: each for name, each in seconds.items() if name not in set(table.names)}
         if missing:
             print(f"reach: {len(missing)} names, once for this build", flush=True)
@@ -160,7 +177,7 @@ def read_table(plan: Plan, seconds: dict[str, float], jobs: int) -> Table:
             if missed := missed_catchers(table, faults_listed()):
                 raise Unusable(f"these notice faults in functions that they do not seem to reach:"
                                f" {', '.join(missed)}; --all asks everything")
-            write_at_once(stored, to_json(table, build))
+            write_at_once(stored, to_json(table, keys))
     return table
 
 

@@ -105,9 +105,20 @@ class Reaching(unittest.TestCase):
                 for line in path.read_text(encoding="utf-8").splitlines():
                     self.assertFalse(line.strip().startswith("extern ") and '"C"' not in line, path)
 
-    def test_a_stored_table_is_the_same_but_empty_for_another_build(self) -> None:
-        self.assertEqual(from_json(to_json(TABLE, "b1"), "b1"), TABLE)
-        self.assertEqual(from_json(to_json(TABLE, "b1"), "b2"), Table([], set(), {}))
+    def test_a_stored_table_keeps_what_programs_of_the_same_build_were_asked(self) -> None:
+        keys = {"foldproof": "f1", "tests": "t1"}
+        text = to_json(TABLE, keys)
+        self.assertEqual(from_json(text, keys), TABLE)
+        self.assertEqual(from_json(text, {"foldproof": "f2", "tests": "t2"}), Table([], set(), {}))
+        self.assertEqual(
+            from_json(text, {**keys, "tests": "t2"}),
+            Table(["one", "two", "fails"], {"fails"}, {"a.cpp": {8: 0b001, 22: 0b010},
+                                                       "a.h": {8: 0b010}})
+        )
+        self.assertEqual(
+            from_json(text, {**keys, "foldproof": "f2"}),
+            Table(["test: three"], set(), {"a.cpp": {24: 0b001}})
+        )
 
     def test_a_table_that_misses_who_notices_a_fault_is_found(self) -> None:
         file = "reference/forces/springs.cpp"
