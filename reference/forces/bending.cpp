@@ -93,17 +93,18 @@ HingeShape hinge_shape(const Vector3& x1, const Vector3& x2, const Vector3& x3, 
   // sin(theta) = (n1 x n2).e^ is the height of x2 below the first triangle's plane over its
   // distance from the edge. Folded less than a right angle, sin(theta/2) = sin(theta)/(2
   // cos(theta/2)): exactly 0 when flat, no digit lost beside it. Beyond, the printed sqrt((1 -
-  // n1.n2)/2), which is accurate just there.
+  // n1.n2)/2), which is accurate just there; a sine of -0 counts as positive, like one of 0.
   const double cosine = N1.dot(N2) * (per_length1 * per_length2);
   const double sine = N1.dot(x3 - x2) * (edge * per_length1 * per_length2);
   shape.sin_half = cosine >= 0 ? sine / std::sqrt(2 + 2 * cosine)
-                               : std::copysign(std::sqrt(0.5 - 0.5 * cosine), sine);
+                               : std::copysign(std::sqrt(0.5 - 0.5 * cosine), sine + 0.0);
   return shape;
 }
 
 double hinge_angle(const Vector3& x1, const Vector3& x2, const Vector3& x3, const Vector3& x4) {
   const Vector3 E = x4 - x3, N1 = (x1 - x3).cross(x1 - x4), N2 = (x2 - x4).cross(x2 - x3);
-  return std::atan2(N1.dot(x3 - x2) * E.norm(), N1.dot(N2));
+  const double sine = N1.dot(x3 - x2) * E.norm();
+  return std::atan2(sine + 0.0, N1.dot(N2));  // + 0: a sine of -0 counts as positive, too
 }
 
 HingeShape checked_hinge_shape(const BendingHinge& hinge, const PerParticle3& x) {

@@ -80,9 +80,10 @@ Vector12 edge_gradient(const Vector3& x3, const Vector3& x4) {
 Vector12 weight_gradient(const Vector3& x1, const Vector3& x2, const Vector3& x3,
                          const Vector3& x4) {
   const HingeShape shape = hinge_shape(x1, x2, x3, x4);
+  const std::array<Vector3, 4> corners = {x1, x2, x3, x4};
   Vector12 areas = Vector12::Zero();
-  add_area_gradient({x1, x2, x3, x4}, {0, 2, 3}, areas);
-  add_area_gradient({x1, x2, x3, x4}, {1, 3, 2}, areas);
+  add_area_gradient(corners, {0, 2, 3}, areas);
+  add_area_gradient(corners, {1, 3, 2}, areas);
   const double ratio = shape.edge / shape.area_sum;
   return 2 * ratio * edge_gradient(x3, x4) - ratio * ratio * areas;
 }
@@ -90,8 +91,8 @@ Vector12 weight_gradient(const Vector3& x1, const Vector3& x2, const Vector3& x3
 Matrix12 bending_mode_gradient(const Vector3& x1, const Vector3& x2, const Vector3& x3,
                                const Vector3& x4) {
   const HingeShape shape = hinge_shape(x1, x2, x3, x4);
-  const SideGradient side1 = side_gradient({x1, x2, x3, x4}, 0),
-                     side2 = side_gradient({x1, x2, x3, x4}, 1);
+  const std::array<Vector3, 4> corners = {x1, x2, x3, x4};
+  const SideGradient side1 = side_gradient(corners, 0), side2 = side_gradient(corners, 1);
 
   // u3 = -(b1 u1 + b2 u2), u4 = -(u1 + u2 + u3)
   Matrix12 gradient;

@@ -44,7 +44,7 @@ StickyTarget target_of(const StickyPatch& patch, const State& s, const Surface& 
                        size_t first, size_t count) {
   const Bond& bond = s.bonds[first];
   const PerParticle3& x = patch.place ? surface.x : s.x;
-  StickyTarget target{bond.patch, bond.particle, first, count, {}, Vector3::Zero(), 0, 0, 0, {}};
+  StickyTarget target{bond.patch, bond.particle, first, count, {}, Vector3::Zero(), {}, {}, {}, {}};
   for (size_t k = first; k < first + count; ++k) {
     const Triangle& corners = patch.triangles.at(size_t(s.bonds[k].triangle));
     target.frames.push_back(frame_of(corners, x, s.bonds[k].place, 1 / double(count)));
