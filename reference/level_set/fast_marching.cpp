@@ -37,9 +37,11 @@ struct March {
   std::priority_queue<Trial, std::vector<Trial>, std::greater<Trial>> front;
 };
 
-/// phi of a known node on the side of `sign`, as a distance; infinity for all others.
+/// phi of a known node on the side of `sign` or on the surface, as a distance; infinity
+/// for all others.
 double known_distance(const March& march, long node, double sign) {
-  return march.known[node] ? std::max(sign * march.grid.phi[node], 0.0) : infinity;
+  const double distance = sign * march.grid.phi[node];
+  return march.known[node] && distance >= 0 ? distance : infinity;
 }
 
 /// The nearer of the two neighbours along the axis, with the one behind it for second order.
@@ -51,13 +53,10 @@ Upwind upwind(const March& march, const Node& node, int axis, double sign) {
     const int nodes_beyond = direction < 0 ? node[axis] : lattice.nodes[axis] - 1 - node[axis];
     if (nodes_beyond < 1) continue;
     const long next = index + direction * stride;
-    if (!march.known[next] || sign * march.grid.phi[next] < 0) continue;
     const double distance = known_distance(march, next, sign);
     if (!(distance < nearest)) continue;
     nearest = distance;
-    const bool two = nodes_beyond > 1 && march.known[next + direction * stride] &&
-                     sign * march.grid.phi[next + direction * stride] >= 0;
-    behind = two ? known_distance(march, next + direction * stride, sign) : infinity;
+    behind = nodes_beyond > 1 ? known_distance(march, next + direction * stride, sign) : infinity;
   }
   const double per_h2 = 1 / (lattice.spacing * lattice.spacing);
   // (3 T - 4 T1 + T2)/(2 h) = (3/2) (T - (4 T1 - T2)/3)/h
@@ -81,7 +80,6 @@ double solve(std::array<Upwind, 3> axes) {
     mean += axis.weight * value;
     squares += axis.weight * value * value;
     const double discriminant = mean * mean - sum * (squares - 1);
-    if (!(discriminant >= 0)) break;
     beyond = (mean + std::sqrt(discriminant)) / sum;
   }
   return nearest + beyond;

@@ -110,8 +110,7 @@ Bounds Lattice::bounds() const {
 }
 
 Lattice lattice_about(const Bounds& bounds, int cells, int margin) {
-  // lattices that large have too many nodes, but their number is a long
-  constexpr int most = 1 << 20;
+  constexpr int most = 1 << 20;  // so that the nodes along a side are an int
   if (cells < 4 || margin < 1 || cells > most || margin > most)
     throw InputError("grid: " + std::to_string(cells) +
                      " cells along the longest side and a margin of " + std::to_string(margin) +
@@ -128,9 +127,10 @@ Lattice lattice_about(const Bounds& bounds, int cells, int margin) {
     lattice.nodes[axis] = across + 2 * margin + 1;
     lattice.origin[axis] = bounds.center()[axis] - spacing * (across + 2 * margin) / 2;
   }
-  if (lattice.size() > 1L << 30)
-    throw InputError("grid: " + std::to_string(lattice.size()) +
-                     " nodes; give fewer cells (2^30 nodes at most)");
+  const auto& [x, y, z] = lattice.nodes;
+  if (x > (1 << 30) / y / z)  // their product may exceed a long
+    throw InputError("grid: " + std::to_string(x) + " x " + std::to_string(y) + " x " +
+                     std::to_string(z) + " nodes; give fewer cells (2^30 nodes at most)");
   return lattice;
 }
 

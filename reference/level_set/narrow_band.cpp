@@ -25,10 +25,7 @@ void add_row(const MeshDistance& mesh, const Lattice& lattice, Node node, double
   for (; node[0] < end; ++node[0]) {
     const Vector3 p = lattice.position(node);
     const NearestFeature nearest = nearest_feature(mesh, p, bound);
-    if (nearest.triangle < 0) {
-      bound = width;
-      continue;
-    }
+    if (nearest.triangle < 0) continue;  // the bound is the width
     const double phi = signed_distance(mesh, nearest, p).phi;
     bound = std::min(width, std::abs(phi) + 1.001 * lattice.spacing);
     seeds.nodes.push_back(lattice.index(node));

@@ -1,0 +1,137 @@
+// What an octree refuses: each setting at its limit, and bodies that reach the cube's boundary.
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "reference/level_set/octree.h"
+
+using namespace foldproof;
+using Catch::Contains;
+
+namespace {
+
+DistanceFunction constant(double phi) {
+  return [phi](const Vector3&) { return Distance{phi, Vector3::Zero()}; };
+}
+
+/// The distance to a point, and a little more.
+DistanceFunction point_at(const Vector3& place, double more) {
+  return [=](const Vector3& p) { return Distance{(p - place).norm() + more, Vector3::Zero()}; };
+}
+
+OctreeSettings usable() {
+  return {{0.25, -0.5, 0.75}, 0.5, 2, 1, 0.01, 0.02, 0.1, 0.03, HangingNodes::constrained};
+}
+
+void accept(const std::function<void(OctreeSettings&)>& change) {
+  OctreeSettings settings = usable();
+  change(settings);
+  CHECK_NOTHROW(make_octree({constant(5)}, settings));
+}
+
+void refuse(const std::function<void(OctreeSettings&)>& change, const std::string& message) {
+  OctreeSettings settings = usable();
+  change(settings);
+  CHECK_THROWS_AS(make_octree({constant(5)}, settings), InputError);
+  CHECK_THROWS_WITH(make_octree({constant(5)}, settings), Contains("octree: " + message));
+}
+
+constexpr double tiny = std::numeric_limits<double>::denorm_min();
+
+/// A tree of the depth about a point of its cube, given by its place among 8 cells along each axis.
+void check_boundary(const Vector3& eighths, int depth, bool is_on_boundary) {
+  OctreeSettings settings = usable();
+  settings.depth = depth;
+  settings.surface_depth = depth;
+  const Vector3 place = settings.corner + settings.width * (eighths / 8);
+  for (const HangingNodes hanging : {HangingNodes::free, HangingNodes::constrained}) {
+    settings.hanging = hanging;
+    if (is_on_boundary)
+      CHECK_THROWS_WITH(make_octree({constant(3), point_at(place, 0)}, settings),
+                        Contains("octree: body 1 reaches the boundary of the cube"));
+    else
+      CHECK_NOTHROW(make_octree({constant(3), point_at(place, 0)}, settings));
+    CHECK_NOTHROW(make_octree({constant(3), point_at(place, 1e-9)}, settings));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("an octree's cube has a positive width") {
+  accept([](OctreeSettings& s) { s.width = 0.01; });
+  refuse([](OctreeSettings& s) { s.width = 0; }, "the cube's width must be positive");
+  refuse([](OctreeSettings& s) { s.width = NAN; }, "the cube's width must be positive");
+}
+
+TEST_CASE("an octree has 1 to 20 levels of cells") {
+  for (const int depth : {1, 20})
+    accept([=](OctreeSettings& s) { s.depth = depth, s.surface_depth = 1; });
+  for (const int depth : {0, 21})
+    refuse([=](OctreeSettings& s) { s.depth = depth, s.surface_depth = 0; },
+           "the depth must be 1 to 20");
+}
+
+TEST_CASE("the surface's depth is 0 to the octree's") {
+  for (const int depth : {0, 1, 2}) accept([=](OctreeSettings& s) { s.surface_depth = depth; });
+  for (const int depth : {-1, 3})
+    refuse([=](OctreeSettings& s) { s.surface_depth = depth; },
+           "the surface's depth must be 0 to the depth");
+}
+
+TEST_CASE("an octree's tolerance is positive, its band and reach are not negative") {
+  accept([](OctreeSettings& s) { s.tolerance = tiny; });
+  refuse([](OctreeSettings& s) { s.tolerance = 0; }, "the tolerance must be positive");
+  refuse([](OctreeSettings& s) { s.tolerance = NAN; }, "the tolerance must be positive");
+  const std::string band = "the band and what is allowed beyond it must not be negative";
+  accept([](OctreeSettings& s) { s.band = 0; });
+  refuse([](OctreeSettings& s) { s.band = -tiny; }, band);
+  refuse([](OctreeSettings& s) { s.band = NAN; }, band);
+  accept([](OctreeSettings& s) { s.beyond = 0; });
+  refuse([](OctreeSettings& s) { s.beyond = -tiny; }, band);
+  refuse([](OctreeSettings& s) { s.beyond = NAN; }, band);
+  accept([](OctreeSettings& s) { s.reach = 0; });
+  refuse([](OctreeSettings& s) { s.reach = -tiny; }, "the reach must not be negative");
+  refuse([](OctreeSettings& s) { s.reach = NAN; }, "the reach must not be negative");
+}
+
+TEST_CASE("an octree covers 1 to 255 bodies, each with a channel if it needs one") {
+  OctreeSettings settings = usable();
+  settings.reach = 6;
+  const Octree tree = make_octree(std::vector<DistanceFunction>(255, constant(5)), settings);
+  CHECK(int(tree.branches[0].parts) == 255);
+  CHECK(tree.part.back() == 254);
+  const std::string message = "octree: there must be 1 to 255 bodies";
+  CHECK_THROWS_WITH(make_octree(std::vector<DistanceFunction>(256, constant(5)), settings),
+                    Contains(message));
+  CHECK_THROWS_WITH(make_octree({}, settings), Contains(message));
+}
+
+TEST_CASE("a body that reaches a node of the cube's boundary is refused by its number") {
+  for (int x = 0; x <= 8; x += 4)
+    for (int y = 0; y <= 8; y += 4)
+      for (int z = 0; z <= 8; z += 4)
+        check_boundary(Vector3(x, y, z), 1, x != 4 || y != 4 || z != 4);
+}
+
+TEST_CASE("a body that reaches the boundary between wide cells' nodes is found by narrow ones") {
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double side : {0.0, 8.0}) {
+      Vector3 place(3, 5, 3);
+      if (axis == 1) place = {5, 3, 5};
+      place[axis] = side;
+      check_boundary(place, 3, true);
+      place[axis] = side == 0 ? 1 : 7;
+      check_boundary(place, 3, false);
+    }
+}
+
+TEST_CASE("a body inside of the cube is accepted, however many nodes it contains") {
+  OctreeSettings settings = usable();
+  settings.depth = 3;
+  settings.surface_depth = 3;
+  const Vector3 centre = settings.corner + Vector3::Constant(0.25);
+  CHECK_NOTHROW(make_octree({point_at(centre, -0.24)}, settings));
+  CHECK_THROWS_WITH(make_octree({point_at(centre, -0.25)}, settings), Contains("body 0 reaches"));
+}
