@@ -28,8 +28,7 @@ class SurfaceSamples {
   Vector3 next(double distance) {
     const double where = share() * until_.back();
     const auto at = std::ranges::lower_bound(until_, where);
-    const auto t = std::min(std::size_t(at - until_.begin()), until_.size() - 1);
-    const Triangle& corners = mesh_.triangles[t];
+    const Triangle& corners = mesh_.triangles[std::size_t(at - until_.begin())];
     const Vector3 a = mesh_.x.col(corners[0]), b = mesh_.x.col(corners[1]) - a,
                   c = mesh_.x.col(corners[2]) - a;
     double u = share(), v = share();

@@ -1,6 +1,5 @@
 #include "reference/scene/field_recipe.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "reference/scene/field_accuracy.h"
@@ -60,7 +59,7 @@ OctreeSettings octree_about(const Bounds& bounds, double cell, double tolerance)
   const double least = bounds.sizes().maxCoeff() / cell + 8;
   const double levels = std::ceil(std::log2(least));
   if (!(levels <= 20)) throw InputError("'cells' must be below 2^20 for an octree");
-  const int depth = std::max(2, int(levels));
+  const int depth = int(levels);  // 3 or more
   const double width = std::ldexp(cell, depth);
   const Vector3 corner = bounds.center() - Vector3::Constant(width / 2);
   return {corner, width, depth, depth - 2, tolerance, 3 * cell, 0.25, 0, HangingNodes::constrained};

@@ -64,21 +64,17 @@ std::shared_ptr<KeyTable> convert(const toml::table& table, const Place& at) {
   return result;
 }
 
-const double* as_number(const KeyValue& value, double& storage) {
-  if (const auto* integer = std::get_if<long>(&value.data)) {
-    storage = double(*integer);
-    return &storage;
-  }
+std::optional<double> as_number(const KeyValue& value) {
+  if (const auto* integer = std::get_if<long>(&value.data)) return double(*integer);
   const auto* number = std::get_if<double>(&value.data);
-  return number && std::isfinite(*number) ? number : nullptr;
+  return number && std::isfinite(*number) ? std::optional(*number) : std::nullopt;
 }
 
 bool as_vector(const KeyValue& value, Vector3& result) {
   const auto* list = std::get_if<std::vector<KeyValue>>(&value.data);
   if (!list || list->size() != 3) return false;
   for (int k = 0; k < 3; ++k) {
-    double storage = 0;
-    const double* number = as_number((*list)[size_t(k)], storage);
+    const std::optional<double> number = as_number((*list)[size_t(k)]);
     if (!number) return false;
     result[k] = *number;
   }
@@ -110,8 +106,7 @@ std::string KeyTable::where(const std::string& key) const {
 }
 
 double KeyTable::number(const std::string& key) const {
-  double storage = 0;
-  const double* number = as_number(require_key(key), storage);
+  const std::optional<double> number = as_number(require_key(key));
   if (!number) wrong_type(key, "a finite number");
   return *number;
 }
@@ -253,10 +248,7 @@ size_t behind_quotes(std::string_view text, size_t at) {
     if (text[at] == '\n' && !is_long) return at;
     at += has_escapes && text[at] == '\\' ? 2 : 1;
   }
-  at = std::min(at + end.size(), text.size());
-  // quotes of the text itself, before its end
-  while (is_long && at < text.size() && text[at] == one[0]) ++at;
-  return at;
+  return std::min(at + end.size(), text.size());
 }
 
 struct Unbearable {

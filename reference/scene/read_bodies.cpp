@@ -24,8 +24,7 @@ TriangleSoup read_soup(const KeyTable& keys, const CaseContext& context) {
     soup = read_obj_soup(mesh_file(keys, context.folder, "object"));
   } else {
     const int subdivisions = int(count_or(keys, "subdivisions", 4));
-    reject_many_triangles(keys, "subdivisions", std::ldexp(20.0, std::min(2 * subdivisions, 2000)),
-                          context.limits);
+    reject_many_triangles(keys, "subdivisions", std::ldexp(20.0, 2 * subdivisions), context.limits);
     TriangleMesh statue = with_error_location(
         keys.where("shape"), [&] { return make_statue(positive(keys, "height"), subdivisions); });
     soup = {std::move(statue.rest), std::move(statue.triangles), {}};
@@ -90,10 +89,10 @@ MeshSequence read_frames(const KeyTable& keys, const CaseContext& context) {
   const std::string where = keys.where("frames");
   const std::string folder = path_of(keys, "frames", context.folder);
   if (!is_override(where)) reject_links_outside(folder, context.folder, where);
+  const double interval = positive_or(keys, "interval", 1.0 / 30);
   MeshSequence animation;
   try {
-    animation = read_obj_sequence(folder, positive_or(keys, "interval", 1.0 / 30),
-                                  long(context.limits.frames));
+    animation = read_obj_sequence(folder, interval, long(context.limits.frames));
   } catch (const InputError& error) {
     throw InputError(where + ": " + error.what());
   }

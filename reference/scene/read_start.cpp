@@ -26,7 +26,7 @@ struct Serpentine {
   /// Where the point at the arc length s [m] lies: along, up [m].
   Eigen::Vector2d at(double s) const {
     const double radius = gap / 2, turn = pi * radius;
-    const double below = std::max(0.0, std::floor(s / (run + turn)));  // runs completed
+    const double below = std::floor(s / (run + turn));  // runs completed
     const double into = s - below * (run + turn);
     const bool forth = std::fmod(below, 2) == 0;
     double across = into, height = 0;
