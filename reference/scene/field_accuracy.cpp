@@ -60,8 +60,7 @@ double field_error(const MeshDistance& exact, const Solid& field, double cell) {
   double largest = 0;
   for (int k = 0; k < samples; ++k) {
     const Vector3 p = points.next(band * cell);
-    const double error = std::abs(distance_to(field, p).phi - exact.at(p).phi);
-    if (!(error <= largest)) largest = error;  // keeps NaN
+    update_worst(largest, std::abs(distance_to(field, p).phi - exact.at(p).phi));
   }
   return largest;
 }
@@ -76,9 +75,9 @@ double field_bytes(const Solid& field) {
 MeasuredField field_of_accuracy(const MeshDistance& exact, double longest, double accuracy,
                                 const std::function<Solid(int cells)>& make, double most_bytes) {
   for (int cells = first_cells;;) {
-    MeasuredField field{make(cells), cells, 0, 0};
-    field.error = field_error(exact, field.solid, longest / cells);
-    field.bytes = field_bytes(field.solid);
+    const Solid solid = make(cells);
+    const MeasuredField field{solid, cells, field_error(exact, solid, longest / cells),
+                              field_bytes(solid)};
     if (field.error <= accuracy) return field;
     const double finer = std::clamp(field.error / accuracy, 1.25, 2.0);
     // a grid grows with the third power of its cells, an octree with the second or more

@@ -169,7 +169,7 @@ StickyPatch read_patch(const KeyTable& keys, const KeyTable& case_keys, const st
   patch.release = non_negative_or(keys, "release", 0);
   if (!(patch.until > patch.from))
     throw InputError(keys.where("until") + ": 'until' must be later than 'from', in s");
-  if (patch.release > 0 && !(patch.release <= patch.until - patch.from))
+  if (!(patch.release <= patch.until - patch.from))
     throw InputError(keys.where("release") +
                      ": 'release' must not be longer than the time from 'from' to 'until'");
   return patch;

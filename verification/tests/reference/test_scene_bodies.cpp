@@ -222,6 +222,7 @@ TEST_CASE("a deforming body has a level set each interval, up to the end that it
   CHECK(plain[21] == 21 * (1.0 / 30));
   CHECK(times("interval = 0.25\n") == std::vector<double>{0, 0.25, 0.5, 0.75});
   CHECK(times("interval = 0.25\nuntil = 0.5\n") == std::vector<double>{0, 0.25, 0.5});
+  CHECK(times("interval = 0.25\nuntil = 0.5000001\n").size() == 4);
   CHECK(times("interval = 0.25\nuntil = 0.51\n") == std::vector<double>{0, 0.25, 0.5, 0.75});
   CHECK(times("interval = 0.25\nuntil = 0.5\n", 3).size() == 3);
   CHECK(bodies.refusal(body + "interval = 0.25\nuntil = 0.5\n" + deform("bend", "9"), {1e7, 2}) ==

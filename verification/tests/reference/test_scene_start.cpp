@@ -116,6 +116,7 @@ TEST_CASE("a fold's directions are square to each other, and its cloth lies flat
       square = "some.toml:10: 'up' must be square to 'along', and both be directions",
       flat = "some.toml:10: the cloth must lie flat, square to 'up', before it is folded";
   CHECK(fold_refusal(fold + ", up = [0, 0, 1], along = [1, 0, 0.5e-9]") == "none");
+  CHECK(fold_refusal(fold + ", up = [0, 0, 1], along = [1, 0, 1e-9]") == square);
   CHECK(fold_refusal(fold + ", up = [0, 0, 1], along = [1, 0, 2e-9]") == square);
   CHECK(fold_refusal(fold + ", up = [0, 0, 1], along = [1, 0, -2e-9]") == square);
   CHECK(fold_refusal(fold + ", up = [0, 0, 0]") == square);
