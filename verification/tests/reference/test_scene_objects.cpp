@@ -58,6 +58,7 @@ TEST_CASE("a square is drawn about the origin, facing up", "[scene]") {
   CHECK(square.vertices.rowwise().maxCoeff() == Vector3(1.5, 1.5, 0));
   CHECK(square.triangles.size() == 2);
   CHECK(area_of(square) == 9);
+  CHECK(make_triangle_mesh(square.vertices, square.triangles).hinges.size() == 1);
   CHECK(points_outward(square, [](const Vector3& p) { return p - Vector3::UnitZ(); }));
 }
 

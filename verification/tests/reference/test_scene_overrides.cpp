@@ -183,6 +183,7 @@ TEST_CASE("each letter outside ASCII stands in texts, and 127 is inside", "[scen
     CHECK(parse_keys("a = '" + std::string(letter) + "'", "some.toml")->text("a") == letter);
   CHECK_THROWS_WITH(parse_keys("a = 1\n\x80", "some.toml"), "some.toml:2" + outside);
   CHECK_THROWS_WITH(parse_keys("a = 1\n\x7F", "some.toml"), !Contains("outside ASCII"));
+  CHECK_THROWS_WITH(parse_keys("# \x7F\na = [", "some.toml"), StartsWith("some.toml:1: "));
   CHECK_THROWS_WITH(parse_keys("\xEF\xBB\xBF\xC3\x80", "some.toml"), "some.toml:1" + outside);
   CHECK_THROWS_WITH(parse_keys("\xC3\x80", "some.toml"), "some.toml:1" + outside);
   CHECK(parse_keys("\xEF\xBB\xBF'a' = '\xC3\x80'", "some.toml")->text("a") == "\xC3\x80");
