@@ -75,7 +75,7 @@ void check_settings(const OctreeSettings& s, const Bounds& bounds, double cell, 
 
 }  // namespace
 
-TEST_CASE("a body of triangles is a grid of 64 cells unless it is told otherwise", "[scene]") {
+TEST_CASE("a body of triangles is a grid of 64 cells unless its keys say otherwise", "[scene]") {
   const Bodies bodies;
   const SceneObject part = bodies.object(body);
   CHECK(part.shape == "mesh");
@@ -162,7 +162,7 @@ TEST_CASE("an open body is refused, and repaired by grids only", "[scene]") {
         "9: field = \"exact\" has no error to choose");
 }
 
-TEST_CASE("a statue is a body of 5120 triangles unless it is told otherwise", "[scene]") {
+TEST_CASE("a statue is a body of 5120 triangles unless its keys say otherwise", "[scene]") {
   const Bodies bodies;
   const std::string statue = "shape = \"statue\"\nheight = 0.5\n";
   const SceneObject coarse = bodies.object(statue + "subdivisions = 3\n", {1280, 3});

@@ -239,7 +239,7 @@ TEST_CASE("a cloth is a shape or a mesh, whose file is there", "[scene]") {
                     "some.toml:1: this case takes a mesh of yours: --set object.mesh=FILE.obj");
 }
 
-TEST_CASE("seams are sewn before fans are split, and splits are told", "[scene]") {
+TEST_CASE("seams are sewn before fans are split, and splits are recorded", "[scene]") {
   const ScratchFolder folder;
   // two triangles meet in vertex 3, a third lies a thousandth beside the second
   const std::string bow = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 2 1 0\nv 2 2.5 0\nf 1 2 3\nf 3 4 5\n",

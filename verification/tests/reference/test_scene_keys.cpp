@@ -176,6 +176,10 @@ TEST_CASE("an unused key is refused with the known ones, below tables and in lis
 }
 
 TEST_CASE("a key that is left is known, though nobody asks for it", "[scene]") {
+  const auto behind = parse_keys("b = 1\nd = 2\n", "some.toml");
+  behind->leave("b");
+  CHECK_THROWS_WITH(behind->reject_unused(),
+                    "some.toml:2: unknown key 'd' in the file; known here: b");
   const auto root = parse_keys("a = 1\n[b]\nc = 2\n", "some.toml");
   root->leave("b");
   CHECK_THROWS_WITH(root->reject_unused(),

@@ -188,8 +188,7 @@ TEST_CASE("lengths of shapes are positive, and a tube is thinner than its ring",
       "some.toml:7: unknown shape 'cube'; known: sphere, half_space, box, capsule, torus, statue");
 }
 
-TEST_CASE("objects are named after shape and number, and have no friction, unless told",
-          "[scene]") {
+TEST_CASE("objects are named after shape and number, and have no friction by default", "[scene]") {
   const Scene scene = scene_with(
       "[[object]]\nshape = \"half_space\"\n[[object]]\nshape = \"sphere\"\nradius = 2\n"
       "name = \"ball\"\nfriction = 0.35\n[[object]]\nshape = \"half_space\"\n");

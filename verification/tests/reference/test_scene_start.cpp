@@ -86,7 +86,7 @@ TEST_CASE("one corner of a fold's end sinks, in proportion along its last run", 
   CHECK(deepest == Approx(0.03).epsilon(1e-12));
 }
 
-TEST_CASE("a fold is along x and up y unless it is told otherwise", "[scene]") {
+TEST_CASE("a fold is along x and up y unless its keys say otherwise", "[scene]") {
   const std::string turned = "turn = { axis = [1, 0, 0], angle = 90 }\n";
   const Scene plain = strip("layers = 2, gap = 0.05", turned);
   const Scene told =
