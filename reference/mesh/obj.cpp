@@ -208,12 +208,12 @@ void reject_missing_vertices(const Contents& contents) {
 
 /// All records of a file, and no more.
 Contents contents_of(std::string_view text, const std::string& file) {
+  // the mark that some editors put before UTF-8
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   if (text.empty()) reject(file, 1, "the file is empty; give v and f records");
   Contents contents;
   contents.origin.file = file;
   Cursor cursor{text, file};
-  // the mark that some editors put before UTF-8
-  if (cursor.text.starts_with("\xEF\xBB\xBF")) cursor.at = 3;
   while (cursor.at < text.size()) {
     const std::string_view record = next_word(cursor);
     if (record == "v") read_vertex(cursor, contents);

@@ -56,9 +56,8 @@ struct Sum {
 
 RestPlane plane_across(const Vector3& normal) {
   const Vector3 n = normal.normalized();
-  Vector3 axis = Vector3::UnitX();
-  if (std::abs(n.x()) > std::numbers::sqrt2 / 2)
-    axis = std::abs(n.y()) > std::numbers::sqrt2 / 2 ? Vector3::UnitZ() : Vector3::UnitY();
+  const Vector3 axis =
+      std::abs(n.x()) > std::numbers::sqrt2 / 2 ? Vector3::UnitY() : Vector3::UnitX();
   const Vector3 first = (axis - axis.dot(n) * n).normalized();
   return {first, n.cross(first)};
 }

@@ -38,8 +38,8 @@ struct RestPlane {
   Vector3 first, second;  // directions, perpendicular, of length 1
 };
 
-/// Whether the rest shape is flat, and its plane: `first` is the x axis, or y or z if x is closer
-/// to the normal than 45 degrees, projected on the plane.
+/// Whether the rest shape is flat, and its plane: `first` is the x axis, or y if x is closer to the
+/// normal than 45 degrees, projected on the plane.
 bool is_flat(const TriangleMesh& mesh, RestPlane& plane);
 
 /// Of all hinges of a flat mesh. A sheet of few cells lacks the hinges of its border.

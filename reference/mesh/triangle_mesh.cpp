@@ -171,9 +171,8 @@ void add_edge(int a, const Side* first, int count, const MeshOrigin& origin, Tri
 }
 
 void find_edges(const SideLists& lists, const MeshOrigin& origin, TriangleMesh& mesh) {
-  const size_t half_the_sides = lists.sides.size() / 2;
-  mesh.edges.reserve(half_the_sides + half_the_sides / 16);
-  mesh.hinges.reserve(half_the_sides);
+  mesh.edges.reserve(lists.sides.size() / 2 + lists.sides.size() / 32);
+  mesh.hinges.reserve(lists.sides.size() / 2);
   for (int a = 0; a < mesh.particles(); ++a) {
     int i = lists.start[a];
     while (i < lists.start[a + 1]) {
