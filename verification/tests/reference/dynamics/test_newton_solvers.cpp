@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "reference/dynamics/biconjugate_gradient.h"
-#include "verification/tests/reference/linear_specimen.h"
+#include "verification/tests/reference/dynamics/linear_specimen.h"
 
 using namespace foldproof;
 using Eigen::MatrixXd, Eigen::VectorXd;

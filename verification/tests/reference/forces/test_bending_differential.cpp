@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "verification/tests/hinge_specimens.h"
-#include "verification/tests/reference/bending_specimen.h"
+#include "verification/tests/reference/forces/bending_specimen.h"
 
 using namespace foldproof;
 

@@ -7,7 +7,7 @@
 #include "reference/mesh/shapes.h"
 #include "reference/scene/field_recipe.h"
 #include "verification/specimens/scratch_folder.h"
-#include "verification/tests/reference/scene_texts.h"
+#include "verification/tests/reference/scene/scene_texts.h"
 
 using namespace foldproof;
 using Catch::Matchers::Contains;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "reference/dynamics/newton_matrix.h"
-#include "verification/tests/reference/dynamics_specimen.h"
+#include "verification/tests/reference/dynamics/dynamics_specimen.h"
 
 namespace foldproof {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "reference/forces/degenerate.h"
-#include "verification/tests/reference/sticking_specimen.h"
+#include "verification/tests/reference/forces/sticking_specimen.h"
 
 using namespace foldproof;
 using namespace foldproof::stuck;

@@ -5,7 +5,7 @@
 #include "reference/bodies/level_set_provider.h"
 #include "reference/level_set/deforming.h"
 #include "reference/mesh/shapes.h"
-#include "verification/tests/reference/scene_texts.h"
+#include "verification/tests/reference/scene/scene_texts.h"
 
 using namespace foldproof;
 using Catch::Matchers::StartsWith;

@@ -1,6 +1,6 @@
 // What stops a run, where, and what it hands out then.
 #include "reference/forces/degenerate.h"
-#include "verification/tests/reference/noted_run.h"
+#include "verification/tests/reference/dynamics/noted_run.h"
 
 using namespace foldproof;
 using namespace foldproof::noted_run;

@@ -6,7 +6,7 @@
 #include "reference/forces/degenerate.h"
 #include "reference/forces/force.h"
 #include "reference/forces/symmetric_modes.h"
-#include "verification/tests/reference/force_differences.h"
+#include "verification/tests/reference/forces/force_differences.h"
 
 using namespace foldproof;
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "reference/forces/triangle_frame.h"
-#include "verification/tests/reference/force_differences.h"
+#include "verification/tests/reference/forces/force_differences.h"
 
 using namespace foldproof;
 

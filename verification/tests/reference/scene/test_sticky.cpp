@@ -5,7 +5,7 @@
 
 #include "reference/scene/object_surface.h"
 #include "verification/specimens/scratch_folder.h"
-#include "verification/tests/reference/scene_texts.h"
+#include "verification/tests/reference/scene/scene_texts.h"
 
 using namespace foldproof;
 using Catch::Matchers::Contains;

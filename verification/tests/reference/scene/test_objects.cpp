@@ -4,7 +4,7 @@
 #include "reference/bodies/closed_mesh.h"
 #include "reference/scene/field_recipe.h"
 #include "reference/scene/object_surface.h"
-#include "verification/tests/reference/scene_texts.h"
+#include "verification/tests/reference/scene/scene_texts.h"
 
 using namespace foldproof;
 using Catch::Matchers::Contains;

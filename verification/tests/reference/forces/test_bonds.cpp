@@ -7,7 +7,7 @@
 #include "reference/forces/sticking.h"
 #include "reference/forces/triangle_frame.h"
 #include "reference/mesh/shapes.h"
-#include "verification/tests/reference/force_differences.h"
+#include "verification/tests/reference/forces/force_differences.h"
 
 using namespace foldproof;
 

@@ -6,7 +6,7 @@
 #include "reference/forces/degenerate.h"
 #include "reference/forces/springs.h"
 #include "reference/mesh/shapes.h"
-#include "verification/tests/reference/force_differences.h"
+#include "verification/tests/reference/forces/force_differences.h"
 
 using namespace foldproof;
 

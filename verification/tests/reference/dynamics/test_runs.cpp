@@ -1,5 +1,5 @@
 // Runs: schedules, steps, rows and checkpoints.
-#include "verification/tests/reference/noted_run.h"
+#include "verification/tests/reference/dynamics/noted_run.h"
 
 using namespace foldproof;
 using namespace foldproof::noted_run;

@@ -4,7 +4,7 @@
 
 #include "reference/mesh/shapes.h"
 #include "verification/specimens/scratch_folder.h"
-#include "verification/tests/reference/scene_texts.h"
+#include "verification/tests/reference/scene/scene_texts.h"
 
 using namespace foldproof;
 using Catch::Matchers::Contains;

@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "reference/forces/sticking.h"
-#include "verification/tests/reference/force_differences.h"
+#include "verification/tests/reference/forces/force_differences.h"
 
 namespace foldproof::stuck {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "reference/mesh/shapes.h"
-#include "verification/tests/reference/scene_texts.h"
+#include "verification/tests/reference/scene/scene_texts.h"
 
 using namespace foldproof;
 using Catch::Matchers::StartsWith;

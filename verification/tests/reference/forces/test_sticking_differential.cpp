@@ -1,7 +1,7 @@
 // Derivatives of the forces of sticking against differences.
 #include <catch2/catch.hpp>
 
-#include "verification/tests/reference/sticking_specimen.h"
+#include "verification/tests/reference/forces/sticking_specimen.h"
 
 using namespace foldproof;
 using namespace foldproof::stuck;

@@ -5,7 +5,7 @@
 
 #include "reference/forces/bending.h"
 #include "verification/oracles/definitions.h"
-#include "verification/tests/reference/force_differences.h"
+#include "verification/tests/reference/forces/force_differences.h"
 
 namespace foldproof {
 

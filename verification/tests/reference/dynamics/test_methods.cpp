@@ -5,7 +5,7 @@
 #include "reference/dynamics/finish_step.h"
 #include "reference/dynamics/implicit.h"
 #include "reference/dynamics/integrator.h"
-#include "verification/tests/reference/dynamics_specimen.h"
+#include "verification/tests/reference/dynamics/dynamics_specimen.h"
 
 using namespace foldproof;
 using Eigen::MatrixXd, Eigen::VectorXd;

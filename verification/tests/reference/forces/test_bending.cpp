@@ -6,7 +6,7 @@
 #include "reference/forces/degenerate.h"
 #include "reference/mesh/shapes.h"
 #include "verification/tests/hinge_specimens.h"
-#include "verification/tests/reference/bending_specimen.h"
+#include "verification/tests/reference/forces/bending_specimen.h"
 
 using namespace foldproof;
 
