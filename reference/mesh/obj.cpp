@@ -70,7 +70,7 @@ std::string_view next_word(Cursor& cursor) {
 
 void skip_rest_of_record(Cursor& cursor) {
   while (!next_word(cursor).empty()) continue;
-  cursor.at = std::min(cursor.text.find('\n', cursor.at), cursor.text.size() - 1) + 1;
+  cursor.at = std::min(cursor.text.find('\n', cursor.at), cursor.text.size()) + 1;
   ++cursor.line;
 }
 

@@ -66,7 +66,8 @@ TriangleSoup close_seams(TriangleSoup panels, double distance) {
     throw InputError(mesh_location(panels.origin) + "seams need a distance > 0 m");
   const int count = int(panels.rest.cols());
   Kept kept(panels.rest, distance);
-  std::vector<int> becomes, number(size_t(count), -1), lines, left;
+  std::vector<int> becomes, lines, left;
+  std::vector<int> number(panels.rest.cols());  // of a vertex that stays
   for (int v = 0; v < count; ++v) {
     if (!panels.rest.col(v).allFinite())
       throw InputError(vertex_location(panels.origin, v) +

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <random>
@@ -269,13 +270,9 @@ TriangleMesh make_random_sheet(const Sheet& sheet) {
   add_border(sheet, scatter);
   add_interior(sheet, scatter);
 
-  const auto row_then_x = [&sheet](const Eigen::Vector2d& p) {
-    return std::pair{std::floor(p.y() / sheet.height * sheet.rows), p.x()};
-  };
-  std::sort(scatter.positions.begin(), scatter.positions.end(),
-            [&](const Eigen::Vector2d& p, const Eigen::Vector2d& q) {
-              return std::pair{row_then_x(p), p.y()} < std::pair{row_then_x(q), q.y()};
-            });
+  std::ranges::sort(scatter.positions, {}, [&sheet](const Eigen::Vector2d& p) {
+    return std::array{std::floor(p.y() / sheet.height * sheet.rows), p.x(), p.y()};
+  });
   PerParticle3 x = PerParticle3::Zero(3, scatter.positions.size());
   for (size_t i = 0; i < scatter.positions.size(); ++i) x.col(i).head<2>() = scatter.positions[i];
   std::vector<Triangle> triangles = delaunay(x.topRows<2>());

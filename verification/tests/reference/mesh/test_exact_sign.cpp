@@ -116,3 +116,11 @@ TEST_CASE("corners that coincide are on every plane and line through them") {
   CHECK(side_of_line({0.1, -0.7}, {0.1, -0.7}, {2.1, 0.3}) == 0);
   CHECK(side_of_line({0.1, -0.7}, {0.4, -2.8}, {-0.2, 1.4}) == 0);  // multiples of the first
 }
+
+TEST_CASE("a difference of coordinates that no double holds counts in full") {
+  const double large = 0x1p53;  // large + 1 is none
+  CHECK(side_of_line({-1, 0}, {large, 1}, {large - 1, 1}) == 1);
+  CHECK(side_of_line({-1, 0}, {large - 1, 1}, {large, 1}) == -1);
+  CHECK(side_of_plane({-1, 0, 0}, {large, 1, 0}, {large - 1, 1, 0}, {-1, 0, 1}) == 1);
+  CHECK(side_of_plane({0, 0, 0}, {1, 1, 0}, {-1, 1, 0}, {large, -large, 1}) == 1);
+}

@@ -191,9 +191,10 @@ TEST_CASE("faces of a PLY file have three corners or more, each a vertex that ca
     CHECK(said_of(ascii("", 2, "3 0 1 2\n3 0 1 " + bad + "\n")) ==
           ":15: an index of a vertex is not from 0 to 3");
   CHECK(said_of(ascii("", 2, "3 0 1 2\n3 0 1 2x\n")) == ":15: '2x' is not a number");
-  CHECK(said_of(start + "element face 1\n" + corners + "element vertex 4\n" + places +
-                "end_header\n3 0 1 2\n" + four_vertices) ==
-        ":10: an index of a vertex is not from 0 to 0");
+  for (const std::string face : {"3 0 0 0\n", "3 0 1 2\n"})
+    CHECK(said_of(start + "element face 1\n" + corners + "element vertex 4\n" + places +
+                  "end_header\n" + face + four_vertices) ==
+          ":10: an index of a vertex is not from 0 to 0");
   CHECK(said_of(ascii("", 1, "3 0 1")) ==
         ":14: the file ends before its last element; write it anew");
   CHECK(said_of(ascii("", 0, "")) == ":13: the file has no face; give a mesh of triangles");

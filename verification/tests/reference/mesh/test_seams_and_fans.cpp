@@ -26,7 +26,7 @@ std::string refusal_of(const TriangleSoup& soup, double distance) {
   return "not refused";
 }
 
-const std::vector<Vector3> far_apart{{10, 3, -7}, {20, 4, 9}, {-30, 5, 2}};
+const std::vector<Vector3> far_apart{{40, 3, -7}, {20, 4, 90}, {-30, 50, 2}};
 
 /// Whether a vertex at p merges with one at q.
 bool merges(const Vector3& p, const Vector3& q, double distance) {
@@ -62,14 +62,16 @@ TEST_CASE("vertices merge with the first one that stays, and the others are renu
 }
 
 TEST_CASE("vertices merge at the distance itself, not beyond, in every direction") {
-  for (const Vector3& place : {Vector3(0, 0, 0), Vector3(-3, 5.75, 1.5), Vector3(0.75, -0.25, -9)})
-    for (const double x : {-1.0, 0.0, 1.0})
-      for (const double y : {-1.0, 0.0, 1.0})
-        for (const double z : {-1.0, 0.0, 1.0}) {
-          const Vector3 way = 0.25 * Vector3(x, y, z);
-          CHECK(merges(place, place + way, 0.25) == (way.norm() <= 0.25));
-          CHECK(merges(place, place + 0.55 * way, 0.25));  // at most 0.96 of the distance
-        }
+  for (const double distance : {0.25, 4.0})
+    for (const Vector3& place :
+         {Vector3(0, 0, 0), Vector3(-3, 5.75, 1.5), Vector3(0.75, -0.25, -9)})
+      for (const double x : {-1.0, 0.0, 1.0})
+        for (const double y : {-1.0, 0.0, 1.0})
+          for (const double z : {-1.0, 0.0, 1.0}) {
+            const Vector3 way = distance * Vector3(x, y, z);
+            CHECK(merges(place, place + way, distance) == (way.norm() <= distance));
+            CHECK(merges(place, place + 0.55 * way, distance));  // at most 0.96 of the distance
+          }
   CHECK(merges({3, 4, 1}, {6, 8, 1}, 5));
   CHECK_FALSE(merges({3, 4, 1}, {6, 8, 1}, std::nextafter(5, 0)));
 }
