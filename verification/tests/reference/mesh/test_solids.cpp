@@ -268,3 +268,11 @@ TEST_CASE(
   x(0, 3) = 0, x(0, 4) = 2.25;  // right of the last
   CHECK(crossing(mesh_of({{0, 1, 3}, {1, 2, 4}, {1, 4, 3}}), 2) == said(1));
 }
+
+TEST_CASE("an even statue of fifteen divisions, the fewest, stands on the ground at its height") {
+  const TriangleMesh statue = make_even_statue(0.9, 15);
+  CHECK(statue.triangles.size() == 20 * 15 * 15);
+  CHECK(euler_characteristic(statue) == 2);
+  CHECK(statue.rest.row(1).minCoeff() == 0);
+  CHECK(statue.rest.row(1).maxCoeff() == Approx(0.9));
+}
