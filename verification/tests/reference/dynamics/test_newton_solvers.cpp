@@ -184,3 +184,20 @@ TEST_CASE("BiCGSTAB ends where it breaks down, at its latest iterate") {
   CHECK(empty.stiffness_products == 0);
   CHECK(empty.solves == 1);
 }
+
+TEST_CASE("solves of Newton steps add to what others counted") {
+  const LinearSystem of;
+  const DampingOperator damping = of.damping();
+  const ForceDifferential stiffness = of.stiffness();
+  const NewtonMatrix A{of.mass, of.inverse_mass, damping, stiffness, s};
+  PerParticle3 r = of.v, dw;
+  r.col(2).setZero();
+  Work work;
+  work.solves = 70, work.cg_iterations = 50;
+  solve_newton_step(A, settings_of(1e-12, 3), r, dw, work);
+  CHECK(work.solves == 71);
+  CHECK(work.cg_iterations == 53);
+  solve_unsymmetric_step(A, settings_of(1e-12, 2), r, dw, work);
+  CHECK(work.solves == 72);
+  CHECK(work.cg_iterations == 57);
+}
