@@ -16,8 +16,8 @@ namespace {
 // A particle that crosses ten times the cloth's own size in one step is taken for divergence.
 constexpr double sizes_per_step = 10;
 
-// Of a frame's interval: events closer to a frame than this snap to it, so no step is as short as
-// rounding error.
+// Of a frame's interval: events closer to a frame than this snap to it, and a frame to the end, so
+// no step is as short as rounding error.
 constexpr double closest_event = 1e-9;
 
 void check(const Schedule& schedule, const State& start) {
@@ -174,7 +174,8 @@ void Run::start() {
 RunResult Run::finish() {
   while (!stop_ && history_.now().time < schedule_.end) {
     const double next_frame = start_time_ + double(frame_ + 1) * schedule_.frame_interval;
-    step_to_frame(std::min(schedule_.end, next_frame));
+    const double close = closest_event * schedule_.frame_interval;
+    step_to_frame(next_frame < schedule_.end - close ? next_frame : schedule_.end);
     if (stop_) break;
     ++frame_;
     if (observer_.frame) observer_.frame(history_.now());

@@ -109,6 +109,52 @@ TEST_CASE("no step is longer than wanted by more than a part in a thousand milli
   expect_steps(steps_of(schedule_of(0.9, 0.9, 0)), {0.2});  // nothing limits an automatic step
 }
 
+TEST_CASE("frames and prescribed ends of steps have their times to the bit") {
+  Seen seen;
+  run(masses(), drifting(2), start_state(), schedule_of(3.7, 0.1, 0.03), seen.observer());
+  REQUIRE(seen.frames.size() == 31);
+  for (size_t k = 0; k < 31; ++k) {
+    const double interval = 0.1, time = 0.7 + double(k) * interval;
+    CHECK(seen.frames[k].time == (k < 30 ? time : 3.7));
+  }
+  Schedule schedule = schedule_of(1.7, 1, 0.03);
+  for (int k = 1; k < 30; ++k) schedule.step.ends.push_back(0.7 + std::sqrt(k / 31.0));
+  Seen given;
+  run(masses(), drifting(2), start_state(), schedule, given.observer());
+  REQUIRE(given.rows.size() > 30);
+  for (size_t k = 1; k < 30; ++k) CHECK(given.rows[k].time == schedule.step.ends[k - 1]);
+}
+
+TEST_CASE("a step that ends at a frame, or where it is told, ends there to the bit") {
+  State start = start_state();
+  start.time = -3.3;  // a step longer than the time it ends at rounds more coarsely
+  int rounded = 0;
+  for (int k = 0; k < 100; ++k) {
+    const double end = 0.5 + 0.0137 * k;
+    rounded += start.time + (end - start.time) != end;
+    CHECK(run(masses(), drifting(1), start, schedule_of(end, 9, 9), {}).last.time == end);
+    Schedule schedule = schedule_of(2, 9, 9);
+    schedule.step.ends = {end};
+    Seen seen;
+    run(masses(), drifting(1), start, schedule, seen.observer());
+    REQUIRE(seen.rows.size() == 3);
+    CHECK(seen.rows[1].time == end);
+  }
+  CHECK(rounded > 5);
+}
+
+TEST_CASE("a frame that only rounding puts before the end is the end") {
+  for (const double interval : {0.2, 0.2 * (1 - 3e-10)}) {  // 0.7 + 0.2 rounds to less than 0.9
+    Seen seen;
+    const RunResult result = run(masses(), drifting(1), start_state(),
+                                 schedule_of(0.9, interval, 0.15), seen.observer());
+    CHECK(result.steps == 2);
+    CHECK(result.last.time == 0.9);
+    CHECK(seen.frames.size() == 2);
+  }
+  CHECK(steps_of(schedule_of(0.9, 0.2 * (1 - 3e-9), 0.15)).size() == 3);
+}
+
 TEST_CASE("ends of steps that are prescribed are met to the bit, then the rule goes on") {
   Schedule schedule = schedule_of(1.5, 0.4, 0.25);
   schedule.step.ends = {0.3, 0.7, 0.73, 0.9, 1.3};  // the frame at 1.1 is not among them
