@@ -142,12 +142,21 @@ TEST_CASE("a branch that is nobody's child is refused, though the numbers add up
   tree.part.resize(2);
   tree.phi.resize(2);
   CHECK_NOTHROW(require_valid_content(body));
+  tree.branches = {{1, 0, 1, 2}, {2, 2, 0, 1}};
+  tree.part.resize(3);
+  tree.phi.resize(3);
+  CHECK_NOTHROW(require_valid_content(body));
+  tree.branches = {{1, 0, 1, 2}, {2, 2, 0, 0}};  // without a channel
+  tree.part.resize(2);
+  tree.phi.resize(2);
+  CHECK_THROWS_WITH(require_valid_content(body), Contains("do not fit together"));
   tree.branches = {{1, 0, 0, 1}, {1, 1, 1, 1}};
   CHECK_THROWS_WITH(require_valid_content(body), Contains("do not fit together"));
 }
 
 TEST_CASE("keys of what is asked for change with each number of it, and with the method") {
-  const TriangleSoup soup = ball_soup();
+  TriangleSoup soup = ball_soup();
+  soup.rest(1, 1) = 0;  // counts as others do
   const GridMethod method{9, 2, 3, MarchingOrder::first};
   std::set<std::string> keys{input_key(soup, method, Repair::refuse),
                              input_key(soup, method, Repair::winding)};
@@ -175,7 +184,9 @@ TEST_CASE("keys of what is asked for change with each number of it, and with the
   keys.insert(of_numbers_alone.text());
   CHECK(keys.size() == 10);
 
-  const MeshSequence sequence = moving_ball();
+  MeshSequence sequence = moving_ball();
+  sequence.positions[0](1, 1) = 0;  // counts as others do
+  sequence.positions[0](2, 41) = 0.21;
   keys = {input_key(sequence, coarse)};
   const auto changed = [&](const auto& change) {
     MeshSequence other = sequence;
@@ -185,7 +196,7 @@ TEST_CASE("keys of what is asked for change with each number of it, and with the
   };
   changed([](auto& s, auto&) { std::swap(s.triangles[3][0], s.triangles[3][1]); });
   changed([](auto& s, auto&) { s.times[2] += 0.1; });
-  changed([](auto& s, auto&) { s.positions[2](2, 41) += 1e-12; });
+  changed([](auto& s, auto&) { s.positions[0](2, 41) += 1e-12; });
   changed([](auto&, auto& of) { of.corner.z() += 1e-12; });
   changed([](auto&, auto& of) { of.width += 1e-12; });
   changed([](auto&, auto& of) { ++of.depth; });

@@ -163,14 +163,17 @@ Lattice lattice_of(const Vector3& origin, double spacing, const Node& nodes) {
 TEST_CASE("the votes of a node are the axes along which an odd number of triangles lies below it") {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> place(-1, 1);
+  const double size = GENERATE(1.0, 7.0);
+  const Vector3 middle = (size - 1) * Vector3(3, 5, 4);
   for (int k = 0; k < 40; ++k) {
     PerParticle3 x(3, 7);
-    for (double& component : x.reshaped()) component = place(random);
+    for (double& component : x.reshaped()) component = size * place(random);
+    x.colwise() += middle;
     const std::vector<Triangle> triangles{{0, 1, 2}, {3, 1, 5}, {6, 4, 2}, {0, 5, 6}};
     // of many lattices the triangles reach beyond on some sides
-    const Lattice lattice =
-        lattice_of(Vector3(-1.1 + 0.2 * (k % 3), -1.2 + 0.3 * (k % 5), -1.05 + 0.25 * (k % 4)),
-                   0.23, {9, 7, 8});
+    const Lattice lattice = lattice_of(
+        middle + size * Vector3(-1.1 + 0.2 * (k % 3), -1.2 + 0.3 * (k % 5), -1.05 + 0.25 * (k % 4)),
+        size * 0.23, {9, 7, 8});
     const std::vector<std::uint8_t> votes = ray_parity(x, triangles, lattice);
     REQUIRE(long(votes.size()) == lattice.size());
     int wrong = 0;
@@ -186,7 +189,7 @@ TEST_CASE("the votes of a node are the axes along which an odd number of triangl
 
 TEST_CASE("rays through edges and corners cross one triangle, on the lower sides of a cube") {
   // corners at nodes 1 and 4 of every row, or a hair above 4; each face of two triangles
-  const double above = GENERATE(0, 5e-7);
+  const double above = GENERATE(0.0, 5e-7);
   PerParticle3 x(3, 8);
   for (int k = 0; k < 8; ++k)
     x.col(k) = 0.5 * Vector3(k & 1 ? 4 + above : 1, k & 2 ? 4 + above : 1, k & 4 ? 4 + above : 1);

@@ -131,8 +131,9 @@ TEST_CASE("intersecting triangles are counted, and the first pair is named") {
     CHECK(pairs > 1);
     CHECK_THAT(text, Contains("intersecting pairs; mend it, or set repair = \"winding\""));
     const Vector3 corner = soup.rest.col(soup.triangles[size_t(t)][0]);
-    char place[32];
-    std::snprintf(place, sizeof place, "near (%.4g, ", corner.x());
+    char place[64];
+    std::snprintf(place, sizeof place, "near (%.4g, %.4g, %.4g)", corner.x(), corner.y(),
+                  corner.z());
     CHECK_THAT(text, Contains(place));
   }
 }
@@ -185,6 +186,11 @@ TEST_CASE("an inspection counts vertices, pieces and nodes, and says why a mesh 
   CHECK(open.repair_failure.empty());
   CHECK(open.nodes == whole.nodes);
   CHECK(open.among_rays > 0);
+
+  // within two balls that face outward rays cross an even number of triangles
+  const MeshInspection twice = inspect_mesh(soup_of({{3, here, false}, {2, here, false}}), 16);
+  CHECK(twice.against_sign > 100);
+  CHECK(twice.repair_failure.empty());
 
   const MeshInspection inward = inspect_mesh(soup_of({{0.9, here, true}}), 12);
   CHECK_THAT(inward.rejection, Contains("inside out"));

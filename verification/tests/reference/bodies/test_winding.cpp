@@ -212,6 +212,15 @@ TEST_CASE("few large triangles outweigh many small ones, and of equal areas the 
   CHECK(orient_triangles({strip(3, 2), flipped(even, {2}), {}}) == even);
 }
 
+TEST_CASE("each patch is turned by its own area") {
+  PerParticle3 x = PerParticle3::Zero(3, 10);
+  x.row(0) << -5, 0, 0, 2, 2, 15, 20, 20, 22, 22;
+  x.row(1) << 0, -1, 1, -1, 1, 0, -1, 1, -1, 1;
+  const std::vector<Triangle> even{{0, 1, 2}, {2, 1, 3}, {2, 3, 4},
+                                   {5, 6, 7}, {7, 6, 8}, {7, 8, 9}};
+  CHECK(orient_triangles({x, flipped(even, {2, 4}), {}}) == even);
+}
+
 TEST_CASE(
     "patches apart, and sheets that meet in an edge of three triangles, keep their own sides") {
   PerParticle3 x(3, 8);

@@ -230,6 +230,9 @@ TEST_CASE("BDF2 solves its stage equation with the coefficients of uneven steps"
               1e-12);
   CHECK(step.time == end);
   CHECK(step.bonds.size() == 1);
+  // of more states than two the latest count
+  Work same;
+  CHECK(bdf2(of.system, std::span(past).last(2), h, same).x == step.x);
   // alone it starts as the midpoint rule does
   Work first, midpoint;
   const State one = bdf2(of.system, {&of.now, 1}, h, first);

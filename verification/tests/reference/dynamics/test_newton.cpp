@@ -156,6 +156,28 @@ TEST_CASE("Newton's method ends after sixty iterations, and after sixty more fro
   CHECK(work.stiffness_products == 122);
 }
 
+TEST_CASE(
+    "the other start of Newton's method solves the equation linearised about the step's start") {
+  Oscillator of;
+  of.length = 0.01;
+  Work work;
+  of.step(1e-3, work);  // gives it its force
+  // BDF2 after a step as long: s = 2/3 of the step, X and V a third beyond
+  State before = of.start, now = of.start;
+  before.time -= 0.75;
+  before.v.col(0) = Vector3(0.3, -0.2, 0.4);
+  now.x.col(0) = Vector3(0.1, 0.2, -0.3);
+  now.v.col(0) = Vector3(-0.4, 0.9, -1.7);
+  const std::vector<State> past{before, now};
+  const State end = bdf2(of.system, past, 0.75, work);
+  const Vector3 x = now.x, v = now.v, X = 4 * x / 3, V = (4 * v - Vector3(before.v)) / 3;
+  const Vector3 exact = (mass * V + h * k * (of.rest - X)) / 2;
+  const double rate = (2 / of.length - mass) / (h * h);  // of the false derivative
+  const Vector3 linear = (mass * V + h * k * (of.rest - x) - h * rate * (X - x)) / 200;
+  REQUIRE((linear - exact).norm() < 0.95 * (v - exact).norm());
+  CHECK((Vector3(end.v) - exact - std::pow(0.99, 60) * (linear - exact)).norm() < 1e-11);
+}
+
 TEST_CASE("steps into degenerate places are halved, and no start is taken there") {
   Oscillator of;
   of.length = 1.5;

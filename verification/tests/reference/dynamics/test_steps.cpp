@@ -263,6 +263,11 @@ TEST_CASE("steps end at events, after which the history begins anew") {
   CHECK(run.checkpoints[1].past.size() == 3);
 }
 
+TEST_CASE("events closer than a thousand-millionth of the interval are one") {
+  CHECK(run_with_events({0.95, 0.95 + 3e-10}).steps.size() == 9);
+  CHECK(run_with_events({0.95, 0.95 + 1.5e-9}).steps.size() == 10);
+}
+
 TEST_CASE("events next to a frame are passed at it, others have a step of their own") {
   // closer than a thousand-millionth of the interval of 0.4 s
   for (const double near : {0.7 + 0.4 - 3e-10, 0.7 + 0.4, 0.7 + 0.4 + 3e-10}) {
