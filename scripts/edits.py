@@ -31,8 +31,10 @@ def outside_templates(text: str, tokens: list[Piece]) -> Iterator[Piece]:
     """Leaves out `<...>` where no space stands before the `<`, or the word template does."""
     depth = 0
     for before, token in zip([None, *tokens], tokens):
-        opens = token.text == "<" and (
-            not text[token.at - 1].isspace() or (before and before.text == "template")
+        opens = (
+            token.text == "<"
+            and not (before and before.text == "operator")
+            and (not text[token.at - 1].isspace() or (before and before.text == "template"))
         )
         if opens or (depth and token.text == "<"):
             depth += 1

@@ -98,6 +98,9 @@ double f(const Points& x, int n, double a, double b) {
         ]
         for slip in expected:
             self.assertIn(slip, made)
+        compared = "bool operator<(A o) const { return a < o.a; }\nint k = 0;\n"
+        made = {(change.kind, change.before, change.after) for change in changes_of(compared)}
+        self.assertLessEqual({("operator", "<", ">"), ("number", "0", "1")}, made)
         declared = [
             change
             for change in changes_of(text)
