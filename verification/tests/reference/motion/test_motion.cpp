@@ -1,214 +1,314 @@
-// Prescribed motion, of particles and of bodies.
+// Prescribed motion and poses of rigid bodies against formulas written out here, and their limits.
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <functional>
 #include <limits>
 
-#include "reference/motion/motion.h"
 #include "reference/motion/pose.h"
 
 using namespace foldproof;
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double infinite = std::numeric_limits<double>::infinity();
+const Vector3 start(2.1, 0.4, -0.8);  // m
 
-/// Turns about an axis along z through (0.3, -0.2, 5), drifts and swings, from 0.5 s to 2.5 s.
-Motion motion_of_all_kinds() {
+/// x turned about the direction of `axis` by `angle` [rad], by Rodrigues' formula.
+Vector3 turned(const Vector3& x, const Vector3& axis, double angle) {
+  const Vector3 n = axis.normalized();
+  return std::cos(angle) * x + std::sin(angle) * n.cross(x) + (1 - std::cos(angle)) * n.dot(x) * n;
+}
+
+/// Turns, drifts and swings from 0.4 s to 1.7 s.
+Motion general_motion() {
   Motion motion;
-  motion.velocity = {0.7, -0.4, 1.1};
-  motion.amplitude = {0.05, 0.6, -0.3};
-  motion.frequency = 0.35;
-  motion.phase = 0.9;
-  motion.center = {0.3, -0.2, 5};
-  motion.angular_velocity = {0, 0, 1.7};
-  motion.from = 0.5;
-  motion.until = 2.5;
+  motion.velocity = {0.31, -0.47, 0.83};
+  motion.amplitude = {0.13, 0.29, -0.17};
+  motion.frequency = 0.37;
+  motion.phase = 0.6;
+  motion.center = {0.3, -0.7, 1.9};
+  motion.angular_velocity = {0.7, -1.3, 0.4};
+  motion.from = 0.4;
+  motion.until = 1.7;
   return motion;
 }
 
-/// The same written out for its axis; t from its start [s].
-Vector3 written_out(const Vector3& start, double t) {
-  const double c = std::cos(1.7 * t), s = std::sin(1.7 * t);
-  const double x = start.x() - 0.3, y = start.y() + 0.2;
-  const double swing = std::sin(2 * std::acos(-1.0) * 0.35 * t + 0.9) - std::sin(0.9);
-  return {0.3 + c * x - s * y + 0.7 * t + 0.05 * swing,
-          -0.2 + s * x + c * y - 0.4 * t + 0.6 * swing, start.z() + 1.1 * t - 0.3 * swing};
+/// Where general_motion has taken x after t seconds of acting.
+Vector3 expected_position(const Vector3& x, double t) {
+  const Motion m = general_motion();
+  return m.center + turned(x - m.center, m.angular_velocity, m.angular_velocity.norm() * t) +
+         t * m.velocity + (std::sin(2 * pi * 0.37 * t + 0.6) - std::sin(0.6)) * m.amplitude;
 }
 
-const Vector3 start(1.3, 0.8, -0.6);
-
-Vector3 slope(const std::function<Vector3(double)>& x, double t) {
-  const double h = 1e-5;
-  return (x(t + h) - x(t - h)) / (2 * h);
+Vector3 expected_velocity(const Vector3& x, double t) {
+  const Motion m = general_motion();
+  return m.angular_velocity.cross(
+             turned(x - m.center, m.angular_velocity, m.angular_velocity.norm() * t)) +
+         m.velocity + 2 * pi * 0.37 * std::cos(2 * pi * 0.37 * t + 0.6) * m.amplitude;
 }
 
-}  // namespace
+bool are_near(const Vector3& a, const Vector3& b) { return (a - b).norm() < 1e-14; }
 
-TEST_CASE("motion: a point turns, drifts and swings while the motion acts, and rests else") {
-  const Motion motion = motion_of_all_kinds();
-  for (const double t : {0.5, 0.8, 1.9, 2.5})
-    CHECK((position_at(motion, start, t) - written_out(start, t - 0.5)).norm() < 1e-14);
-  CHECK((position_at(motion, start, 0.2) - start).norm() < 1e-15);
-  CHECK((position_at(motion, start, 7) - written_out(start, 2)).norm() < 1e-14);
+/// A quaternion that turns about `axis` by `angle` [rad].
+Eigen::Quaterniond rotation_by(const Vector3& axis, double angle) {
+  const Vector3 n = std::sin(angle / 2) * axis.normalized();
+  return {std::cos(angle / 2), n.x(), n.y(), n.z()};
 }
 
-TEST_CASE(
-    "motion: the velocity is the slope of the path, the later one where the path has a kink") {
-  const Motion motion = motion_of_all_kinds();
-  const auto path = [&](double t) { return written_out(start, t - 0.5); };
-  for (const double t : {0.5, 0.51, 1.3, 2.49})
-    CHECK((velocity_at(motion, start, t) - slope(path, t)).norm() < 1e-8);
-  for (const double t : {0.0, 0.499, 2.5, 3.0})
-    CHECK(velocity_at(motion, start, t) == Vector3::Zero());
-}
+const Vector3 tilt(0.2, 0.9, -0.5), hinge(-0.6, 0.3, 0.7);  // axes
+const Vector3 first_place(0.4, -1.1, 0.7), second_place(1.3, 0.2, -0.9),
+    third_place(-0.8, 0.6, 2.3);
 
-TEST_CASE("motion: by default a point is held for ever") {
-  CHECK(position_at({}, start, 3) == start);
-  CHECK(Motion{}.from == 0);
-  CHECK(Motion{}.until == infinity);
-  Motion drift;
-  drift.velocity = {0, 2, 0};
-  CHECK(position_at(drift, start, 4) == start + Vector3(0, 8, 0));
-  CHECK(velocity_at(drift, start, 4) == drift.velocity);
-}
-
-TEST_CASE("motion: its continuation is smooth across the next event") {
-  const PrescribedParticle particle{7, start, motion_of_all_kinds()};
-  const auto at = [](const PrescribedParticle& p, double t) {
-    return position_at(p.motion, p.start, t);
-  };
-  const PrescribedParticle before = smooth_continuation(particle, 0.3, 0.01);
-  CHECK(before.particle == 7);
-  CHECK(at(before, 1.9) == start);  // rests on
-  const PrescribedParticle within = smooth_continuation(particle, 1.0, 0.01);
-  CHECK(within.particle == 7);
-  CHECK((at(within, 4) - written_out(start, 3.5)).norm() < 1e-14);  // goes on
-  CHECK(within.motion.from == 0.5);
-  CHECK(within.motion.until == infinity);
-  const PrescribedParticle after = smooth_continuation(particle, 2.6, 0.01);
-  CHECK(after.particle == 7);
-  CHECK((at(after, 9) - written_out(start, 2)).norm() < 1e-14);  // rests at its end
-}
-
-TEST_CASE("motion: an event as little as the tolerance ahead counts as passed") {
-  const PrescribedParticle particle{7, start, motion_of_all_kinds()};
-  const double tolerance = 0.125;  // sums with the times are exact
-  const auto has_begun = [&](double t) {
-    return smooth_continuation(particle, t, tolerance).motion.until == infinity &&
-           smooth_continuation(particle, t, tolerance).motion.velocity == particle.motion.velocity;
-  };
-  CHECK_FALSE(has_begun(0.25));
-  CHECK(has_begun(0.375));
-  CHECK(smooth_continuation(particle, 0.375, tolerance).motion.from == 0.375);
-  CHECK(has_begun(2.25));
-  CHECK_FALSE(has_begun(2.375));
-  const PrescribedParticle ended = smooth_continuation(particle, 2.375, tolerance);
-  CHECK((ended.start - written_out(start, 2)).norm() < 1e-14);
-}
-
-TEST_CASE("motion: known velocities belong to their particles") {
-  Motion drift;
-  drift.velocity = {0, 2, 0};
-  const std::vector<PrescribedParticle> particles{{2, start, motion_of_all_kinds()},
-                                                  {0, 2 * start, drift}};
-  const std::vector<KnownVelocity> now = velocities_at(particles, 1.1);
-  REQUIRE(now.size() == 2);
-  CHECK(now[0].particle == 2);
-  CHECK(now[0].velocity == velocity_at(particles[0].motion, start, 1.1));
-  CHECK(now[1].velocity == drift.velocity);
-
-  PerParticle3 x = PerParticle3::Constant(3, 3, 0.4);
-  const std::vector<KnownVelocity> mean = mean_velocities(particles, x, 1.1, 0.3);
-  REQUIRE(mean.size() == 2);
-  CHECK(mean[0].particle == 2);
-  CHECK((x.col(2) + 0.3 * mean[0].velocity - written_out(start, 0.9)).norm() < 1e-14);
-  CHECK((x.col(0) + 0.3 * mean[1].velocity - 2 * start - Vector3(0, 2.8, 0)).norm() < 1e-14);
-
-  PerParticle3 v = PerParticle3::Constant(3, 3, 9);
-  impose(now, v);
-  CHECK(v.col(2) == now[0].velocity);
-  CHECK(v.col(0) == drift.velocity);
-  CHECK(v.col(1) == Vector3::Constant(9));
-}
-
-// ----
-// bodies --------------------------------------------------------------------------------------
-
-namespace {
-
-const Vector3 axis = Vector3(1, 2, -2) / 3;
-Eigen::Quaterniond turned_by(double angle) {
-  return Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis));
-}
-
-/// Turns by 0.4 and then by 1.2 more about one axis; the second rotation is given by its opposite
-/// quaternion, twice as long.
+/// Key times 0.3, 0.9 and 2.4 s; turns by 1.1 rad about `hinge`, then by -0.7 rad about `tilt`.
 Keyframes three_keys() {
-  Eigen::Quaterniond second = turned_by(0.4);
-  second.coeffs() *= -2;
-  return make_keyframes({{1.0, {Eigen::Quaterniond::Identity(), {0.5, -1, 2}}},
-                         {1.5, {second, {1.5, 1, 2.5}}},
-                         {3.5, {turned_by(1.6), {-2.5, 0, 4}}}});
-}
-
-void require_pose(const Pose& pose, double angle, const Vector3& translation) {
-  CHECK((pose.rotation.toRotationMatrix() - turned_by(angle).toRotationMatrix()).norm() < 1e-14);
-  CHECK((pose.translation - translation).norm() < 1e-14);
+  const Eigen::Quaterniond first = rotation_by(tilt, 0.8), second = rotation_by(hinge, 1.1) * first,
+                           third = rotation_by(tilt, -0.7) * second;
+  return make_keyframes(
+      {{0.3, {first, first_place}}, {0.9, {second, second_place}}, {2.4, {third, third_place}}});
 }
 
 }  // namespace
 
-TEST_CASE("pose: between keyframes a body shifts and turns evenly, the short way") {
-  const RigidMotion motion = three_keys();
-  require_pose(pose_at(motion, 0.2), 0, {0.5, -1, 2});
-  require_pose(pose_at(motion, 1), 0, {0.5, -1, 2});
-  require_pose(pose_at(motion, 1.125), 0.1, {0.75, -0.5, 2.125});
-  require_pose(pose_at(motion, 1.5), 0.4, {1.5, 1, 2.5});
-  require_pose(pose_at(motion, 3), 1.3, {-1.5, 0.25, 3.625});
-  require_pose(pose_at(motion, 3.5), 1.6, {-2.5, 0, 4});
-  require_pose(pose_at(motion, 9), 1.6, {-2.5, 0, 4});
+TEST_CASE("a motion turns about its centre, drifts and swings while it acts") {
+  const Motion motion = general_motion();
+  CHECK(are_near(position_at(motion, start, 0.1), start));
+  CHECK(are_near(position_at(motion, start, 0.9), expected_position(start, 0.9 - 0.4)));
+  CHECK(are_near(position_at(motion, start, 2.3), expected_position(start, 1.7 - 0.4)));
 }
 
-TEST_CASE(
-    "pose: the velocity of a body's point is the slope of its path, at a keyframe the later") {
-  const RigidMotion keyed = three_keys(), free = motion_of_all_kinds();
-  const Vector3 X(0.7, -0.3, 0.9);
-  for (const RigidMotion& motion : {keyed, free}) {
-    const auto path = [&](double t) { return to_world(pose_at(motion, t), X); };
-    for (const double t : {1.2, 1.49, 1.9, 2.3})
-      CHECK((velocity_at(motion, path(t), t) - slope(path, t)).norm() < 1e-8);
+TEST_CASE("the velocity of a motion is that of its turn, drift and swing") {
+  const Motion motion = general_motion();
+  CHECK(are_near(velocity_at(motion, start, 0.9), expected_velocity(start, 0.9 - 0.4)));
+  CHECK(are_near(velocity_at(motion, start, 0.4), expected_velocity(start, 0)));
+  CHECK(velocity_at(motion, start, 1.7) == Vector3::Zero());
+  CHECK(velocity_at(motion, start, 0.39) == Vector3::Zero());
+}
+
+TEST_CASE("a point turns at one radian per second as at any other rate") {
+  Motion motion;
+  motion.center = {0.3, -0.7, 1.9};
+  motion.angular_velocity = Vector3::UnitY();
+  const Vector3 expected = motion.center + turned(start - motion.center, Vector3::UnitY(), 0.7);
+  CHECK(are_near(position_at(motion, start, 0.7), expected));
+  CHECK(are_near(to_world(pose_at(motion, 0.7), start), expected));
+}
+
+TEST_CASE("a motion is at rest unless told otherwise, from the beginning and for ever") {
+  Motion motion;
+  CHECK(motion.velocity == Vector3::Zero());
+  CHECK(motion.amplitude == Vector3::Zero());
+  CHECK(motion.center == Vector3::Zero());
+  CHECK(motion.angular_velocity == Vector3::Zero());
+  CHECK(motion.frequency == 0);
+  CHECK(motion.phase == 0);
+  CHECK(motion.from == 0);
+  CHECK(motion.until == infinite);
+}
+
+TEST_CASE("an event at the time asked from is over, and what never ends has no event") {
+  Motion endless, brief;
+  endless.from = 0.7;
+  brief.from = 0.3, brief.until = 1.9;
+  const std::vector<PrescribedParticle> particles{{4, start, endless}, {7, start, brief}};
+  CHECK(event_times(particles, 0.3) == std::vector<double>{0.7, 1.9});
+  CHECK(event_times(particles, 0.25) == std::vector<double>{0.3, 0.7, 1.9});
+  CHECK(event_times(particles, 0.8) == std::vector<double>{1.9});
+  CHECK(event_times(particles, 1.9).empty());
+}
+
+TEST_CASE("before its motion a particle is continued at rest where it starts") {
+  Motion motion = general_motion();
+  motion.from = 0.5, motion.until = 1.75;
+  const PrescribedParticle resting = smooth_continuation({5, start, motion}, 0.25, 0.125);
+  CHECK(resting.particle == 5);
+  CHECK(resting.start == start);
+  CHECK(resting.motion.velocity == Vector3::Zero());
+  CHECK(resting.motion.amplitude == Vector3::Zero());
+  CHECK(resting.motion.angular_velocity == Vector3::Zero());
+}
+
+TEST_CASE("a start that is as far ahead as the tolerance counts as passed") {
+  Motion motion = general_motion();
+  motion.from = 0.5, motion.until = 1.75;
+  const PrescribedParticle moving = smooth_continuation({5, start, motion}, 0.375, 0.125);
+  CHECK(moving.particle == 5);
+  CHECK(moving.start == start);
+  CHECK(moving.motion.velocity == motion.velocity);
+  CHECK(moving.motion.from == 0.375);  // it moves from that time on
+  CHECK(moving.motion.until == infinite);
+}
+
+TEST_CASE("a motion under way goes on for ever from its own start") {
+  Motion motion = general_motion();
+  motion.from = 0.5, motion.until = 1.75;
+  const PrescribedParticle moving = smooth_continuation({5, start, motion}, 1.5, 0.125);
+  CHECK(moving.motion.from == 0.5);
+  CHECK(moving.motion.until == infinite);
+  CHECK(moving.motion.angular_velocity == motion.angular_velocity);
+  CHECK(moving.start == start);
+}
+
+TEST_CASE("an end that is as far ahead as the tolerance leaves the particle at its last place") {
+  Motion motion = general_motion();
+  motion.from = 0.4, motion.until = 1.75;
+  for (const double time : {1.625, 1.6875, 1.75, 2.5}) {
+    const PrescribedParticle ended = smooth_continuation({5, start, motion}, time, 0.125);
+    CHECK(ended.particle == 5);
+    CHECK(are_near(ended.start, expected_position(start, 1.75 - 0.4)));
+    CHECK(ended.motion.velocity == Vector3::Zero());
+    CHECK(ended.motion.amplitude == Vector3::Zero());
   }
-  const auto path = [&](double t) { return to_world(pose_at(keyed, t), X); };
-  for (const double t : {1.0, 1.5})
-    CHECK((velocity_at(keyed, path(t), t) - slope(path, t + 2e-5)).norm() < 1e-3);
-  for (const double t : {0.9, 3.5, 4.0}) CHECK(velocity_at(keyed, path(t), t) == Vector3::Zero());
+  CHECK(smooth_continuation({5, start, motion}, 1.5625, 0.125).motion.velocity == motion.velocity);
 }
 
-TEST_CASE("pose: a body moves as each of its points does") {
-  const Motion motion = motion_of_all_kinds();
-  for (const double t : {0.1, 0.9, 2.2, 4.0}) {
-    CHECK((to_world(pose_at(motion, t), start) - position_at(motion, start, t)).norm() < 1e-14);
-    CHECK((velocity_at(RigidMotion(motion), position_at(motion, start, t), t) -
-           velocity_at(motion, start, t))
-              .norm() < 1e-14);
+TEST_CASE("known velocities are those of each particle's own motion") {
+  Motion other = general_motion();
+  other.velocity = {0.9, 0.8, 0.3}, other.amplitude.setZero(), other.angular_velocity.setZero();
+  const Vector3 elsewhere(-0.6, 1.4, 0.2);
+  const std::vector<PrescribedParticle> prescribed{{3, start, general_motion()},
+                                                   {1, elsewhere, other}};
+  const std::vector<KnownVelocity> known = velocities_at(prescribed, 0.9);
+  REQUIRE(known.size() == 2);
+  CHECK(known[0].particle == 3);
+  CHECK(are_near(known[0].velocity, expected_velocity(start, 0.5)));
+  CHECK(known[1].particle == 1);
+  CHECK(are_near(known[1].velocity, other.velocity));
+
+  PerParticle3 v = PerParticle3::Constant(3, 5, 0.27);
+  impose(known, v);
+  CHECK(v.col(3) == known[0].velocity);
+  CHECK(v.col(1) == known[1].velocity);
+  for (const int free : {0, 2, 4}) CHECK(v.col(free) == Vector3::Constant(0.27));
+}
+
+TEST_CASE("a mean velocity takes a particle from where it is to where it has to be") {
+  PerParticle3 x(3, 3);
+  x << 0.7, 0.3, 0.2, -0.4, 1.6, 0.5, 0.1, 0.8, -0.9;
+  const double t = 0.6, h = 0.35;
+  const std::vector<KnownVelocity> known =
+      mean_velocities({{2, start, general_motion()}, {0, 2 * start, general_motion()}}, x, t, h);
+  REQUIRE(known.size() == 2);
+  CHECK(known[0].particle == 2);
+  CHECK(are_near(x.col(2) + h * known[0].velocity, expected_position(start, t + h - 0.4)));
+  CHECK(known[1].particle == 0);
+  CHECK(are_near(x.col(0) + h * known[1].velocity, expected_position(2 * start, t + h - 0.4)));
+}
+
+TEST_CASE("a pose turns, then shifts, and is undone in reverse") {
+  const Pose pose{rotation_by(hinge, 1.1), first_place};
+  CHECK(are_near(to_world(pose, start), turned(start, hinge, 1.1) + first_place));
+  CHECK(are_near(to_body(pose, to_world(pose, start)), start));
+  CHECK(are_near(to_body(pose, start), turned(start - first_place, hinge, -1.1)));
+  CHECK(are_near(to_world(Pose{}, start), start));
+  CHECK(Pose{}.translation == Vector3::Zero());
+}
+
+TEST_CASE("of two poses the first acts first") {
+  const Pose first{rotation_by(hinge, 1.1), first_place},
+      second{rotation_by(tilt, -0.7), second_place};
+  const Vector3 expected =
+      turned(turned(start, hinge, 1.1) + first_place, tilt, -0.7) + second_place;
+  CHECK(are_near(to_world(after(second, first), start), expected));
+}
+
+TEST_CASE("the pose of a motion takes each point where the motion takes it") {
+  for (const double time : {0.1, 0.9, 2.3}) {
+    const Pose pose = pose_at(general_motion(), time);
+    const double acted = time < 0.4 ? 0 : std::min(time, 1.7) - 0.4;
+    CHECK(are_near(to_world(pose, start), expected_position(start, acted)));
+    CHECK(are_near(to_world(pose, first_place), expected_position(first_place, acted)));
   }
 }
 
-TEST_CASE("pose: there and back, and one after the other") {
-  const Pose a{turned_by(0.8), {1, -2, 0.5}},
-      b{Eigen::Quaterniond(Eigen::AngleAxisd(-1.1, Vector3::UnitX())), {0.2, 0.3, -4}};
-  CHECK((to_body(a, to_world(a, start)) - start).norm() < 1e-14);
-  CHECK((to_world(after(b, a), start) - to_world(b, to_world(a, start))).norm() < 1e-14);
-  CHECK(to_world({}, start) == start);
+TEST_CASE("the velocity of a moved body is that of its point at the place asked for") {
+  const Vector3 x = expected_position(start, 0.5);
+  CHECK(
+      are_near(velocity_at(RigidMotion(general_motion()), x, 0.9), expected_velocity(start, 0.5)));
+  CHECK(velocity_at(RigidMotion(general_motion()), x, 1.9) == Vector3::Zero());
 }
 
-TEST_CASE("pose: keyframes are there, and their times rise") {
-  CHECK_THROWS_WITH(make_keyframes({}), Catch::Contains("at least one keyframe"));
-  CHECK(make_keyframes({{2, {}}}).keys.size() == 1);
-  for (const double last : {1.5, 1.2})
-    CHECK_THROWS_WITH(make_keyframes({{1, {}}, {1.5, {}}, {last, {}}}),
-                      Catch::Contains("keyframe 2: the times of keyframes must rise"));
-  CHECK_THROWS_WITH(make_keyframes({{1, {}}, {1, {}}, {2, {}}}), Catch::Contains("keyframe 1:"));
-  for (const Keyframe& key : three_keys().keys) CHECK(key.pose.rotation.norm() == Approx(1));
+TEST_CASE("between keyframes a body turns evenly about one axis and moves in a straight line") {
+  const Keyframes keys = three_keys();
+  const double part = (0.45 - 0.3) / (0.9 - 0.3);
+  const Vector3 expected = turned(turned(start, tilt, 0.8), hinge, part * 1.1) + first_place +
+                           part * (second_place - first_place);
+  CHECK(are_near(to_world(pose_at(keys, 0.45), start), expected));
+  const double later = (2.1 - 0.9) / (2.4 - 0.9);
+  const Vector3 wanted = turned(turned(turned(start, tilt, 0.8), hinge, 1.1), tilt, later * -0.7) +
+                         second_place + later * (third_place - second_place);
+  CHECK(are_near(to_world(pose_at(keys, 2.1), start), wanted));
+}
+
+TEST_CASE("between keyframes the velocity is that of the turn and of the line") {
+  const Keyframes keys = three_keys();
+  const auto expected = [&](double part) {
+    const Vector3 origin = first_place + part * (second_place - first_place);
+    return Vector3((1.1 / 0.6 * hinge.normalized()).cross(start - origin) +
+                   (second_place - first_place) / 0.6);
+  };
+  CHECK(are_near(velocity_at(keys, start, 0.45), expected(0.25)));
+  CHECK(are_near(velocity_at(keys, start, 0.3), expected(0)));  // that of the interval that begins
+  const Vector3 next = (-0.7 / 1.5 * tilt.normalized()).cross(start - second_place) +
+                       (third_place - second_place) / 1.5;
+  CHECK(are_near(velocity_at(keys, start, 0.9), next));
+}
+
+TEST_CASE("before the first keyframe and from the last one on a body rests") {
+  const Keyframes keys = three_keys();
+  const Vector3 first = turned(start, tilt, 0.8) + first_place,
+                last =
+                    turned(turned(turned(start, tilt, 0.8), hinge, 1.1), tilt, -0.7) + third_place;
+  CHECK(are_near(to_world(pose_at(keys, 0.1), start), first));
+  CHECK(are_near(to_world(pose_at(keys, 0.3), start), first));
+  CHECK(are_near(to_world(pose_at(keys, 2.4), start), last));
+  CHECK(are_near(to_world(pose_at(keys, 3.7), start), last));
+  for (const double time : {0.1, 2.4, 3.7})
+    CHECK(velocity_at(keys, start, time) == Vector3::Zero());
+  const Keyframes only = make_keyframes({{0.6, {rotation_by(tilt, 0.8), first_place}}});
+  for (const double time : {0.1, 0.6, 0.9}) {
+    CHECK(are_near(to_world(pose_at(only, time), start), first));
+    CHECK(velocity_at(only, start, time) == Vector3::Zero());
+  }
+}
+
+TEST_CASE("a turn between keyframes takes the short way, whichever sign its quaternions have") {
+  Keyframes keys = three_keys();
+  const Pose pose = pose_at(keys, 0.45);
+  const Vector3 velocity = velocity_at(keys, start, 0.45);
+  keys.keys[1].pose.rotation.coeffs() *= -1;
+  CHECK(are_near(to_world(pose_at(keys, 0.45), start), to_world(pose, start)));
+  CHECK(are_near(velocity_at(keys, start, 0.45), velocity));
+  // by 4.1 rad one way is by 2.18 rad the other
+  const Keyframes wide = make_keyframes(
+      {{0.3, {rotation_by(tilt, 0), first_place}}, {0.9, {rotation_by(tilt, 4.1), first_place}}});
+  CHECK(are_near(to_world(pose_at(wide, 0.45), start),
+                 turned(start, tilt, 0.25 * (4.1 - 2 * pi)) + first_place));
+}
+
+TEST_CASE("times of keyframes must rise, and the first one that does not is named") {
+  const auto keys_at = [](const std::vector<double>& times) {
+    std::vector<Keyframe> keys;
+    for (const double time : times) keys.push_back({time, {}});
+    return keys;
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  CHECK_THROWS_WITH(make_keyframes({}), "a keyframed motion needs at least one keyframe");
+  CHECK_THROWS_WITH(make_keyframes(keys_at({0.3, 0.3})),
+                    "keyframe 1: the times of keyframes must rise");
+  CHECK_THROWS_WITH(make_keyframes(keys_at({0.3, 0.2, 0.9})),
+                    "keyframe 1: the times of keyframes must rise");
+  CHECK_THROWS_WITH(make_keyframes(keys_at({0.3, 0.7, 0.5})),
+                    "keyframe 2: the times of keyframes must rise");
+  CHECK_THROWS_AS(make_keyframes(keys_at({0.3, nan})), InputError);
+  CHECK(make_keyframes(keys_at({0.3, 0.300001, 0.7})).keys.size() == 3);
+}
+
+TEST_CASE("every keyframe's rotation is normalised and its place kept") {
+  std::vector<Keyframe> keys = three_keys().keys;
+  for (Keyframe& key : keys) key.pose.rotation.coeffs() *= 3;
+  const Keyframes made = make_keyframes(keys);
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    CHECK(made.keys[i].pose.rotation.norm() == Approx(1).epsilon(1e-15));
+    CHECK(made.keys[i].pose.translation == keys[i].pose.translation);
+    CHECK(made.keys[i].time == keys[i].time);
+  }
 }
