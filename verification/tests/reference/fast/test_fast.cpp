@@ -2,6 +2,8 @@
 #include <atomic>
 #include <barrier>
 #include <catch2/catch.hpp>
+#include <chrono>
+#include <cmath>
 #include <limits>
 #include <mutex>
 #include <set>
@@ -84,6 +86,38 @@ TEST_CASE("threads: parts are on threads of their own, again and again") {
     CHECK(threads.size() == 3);
     CHECK(threads.contains(std::this_thread::get_id()));  // the caller works too
   }
+}
+
+TEST_CASE("threads: a caller that has done its part sleeps until the others have ended") {
+  std::barrier all_have_begun(2);
+  const std::thread::id caller = std::this_thread::get_id();
+  std::atomic<bool> other_ended = false;
+  in_parallel(2, [&](int) {
+    all_have_begun.arrive_and_wait();
+    if (std::this_thread::get_id() == caller) return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    other_ended = true;
+  });
+  CHECK(other_ended);
+}
+
+TEST_CASE("threads: helpers are kept for the next loop, and loops of one thread do without") {
+  static thread_local int rounds_here = 0;
+  const auto rounds_of_each = [] {
+    std::barrier all_have_begun(3);
+    std::array<int, 3> rounds{};
+    in_parallel(3, [&](int k) {
+      all_have_begun.arrive_and_wait();
+      rounds[size_t(k)] = ++rounds_here;
+    });
+    return rounds;
+  };
+  CHECK(rounds_of_each() == std::array{1, 1, 1});
+  CHECK(rounds_of_each() == std::array{2, 2, 2});
+  CHECK(ranges_of(1, 7).size() == 1);
+  CHECK(rounds_of_each() == std::array{3, 3, 3});
+  found_in_order<int>(1, 7, [](Eigen::Index, Eigen::Index, std::vector<int>&) {});
+  CHECK(rounds_of_each() == std::array{4, 4, 4});
 }
 
 TEST_CASE("threads: what the lowest part threw is thrown, after all parts have ended") {

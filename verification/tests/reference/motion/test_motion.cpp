@@ -284,6 +284,13 @@ TEST_CASE("a turn between keyframes takes the short way, whichever sign its quat
                  turned(start, tilt, 0.25 * (4.1 - 2 * pi)) + first_place));
 }
 
+TEST_CASE("half a turn between keyframes is about the axis that its quaternion gives") {
+  const Keyframes half =
+      make_keyframes({{0.3, {{1, 0, 0, 0}, first_place}}, {0.9, {{0, 0.6, 0, 0.8}, first_place}}});
+  CHECK(are_near(to_world(pose_at(half, 0.45), start),
+                 turned(start, {0.6, 0, 0.8}, pi / 4) + first_place));
+}
+
 TEST_CASE("times of keyframes must rise, and the first one that does not is named") {
   const auto keys_at = [](const std::vector<double>& times) {
     std::vector<Keyframe> keys;
