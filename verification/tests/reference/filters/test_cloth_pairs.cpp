@@ -249,6 +249,18 @@ TEST_CASE("a search of several threads is cut seven levels down and compares the
   CHECK(together.box_tests == alone.box_tests);
 }
 
+TEST_CASE("a tree that is one leaf is searched by several threads as by one") {
+  const TriangleMesh mesh = sheet(2, 1, 4);
+  ClothTree cloth = make_cloth_tree(mesh);
+  const PairSearch alone = counted_near_pairs(cloth, mesh.rest, mesh.rest, 0.7);
+  CHECK(alone.box_tests == 6);
+  CHECK(alone.pairs.size() > 3);
+  cloth.threads = 3;
+  const PairSearch together = counted_near_pairs(cloth, mesh.rest, mesh.rest, 0.7);
+  CHECK(keys_of(together.pairs) == keys_of(alone.pairs));
+  CHECK(together.box_tests == 6);
+}
+
 TEST_CASE("what did not move is not searched") {
   // four patches of four triangles, far apart in a row: leaves of their own
   PerParticle3 rest(3, 20);

@@ -126,18 +126,18 @@ TEST_CASE("degenerate features are treated as what they are: edges and points") 
 
 TEST_CASE("thin triangles and nearly parallel edges keep the accuracy of their nearest points") {
   std::mt19937 random(13);
-  for (const double thin : {1e-3, 1e-5, 1e-7, 3e-9, 3e-10, 1e-12})
+  for (const double thin : {1e-3, 1e-5, 1e-7, 2e-8, 3e-9, 3e-10, 1e-12})
     for (int k = 0; k < 40; ++k) {
       const Corners4 r = random_corners(random, 1);
       const double along = r(0, 3) + 0.3;
       const Vector3 line = r.col(2) - r.col(1);
       const Vector3 off = line.unitOrthogonal() * thin;
       check_nearest(PairKind::vertex_triangle,
-                    columns(r.col(0), r.col(1), r.col(2), r.col(1) + along * line + off), 1e-8);
+                    columns(r.col(0), r.col(1), r.col(2), r.col(1) + along * line + off), 3e-9);
       check_nearest(PairKind::edge_edge,
                     columns(r.col(1), r.col(2), r.col(0) + along * line,
                             r.col(0) + (along + 0.7) * line + off),
-                    1e-8);
+                    3e-9);
     }
 }
 
@@ -151,6 +151,15 @@ TEST_CASE("features that touch are at no distance and have no normal") {
       nearness(PairKind::edge_edge, columns({0, 0, 0}, {4, 0, 0}, {1, -1, 0}, {1, 3, 0}));
   CHECK(edges.distance == 0);
   CHECK(edges.normal == Vector3::Zero());
+}
+
+TEST_CASE("of points that are equally near, those at the first end or side stay") {
+  CHECK(
+      nearness(PairKind::edge_edge, columns({0, 0, 0}, {4, 0, 0}, {1, 0, 2}, {3, 0, 2})).weights ==
+      Eigen::Vector4d(0.75, 0.25, -1, 0));
+  CHECK(
+      nearness(PairKind::edge_edge, columns({1, 0, 2}, {3, 0, 2}, {0, 0, 0}, {4, 0, 0})).weights ==
+      Eigen::Vector4d(1, 0, -0.75, -0.25));
 }
 
 // A vertex over a triangle, or an edge over another, `height` above it and in parallel planes: one

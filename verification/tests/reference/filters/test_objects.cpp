@@ -315,3 +315,30 @@ TEST_CASE("many points are corrected in blocks, each once, on any number of thre
     CHECK(work.object_contacts == n);
   }
 }
+
+TEST_CASE("a forecast longer than the step, or a step longer than it, is not cut short") {
+  ObjectCollision filter;
+  filter.objects = {floor_at(0.125, Vector3::Zero(), 0)};
+  for (int i = 0; i < 2; ++i) {
+    CollisionPoint point;
+    point.particles[0] = i, point.count = 1, point.shares = Vector3(1, 0, 0);
+    filter.points.push_back(point);
+  }
+  State s;
+  s.x = PerParticle3(3, 2);
+  s.x.colwise() = Vector3(0.3, 0.1, 1.125);
+  PerParticle3 v(3, 2);
+  v.colwise() = Vector3(0.5, 0.3, -1);
+  filter.forecast_time = 2;  // within which both enter, in the step neither
+  Work work;
+  filter.correct(step, s, v, work);
+  for (int i = 0; i < 2; ++i) CHECK(near(v.col(i), Vector3(0.5, 0.3, -0.5)));
+
+  // a point is on the surface if it would reach it in a thousandth of the step
+  filter.response = response_named("projection");
+  filter.forecast_time = 1e-4;
+  s.x.row(2).setConstant(0.125 + 0.0003);
+  v.colwise() = Vector3(0, 0, -1);
+  filter.correct(ends, s, v, work);
+  for (int i = 0; i < 2; ++i) CHECK(near(v.col(i), Vector3::Zero()));
+}

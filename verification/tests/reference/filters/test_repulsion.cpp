@@ -91,6 +91,9 @@ TEST_CASE("a pair's impulses change its relative velocity as asked, shared by we
   v = before;
   push_apart(pair, w, change, PerParticle::Zero(5), v);
   CHECK(v == before);
+  // nor is there an impulse where the only free particle has no weight
+  push_apart(pair, {1, 0, -0.4, -0.6}, change, values({0, 0.3, 0, 9, 0}), v);
+  CHECK(v == before);
 }
 
 TEST_CASE("friction acts across the normal, up to its coefficient times the push and to rest") {

@@ -302,10 +302,25 @@ TEST_CASE("tangled cloth is pushed out a thickness in a hundredth of a second, a
     repel(near_pairs(filter.cloth, x, x, 0.03), x, filter.settings, 0.1, w, expected, 1);
     CHECK(v == expected);
   }
+  // nor are its close pairs repelled: there are some within 0.5
+  filter.settings.thickness = 0.5;
+  filter.at_start = {{0, 1}};
+  PerParticle3 pushed = start, wanted = start;
+  Work some;
+  filter.correct(ends, at_rest(x), pushed, some);
+  push_out_of_tangle({{0, 1}}, mesh.triangles, x, 50, w, wanted);
+  std::vector<FeaturePair> within = near_pairs(filter.cloth, x, x, 0.5);
+  PerParticle3 all_repelled = wanted;
+  repel(within, x, filter.settings, 0.1, w, all_repelled, 1);
+  remove_tangled_pairs({1, 1, 1, 1, 1, 1, 0, 0, 0}, within);
+  repel(within, x, filter.settings, 0.1, w, wanted, 1);
+  CHECK(pushed == wanted);
+  CHECK(pushed != all_repelled);
+  filter.settings.thickness = 0.03;
+
   // once it is out, it is kept out
   PerParticle3 apart = x;
   apart.leftCols(3).row(2).array() += 0.75;
-  filter.at_start = {{0, 1}};
   PerParticle3 v = PerParticle3::Zero(3, 9);
   v.leftCols(3).row(2).setConstant(-9);
   Work work;

@@ -347,3 +347,21 @@ TEST_CASE("springs get the first colour that is free at both ends, and stand col
   CHECK(make_strain_limiter(limits, {}, inverse_masses({1})).colours == std::vector<int>{0});
   CHECK(make_strain_limiter({}, {}, inverse_masses({1})).colours == std::vector<int>{0, 0});
 }
+
+TEST_CASE("a spring whose motion across is as long as its limit is reachable, just") {
+  const auto limiter = chain(limits_of(0.25, 0.5, 9, 1e-9), inverse_masses({0.5, 0.25}), 1);
+  PerParticle3 v = on_a_line({0, 0.5});
+  v(1, 1) = 1.25;
+  const StrainSweeps done = limit_strain(limiter, 1, on_a_line({0, 1}), v);
+  CHECK(done.unreachable == 0);
+  CHECK(v(0, 1) - v(0, 0) == Approx(-1));
+}
+
+TEST_CASE("a spring between equal masses gives half of its change to each") {
+  const auto limiter = chain(limits_of(0.25, 0.5, 9, 1e-9), inverse_masses({0.7, 0.7}), 1);
+  PerParticle3 v = on_a_line({0.5, 1.75});
+  const StrainSweeps done = limit_strain(limiter, 1, on_a_line({0, 1}), v);
+  CHECK(v(0, 0) == Approx(1));
+  CHECK(v(0, 1) == Approx(1.25));
+  CHECK(done.unreachable == 0);
+}
