@@ -59,6 +59,17 @@ ForceDifferential force_differential_at(const std::vector<Force>& forces, const 
   return differential;
 }
 
+namespace {
+
+/// The largest row over its particle's mass; NaN if any is.
+double largest_over_mass(const PerParticle& rows, const PerParticle& inverse_mass) {
+  double largest = 0;
+  for (const double one : rows.cwiseProduct(inverse_mass).eval()) update_worst(largest, one);
+  return largest;
+}
+
+}  // namespace
+
 double damping_rate_bound(const DampingOperator& damping, const PerParticle& inverse_mass) {
   PerParticle rows = PerParticle::Zero(inverse_mass.size());
   for (const PairDamper& p : damping.pairs) {
@@ -72,20 +83,8 @@ double damping_rate_bound(const DampingOperator& damping, const PerParticle& inv
   }
   for (const TargetDamper& t : damping.targets)
     add_row_sums(t.particle, t.frames, t.coefficient, rows);
-  double largest = 0;
-  for (Eigen::Index i = 0; i < rows.size(); ++i) update_worst(largest, rows[i] * inverse_mass[i]);
-  return largest;
+  return largest_over_mass(rows, inverse_mass);
 }
-
-namespace {
-
-double frequency_of(const PerParticle& rows, const PerParticle& inverse_mass) {
-  double largest = 0;
-  for (Eigen::Index i = 0; i < rows.size(); ++i) update_worst(largest, rows[i] * inverse_mass[i]);
-  return std::sqrt(largest);
-}
-
-}  // namespace
 
 PerParticle stiffness_row_bounds(const std::vector<Force>& forces, const State& s,
                                  StickingPart part) {
@@ -101,12 +100,14 @@ PerParticle stiffness_row_bounds(const std::vector<Force>& forces, const State& 
 
 double frequency_bound(const std::vector<Force>& forces, const State& s,
                        const PerParticle& inverse_mass) {
-  return frequency_of(stiffness_row_bounds(forces, s, StickingPart::all), inverse_mass);
+  return std::sqrt(
+      largest_over_mass(stiffness_row_bounds(forces, s, StickingPart::all), inverse_mass));
 }
 
 double frequency_without_sticking_springs(const std::vector<Force>& forces, const State& s,
                                           const PerParticle& inverse_mass) {
-  return frequency_of(stiffness_row_bounds(forces, s, StickingPart::without_springs), inverse_mass);
+  return std::sqrt(largest_over_mass(stiffness_row_bounds(forces, s, StickingPart::without_springs),
+                                     inverse_mass));
 }
 
 }  // namespace foldproof

@@ -35,8 +35,9 @@ void ForceDifferential::add_product(const PerParticle3& dx, PerParticle3& df) co
 
 Matrix12 negative_part(const Matrix12& matrix) {
   const SymmetricModes modes = symmetric_modes(matrix);
+  const Eigen::Index negative = (modes.values.array() < 0).count();  // the first: they ascend
   Matrix12 kept = Matrix12::Zero();
-  for (int k = 0; k < 12 && modes.values[k] < 0; ++k) {  // they ascend
+  for (Eigen::Index k = 0; k < negative; ++k) {
     const Vector12 mode = modes.vectors.col(k);
     kept += modes.values[k] * mode * mode.transpose();
   }

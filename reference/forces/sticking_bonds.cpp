@@ -90,9 +90,10 @@ void Sticking::update_bonds(State& s) const {
     bonds.insert(bonds.end(), first, first + std::ptrdiff_t(target.count));
   }
   for (size_t k = 0; k < patches.size(); ++k) {
-    if (!is_active(patches[k], s.time)) continue;
-    const PerParticle3 surface = patches[k].place ? patches[k].place(s.time) : PerParticle3();
-    add_new_bonds({patches[k], int(k), patches[k].place ? surface : s.x}, s, stuck, bonds);
+    const StickyPatch& patch = patches.at(k);
+    if (!is_active(patch, s.time)) continue;
+    const PerParticle3 surface = patch.place ? patch.place(s.time) : PerParticle3();
+    add_new_bonds({patch, int(k), patch.place ? surface : s.x}, s, stuck, bonds);
   }
   std::ranges::sort(bonds, {},
                     [](const Bond& b) { return std::tuple(b.patch, b.particle, b.triangle); });

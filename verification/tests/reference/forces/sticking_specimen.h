@@ -113,11 +113,13 @@ inline PerParticle3 forces_of(const Sticking& sticking, const State& s) {
   return f;
 }
 
-/// A state of which some targets are beyond `far`.
+/// The same, but some targets are beyond `far`: that of the third group at 1.5 times it.
 inline Sticking out_of_reach() {
   Sticking all = sticking();
+  const State s = state();
+  const Vector3 arm = target_at(all, groups[2], s.time, s.x) - s.x.col(groups[2].particle);
   all.patches[0].far = 0.3;
-  all.patches[1].far = 0.2;
+  all.patches[1].far = arm.norm() / 1.5;
   return all;
 }
 

@@ -231,11 +231,22 @@ TEST_CASE("hinges without damping have no dampers, and further ones join those t
 }
 
 TEST_CASE("hinges do the same on any number of threads, to the bit") {
-  const State s = hinge_state();
-  const PerParticle3 start = scattered(hinge_particles, 5.1);
+  // so many that forces on a particle come from the same and from another thread in turn
+  constexpr int particles = 12;
+  const State s{0, scattered(particles, 0.4), scattered(particles, 2.9)};
+  std::vector<BendingHinge> many;
+  for (int k = 0; k < 60; ++k) {
+    const auto at = [&](int shift) { return (5 * k + 1 + shift) % particles; };
+    const double angle = 3 * std::sin(k + 0.3);
+    many.push_back({{at(0), at(3 + k % 2), at(7 + k % 2), at(10 + k % 2)},
+                    0.4 + 0.01 * k,
+                    angle,
+                    std::sin(angle / 2)});
+  }
+  const PerParticle3 start = scattered(particles, 5.1);
   const auto results = [&](const BendingMaterial& material, int threads) {
-    Bending bending = five_hinges(material);
-    bending.use_threads(threads, hinge_particles);
+    Bending bending{material, many};
+    bending.use_threads(threads, particles);
     CHECK(bool(bending.sharing) == (threads > 1));
     PerParticle3 f = start, damped = start;
     PerParticle rows = start.row(0).transpose();

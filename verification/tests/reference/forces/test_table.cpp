@@ -313,16 +313,19 @@ TEST_CASE("the negative part of a matrix keeps its modes of negative eigenvalue,
 
 TEST_CASE("the bound of damping rates is the largest row sum over its mass") {
   DampingOperator damping;
-  const Vector3 along(0.3, -0.2, 0.5), other(0.1, 0.6, -0.4);
+  const Vector3 along(0.3, -0.2, 0.5), other(0.1, 0.6, -0.4), third(-0.5, 0.2, 0.7);
   *damping.add_pairs(1, {}) = {3, 1, along};
   *damping.add_pairs(1, {}) = {1, 4, other};
+  *damping.add_pairs(1, {}) = {3, 4, third};
   const Vector3 w1(0.12, -0.31, 0.07), w2(-0.22, 0.05, 0.41);
   *damping.add_hinges(1, {}) = {{2, 0, 4, 1}, 0.37, -0.24, w1, w2};
   const Vector3 w3 = -0.37 * w1 + 0.24 * w2, w4 = -0.63 * w1 - 1.24 * w2;
   const double sum = w1.norm() + w2.norm() + w3.norm() + w4.norm();
   PerParticle rows(n);
-  rows << w2.norm() * sum, 2 * along.squaredNorm() + 2 * other.squaredNorm() + w4.norm() * sum,
-      w1.norm() * sum, 2 * along.squaredNorm(), 2 * other.squaredNorm() + w3.norm() * sum;
+  const double of_along = 2 * along.squaredNorm(), of_other = 2 * other.squaredNorm(),
+               of_third = 2 * third.squaredNorm();
+  rows << w2.norm() * sum, of_along + of_other + w4.norm() * sum, w1.norm() * sum,
+      of_along + of_third, of_other + of_third + w3.norm() * sum;
   for (int i = 0; i < n; ++i)
     for (const double inverse : {0.013, 7.1})
       CHECK(damping_rate_bound(damping, one_hot(i, inverse)) ==
