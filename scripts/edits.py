@@ -83,13 +83,18 @@ def changes_of(text: str) -> list[Change]:
         )
     found.update(of_bounds(tokens))
     found.update(removals(text, tokens))
-    return sorted(change for change in found if not is_in_reserve(text, change))
+    return sorted(change for change in found if not asks_for_memory(text, change))
 
 
-def is_in_reserve(text: str, change: Change) -> bool:
-    """Is it in a call of reserve()? Results do not depend on those."""
+def asks_for_memory(text: str, change: Change) -> bool:
+    """Is it in a call of reserve(), or the number of rows of a PerParticle3, which has three rows
+    whatever the number says? Results do not depend on those."""
     line = place_of(text, change)[1]
-    return ".reserve(" in line
+    before = text[text.rfind("\n", 0, change.at) + 1:change.at]
+    is_rows = change.before == "3" and text[change.at + 1:].startswith(", ")
+    return ".reserve(" in line or (
+        is_rows and re.search(r"\bPerParticle3\b[^;]*\($", before) is not None
+    )
 
 
 def is_spaced(text: str, token: Piece) -> bool:

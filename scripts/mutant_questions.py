@@ -46,11 +46,11 @@ def seconds_by_name(plan: Plan, checks_only: bool) -> dict[str, float]:
     }
     stored, keys = FOLDER / "seconds.json", keys_of(plan)
     known = json.loads(stored.read_text(encoding="utf-8")) if stored.is_file() else {}
-    build = {kind: keys["tests" if kind == "unit tests" else "foldproof"] for kind in asked}
+    made_by = {kind: keys["tests" if kind == "unit tests" else "foldproof"] for kind in asked}
     seconds = {
         kind: known["seconds"][kind]
         for kind in asked
-        if kind in known.get("seconds", {}) and known["build"][kind] == build[kind]
+        if known.get("keys", {}).get(kind) == made_by[kind] and kind in known["seconds"]
     }
     for kind, ask in asked.items():
         if kind not in seconds and not (checks_only and kind != "checks"):
@@ -58,7 +58,7 @@ def seconds_by_name(plan: Plan, checks_only: bool) -> dict[str, float]:
             rows = sound(ask())
             prefix = TEST if kind == "unit tests" else ""
             seconds[kind] = {prefix + row["name"]: row["seconds"] for row in rows}
-            write_at_once(stored, json.dumps({"build": build, "seconds": seconds}))
+            write_at_once(stored, json.dumps({"keys": made_by, "seconds": seconds}))
     chosen = ["checks"] if checks_only else asked
     return {name: each for kind in chosen for name, each in seconds[kind].items()}
 

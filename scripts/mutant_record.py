@@ -32,7 +32,7 @@ def not_recorded(mutants: list[Mutant], rows: list[Row], commit: str) -> list[Mu
 
 
 def rows_of(room: str, judged: list[Judgement], seed: int, commit: str) -> list[Row]:
-    """What is kept of the mutants that were asked."""
+    """One row for each mutant that was asked; others are left out."""
     today = time.strftime("%Y-%m-%d", time.gmtime())
     return [
         {
@@ -55,18 +55,18 @@ def with_new(rows: list[Row], more: list[Row]) -> list[Row]:
     return rows + added
 
 
-# ---- what was asked in this tree, by whichever run -----------------------------------------------
+# ---- the log of all mutants that were asked in this tree -----------------------------------------
 
 
 def log_asked(rows: list[Row], path: Path = ASKED_LOG) -> None:
-    """A line each; runs of a campaign may do so at the same time."""
+    """Appends a line for each row; several runs of a campaign may append at once."""
     path.parent.mkdir(parents=True, exist_ok=True)
     with path.open("a", encoding="utf-8") as log:
         log.write("".join(f"{json.dumps(row, ensure_ascii=False)}\n" for row in rows))
 
 
 def read_asked(commit: str, path: Path = ASKED_LOG) -> list[Row]:
-    """All that was asked at this commit; a line that was cut off is left out."""
+    """The rows of this commit. Skips lines that a killed run left unfinished."""
     rows = []
     for line in path.read_text(encoding="utf-8").splitlines() if path.is_file() else []:
         try:

@@ -69,7 +69,7 @@ class Unit(NamedTuple):
 class Plan(NamedTuple):
     units: list[Unit]
     links: dict[str, list[str]]  # program: the command that links it, as ninja runs it in build/
-    objects: dict[str, set[str]]  # program: all that are linked
+    objects: dict[str, set[str]]  # of each program, with those of its libraries
 
 
 def run(command: list, folder: Path, clock: float | None = None) -> subprocess.CompletedProcess:
@@ -159,9 +159,9 @@ def files_of_independent() -> list[Path]:
 
 
 def key_of(plan: Plan, program: str | None = None) -> str:
-    """Changes with whatever can change an answer of the unedited programs (or of one), or of a test
-    of them: their code, but not the commit's name in it, the cases, the claims, and the scripts
-    that test the program."""
+    """A digest of the unedited programs, or of one of them, and of what their answers depend on:
+    their code without the commit's name, the cases, the claims, and the scripts that test the
+    program."""
     objects = [
         BUILD / unit.object
         for unit in plan.units
@@ -212,8 +212,8 @@ def units_made_from(plan: Plan, file: str) -> list[Unit]:
 
 
 def compile_unedited(plan: Plan, file: str) -> dict[str, list[Path]]:
-    """The objects that a mutant of this file replaces, of the unedited file, compiled as a
-    mutant's are: once after each change, whoever asks."""
+    """The objects that a mutant of this file replaces, made of the unedited file with a mutant's
+    flags. They are compiled once after each change."""
     original, objects = (ROOT / file).resolve(), {}
     for unit in units_made_from(plan, file):
         together = sources_of(unit)

@@ -140,7 +140,7 @@ def from_json(text: str, keys: dict[str, str]) -> Table:
         for file, lines in kept["reached"].items()
     }
     table = Table(kept["names"], set(kept["unknown"]), reached)
-    same = {program for program, key in keys.items() if kept["keys"].get(program) == key}
+    same = {program for program, key in keys.items() if kept.get("keys", {}).get(program) == key}
     return table if same == set(keys) else only(table, same)
 
 

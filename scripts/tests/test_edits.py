@@ -98,6 +98,10 @@ double f(const Points& x, int n, double a, double b) {
         ]
         for slip in expected:
             self.assertIn(slip, made)
+        rows = "PerParticle3 q(3, n), r(3, 2);\nstd::vector<int> s(3, 2);\n"
+        numbers = [place_of(rows, change) for change in changes_of(rows)
+                   if change.before == "3"]
+        self.assertEqual([line for line, _ in numbers], [2])
         compared = "bool operator<(A o) const { return a < o.a; }\nint k = 0;\n"
         made = {(change.kind, change.before, change.after) for change in changes_of(compared)}
         self.assertLessEqual({("operator", "<", ">"), ("number", "0", "1")}, made)

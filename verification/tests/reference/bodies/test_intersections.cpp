@@ -228,3 +228,12 @@ TEST_CASE("disagreement: signs against the majority of rays, and rays against ea
   grid.phi[4] = 0;
   CHECK(disagreement(grid, parity, -1).with_sign == std::vector<long>{0, 1, 2, 3, 6, 7, 8, 9, 17});
 }
+
+TEST_CASE("triangles of one plane intersect where only their edges cross") {
+  PerParticle3 x(3, 6);
+  x << 0, 4, 2, 0, 4, 2, 0, 0, 3, 2, 2, -1, 0, 0, 0, 0, 0, 0;
+  const std::vector<Triangle> star{{0, 1, 2}, {3, 4, 5}};
+  CHECK(self_intersections(x, star).size() == 1);
+  x.rightCols(3).row(0).array() += 4.5;
+  CHECK(self_intersections(x, star).empty());
+}

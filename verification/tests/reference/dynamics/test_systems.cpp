@@ -1,6 +1,7 @@
 // Systems, the table of integrators, histories and events.
 #include <catch2/catch.hpp>
 
+#include "reference/dynamics/system.h"
 #include "reference/dynamics/events.h"
 #include "reference/dynamics/explicit.h"
 #include "reference/dynamics/implicit.h"
@@ -349,4 +350,36 @@ TEST_CASE("a run is begun without passing events close to its start") {
   const Events begun(system, 0.3, 0.02, 0.3);
   CHECK(begun.next() == 0.31);
   CHECK(begun.last() == 0.3);
+}
+
+TEST_CASE("sticking that forecasts allows steps of twice its time, if nothing else forbids them") {
+  System system = make_system((PerParticle(3) << 0.5, 0.02, 0.3).finished());
+  State s;
+  s.x = PerParticle3(3, 3);
+  s.x << 0, 1, 2, 0, 0, 0, 0.01, 0, 0;
+  s.v = PerParticle3::Zero(3, 3);
+  const StretchSprings springs{{{1, 2, 1.0, 30.0, 0.0}}};
+  system.forces.emplace_back(springs);
+  const double of_springs = elastic_limit(system, s);
+  CHECK(widened_limit(system, s, 0.001) == 0.001);  // nothing sticks
+
+  StickyPatch patch;
+  patch.triangles = {{0, 1, 2}};
+  patch.place = [](double) {
+    return (PerParticle3(3, 3) << -1, 1, 0, -1, -1, 2, 0, 0, 0).finished();
+  };
+  patch.velocity = [](double) { return PerParticle3(PerParticle3::Zero(3, 3)); };
+  patch.particles = {0};
+  patch.stiffness = 1e7;
+  patch.near = patch.far = 0.1;
+  for (const double forecast : {0.2 * of_springs, 3 * of_springs}) {
+    patch.forecast_time = forecast;
+    system.forces = {springs, Sticking{{patch}}};
+    begin_step(system, s);
+    REQUIRE(s.bonds.size() == 1);
+    const double wanted = std::min(of_springs, 2 * forecast);
+    CHECK(elastic_limit(system, s) < 0.1 * wanted);
+    CHECK(widened_limit(system, s, elastic_limit(system, s)) == Approx(wanted).epsilon(1e-14));
+    CHECK(widened_limit(system, s, 7 * of_springs) == 7 * of_springs);
+  }
 }

@@ -365,3 +365,21 @@ TEST_CASE("a spring between equal masses gives half of its change to each") {
   CHECK(v(0, 1) == Approx(1.25));
   CHECK(done.unreachable == 0);
 }
+
+TEST_CASE("sweeps of strain limiting end at the tolerance, not below it") {
+  // the long spring is met last, and leaves the short one too long
+  const std::vector<Spring> springs{{0, 1, 0.5, 1, 0}, {1, 2, 2, 1, 0}};
+  const PerParticle3 x = (PerParticle3(3, 3) << 0, 0.5, 2.8, 0, 0, 0, 0, 0, 0).finished();
+  const PerParticle inverse_mass = (PerParticle(3) << 0, 1, 0).finished();
+  const auto limited = [&](double tolerance) {
+    StrainLimits limits;
+    limits.tolerance = tolerance;
+    PerParticle3 v = PerParticle3::Zero(3, 3);
+    return limit_strain(make_strain_limiter(limits, springs, inverse_mass), 1, x, v);
+  };
+  const StrainSweeps once = limited(1);
+  CHECK(once.sweeps == 1);
+  CHECK(once.remaining_violation == Approx(0.1));
+  CHECK(limited(once.remaining_violation).sweeps == 1);
+  CHECK(limited(std::nextafter(once.remaining_violation, 0)).sweeps > 1);
+}

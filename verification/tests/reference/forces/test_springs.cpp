@@ -305,3 +305,13 @@ TEST_CASE("springs refuse constants that are negative or no number, and lengths 
     CHECK(make_springs(mesh, {good, good, 0.3}).springs.size() == 5);
   CHECK(make_springs(mesh, {2, 2, 1e-9}).springs.size() == 5);
 }
+
+TEST_CASE("dampers are shared out as springs are if each spring has one") {
+  StretchSprings springs{{{0, 1, 1, 1, 0.1}, {1, 2, 1, 1, 0.1}}};
+  springs.use_threads(2, 3);
+  CHECK(springs.sharing);
+  CHECK(springs.damper_sharing == springs.sharing);
+  springs.springs[1].damping = 0;
+  springs.use_threads(2, 3);
+  CHECK_FALSE(springs.damper_sharing);
+}

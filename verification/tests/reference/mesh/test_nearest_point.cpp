@@ -93,3 +93,11 @@ TEST_CASE("without a nearest triangle there is none, infinitely far away") {
   CHECK(none.point == Vector3::Zero());
   CHECK(none.squared_distance == std::numeric_limits<double>::infinity());
 }
+
+TEST_CASE("what lies between two regions of a triangle belongs to its corner") {
+  const Corners3 corners{Vector3(0, 0, 0), Vector3(1, 0, 0), Vector3(0, 1, 0)};
+  CHECK(nearest_on_triangle(corners, {0, -1, 0}).feature == Feature::a);
+  CHECK(nearest_on_triangle(corners, {1, -1, 0}).feature == Feature::b);
+  CHECK(nearest_on_triangle(corners, {-1, 1, 0}).feature == Feature::c);
+  CHECK(nearest_on_triangle(corners, {0.5, -1, 0}).feature == Feature::ab);
+}

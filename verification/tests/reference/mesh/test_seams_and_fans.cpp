@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "reference/mesh/seams.h"
+#include "reference/mesh/shapes.h"
 #include "reference/mesh/split_fans.h"
 
 using namespace foldproof;
@@ -161,4 +162,11 @@ TEST_CASE("a mesh without touching fans is left as it is, with or without a file
     CHECK(split.mesh.triangles == std::vector<Triangle>{{0, 1, 2}, {2, 1, 3}});
   }
   CHECK(split_share == 1e-3);
+}
+
+TEST_CASE("seams need a distance") {
+  const TriangleMesh sheet = make_sheet({SheetPattern::one_diagonal, 1, 1, 1, 1});
+  for (const double distance : {0.0, -1.0, double(INFINITY)})
+    CHECK_THROWS_WITH(close_seams({sheet.rest, sheet.triangles, {}}, distance),
+                      Catch::Contains("seams need a distance > 0 m"));
 }

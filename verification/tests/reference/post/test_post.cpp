@@ -356,3 +356,28 @@ TEST_CASE("points that come to be held back later than others lose as many halve
   CHECK(cloth.pairs_left > 0);
   CHECK(cloth.share.maxCoeff() > 0);
 }
+
+TEST_CASE("points of a smooth cloth are held back by halves") {
+  // a ridge of wide cells over one of narrow cells, which Loop's rule rounds off less
+  const TriangleMesh lower = make_sheet({SheetPattern::alternating, 1, 0.6, 8, 5}),
+                     upper = make_sheet({SheetPattern::one_diagonal, 1, 0.6, 4, 3});
+  PerParticle3 x(3, lower.rest.cols() + upper.rest.cols());
+  x << lower.rest, upper.rest;
+  x.rightCols(upper.rest.cols()).row(2).array() += 0.015;
+  x.row(2).array() -= 0.9 * (x.row(0).array() - 0.5).abs();
+  std::vector<Triangle> triangles = lower.triangles;
+  for (const Triangle& t : upper.triangles) {
+    const int n = int(lower.rest.cols());
+    triangles.push_back({t[0] + n, t[1] + n, t[2] + n});
+  }
+  const SmoothedCloth cloth = smooth_cloth(ClothSmoother(make_triangle_mesh(x, triangles), 1), x);
+  CHECK(cloth.pairs_left == 0);
+  int between = 0;
+  for (const double share : cloth.share) {
+    int power = 0;
+    CHECK((share == 0 || std::frexp(share, &power) == 0.5));
+    between += share > 0 && share < 1;
+  }
+  CHECK(between > 0);
+  CHECK(cloth.share.maxCoeff() == 1);
+}
