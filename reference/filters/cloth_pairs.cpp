@@ -13,15 +13,9 @@ namespace {
 constexpr int triangles_per_leaf = 4;
 constexpr int levels_of_tasks = 7;  // of the tree, opened to share out a search among threads
 
-/// A vertex or an edge: one or two particles.
-struct VertexOrEdge {
+struct ParticlePair {
   int a, b;
 };
-
-bool share_a_particle(const VertexOrEdge& f, const Triangle& t) {
-  return std::find(t.begin(), t.end(), f.a) != t.end() ||
-         std::find(t.begin(), t.end(), f.b) != t.end();
-}
 
 /// Of each particle, the box over its straight way, widened by margin/2 on all sides.
 std::vector<Bounds> particle_boxes(const PerParticle3& x, const PerParticle3& end, double margin,
@@ -93,7 +87,7 @@ struct Search {
   void between_leaves(const BoxNode& a, const BoxNode& b);
   void compare(int s, int t);
   void add_vertex(int vertex, int triangle);
-  void add_edges(const VertexOrEdge& e, const VertexOrEdge& f);
+  void add_edges(const ParticlePair& e, const ParticlePair& f);
 };
 
 Boxes::Boxes(const ClothTree& of, std::vector<Bounds> particle_boxes,
@@ -191,12 +185,12 @@ void Search::compare(int s, int t) {
 void Search::add_vertex(int vertex, int triangle) {
   const Triangle& t = cloth.triangles[size_t(triangle)];
   if (!particles[size_t(vertex)].intersects(triangles[size_t(triangle)])) return;
-  if (share_a_particle({vertex, vertex}, t)) return;
+  if (std::find(t.begin(), t.end(), vertex) != t.end()) return;
   const FeaturePair pair{PairKind::vertex_triangle, {vertex, t[0], t[1], t[2]}};
   if (has_moved_particle(pair, moved)) found.push_back(pair);
 }
 
-void Search::add_edges(const VertexOrEdge& e, const VertexOrEdge& f) {
+void Search::add_edges(const ParticlePair& e, const ParticlePair& f) {
   if (e.a == f.a || e.a == f.b || e.b == f.a || e.b == f.b) return;
   const FeaturePair pair{PairKind::edge_edge, {e.a, e.b, f.a, f.b}};
   if (overlap(pair, particles) && has_moved_particle(pair, moved)) found.push_back(pair);

@@ -94,11 +94,16 @@ void read_vertex(Cursor& cursor, Contents& contents) {
   const int line = cursor.line;
   Vector3 vertex;
   int count = 0;
-  for (std::string_view word = next_word(cursor); !word.empty();
-       word = next_word(cursor), ++count) {
-    const double value = number(cursor, word);
-    if (count < 3) vertex[count] = value;
-  }
+  const auto take = [&](double& value) {
+    const std::string_view word = next_word(cursor);
+    if (word.empty()) return false;
+    value = number(cursor, word);
+    ++count;
+    return true;
+  };
+  for (double& coordinate : vertex) take(coordinate);
+  double unused = 0;
+  while (take(unused)) continue;
   if (count < 3 || count > 7)
     reject(cursor.file, line, "a vertex of " + std::to_string(count) + " numbers; write 'v x y z'");
   if (contents.vertices.size() == most_vertices)

@@ -122,11 +122,15 @@ TEST_CASE("a check that throws fails and says why; one that is not offered is no
       check_that([](const Subject&) -> Finding { throw std::runtime_error("out of cloth"); }),
       subject);
   CHECK(broken.outcome == Outcome::fails);
-  CHECK(broken.finding.note.find("out of cloth") != std::string::npos);
+  CHECK(broken.finding.note == "stopped by an error: out of cloth");
+  CHECK(broken.finding.verdict.why_bound == "it must run to its end");
+  CHECK(std::isnan(broken.finding.verdict.measured));
   const Record absent =
       run_check(check_that([](const Subject&) -> Finding { throw NotOffered{"step"}; }), subject);
   CHECK(absent.outcome == Outcome::not_applicable);
+  CHECK(absent.finding.note == "the subject does not offer step");
   CHECK(absent.finding.verdict.why_bound.empty());
+  CHECK(std::isnan(absent.finding.verdict.measured));
 }
 
 TEST_CASE("an operation that a subject lacks is reported by name") {
