@@ -24,11 +24,9 @@ Interval interval_at(const Keyframes& motion, double t) {
   return {&from, &*next, (t - from.time) / (next->time - from.time)};
 }
 
-/// The rotation from one keyframe to the next, the short way.
+/// The rotation from one keyframe to the next, the short way: Eigen's angle is at most pi.
 Eigen::AngleAxisd turn(const Keyframe& from, const Keyframe& to) {
-  Eigen::Quaterniond q = to.pose.rotation * from.pose.rotation.conjugate();
-  if (q.w() < 0) q.coeffs() = -q.coeffs();
-  return Eigen::AngleAxisd(q);
+  return Eigen::AngleAxisd(to.pose.rotation * from.pose.rotation.conjugate());
 }
 
 Pose pose_of(const Motion& motion, double t) {
