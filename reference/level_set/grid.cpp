@@ -167,9 +167,10 @@ Distance Grid::in_cell(const Vector3& p) const {
     Vector3 face = place.within;
     face[axis] = 1;  // corners of the far face, weighted as in that face
     const std::array<double, 8> across = corner_weights(face);
-    for (int corner = 0; corner < 8; ++corner)
-      result.normal[axis] +=
-          across[corner] * (corners[corner] - corners[corner & ~(1 << axis)]) / lattice.spacing;
+    for (int corner = 0; const double phi_here : corners) {
+      const double phi_before = corners[corner & ~(1 << axis)];
+      result.normal[axis] += across[corner++] * (phi_here - phi_before) / lattice.spacing;
+    }
   }
   return result;
 }

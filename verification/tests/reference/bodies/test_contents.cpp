@@ -142,6 +142,11 @@ TEST_CASE("a branch that is nobody's child is refused, though the numbers add up
   tree.part.resize(2);
   tree.phi.resize(2);
   CHECK_NOTHROW(require_valid_content(body));
+  tree.settings.depth = 1;
+  CHECK_THROWS_WITH(require_valid_content(body),
+                    Contains("its branches are deeper than its depth"));
+  tree.settings.depth = 2;
+  CHECK_NOTHROW(require_valid_content(body));
   tree.branches = {{1, 0, 1, 2}, {2, 2, 0, 1}};
   tree.part.resize(3);
   tree.phi.resize(3);

@@ -38,8 +38,8 @@ TEST_CASE("threads: a caller has one helper less than a loop has parts") {
 TEST_CASE("threads: helpers sleep between loops, and wake for the next") {
   const Ids threads = threads_of_loop(3);
   const std::clock_t before = std::clock();
-  std::this_thread::sleep_for(std::chrono::milliseconds(40));
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
   const double busy = double(std::clock() - before) / CLOCKS_PER_SEC;  // of all threads [s]
-  CHECK(busy < 0.004);
+  CHECK(busy < 0.02);
   CHECK(threads_of_loop(3) == threads);
 }

@@ -1,6 +1,7 @@
 // Strain limits: what one correction does, when sweeps end, and how springs are
 // sorted and coloured.
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <limits>
 
 #include "reference/filters/strain_limit.h"
@@ -62,6 +63,16 @@ Vector3 predicted_after_impulse(const StrainLimiter& limiter, const PerParticle3
 }
 
 }  // namespace
+
+TEST_CASE("a spring that would turn over to hardly beyond its limit is corrected to all digits") {
+  const double step = 0.125, upper = 1.5, beyond = std::ldexp(1.0, -32);  // [s, m, m]
+  const StrainLimiter limiter = chain(limits_of(0.5, 0, 1, 1e-12), inverse_masses({1, 3}), 1);
+  const PerParticle3 x = on_a_line({0, 1.25});
+  PerParticle3 v = PerParticle3::Zero(3, 2);
+  v(0, 1) = (-upper - beyond - 1.25) / step;
+  limit_strain(limiter, step, x, v);
+  CHECK(v(0, 0) == Approx(-(2 * upper + beyond) / step / 4).epsilon(1e-14));
+}
 
 TEST_CASE("limits that nobody names are the paper's tenth, in 20 sweeps to a thousandth") {
   const StrainLimits limits;
