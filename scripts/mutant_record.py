@@ -17,8 +17,8 @@ from data.mutant_record import (  # noqa: E402
     RECORD,
     Row,
     key_of_row,
+    parts_of,
     read_rows,
-    samples_of,
 )
 
 ASKED = ("killed", "SURVIVED", "equivalent")
@@ -127,8 +127,11 @@ def with_noticed(rows: list[Row], judged: list[Judgement], commit: str) -> list[
 def print_record() -> None:
     """Sample by sample, the newest last, then the survivors of all."""
     rows, explained = read_rows(), read_explained()
-    for sample in samples_of(rows, explained):
-        print(f"{sample.date}, {sample.commit[:10]}\n"
+    for title, sample in (
+        (part.title, sample) for part in parts_of(rows, explained)
+        for sample in [*part.earlier[::-1], part.newest]
+    ):
+        print(f"{title}: {sample.date}, {sample.commit[:10]}\n"
               f"{'':32}{'killed':>9}{'survived':>10}{'equivalent':>12}{'score':>22}{'open':>7}")
         for row in sample.scores:
             share = "-"

@@ -43,12 +43,25 @@ class Sample:
 
 
 @dataclass
-class MutantRecord:
-    """The record as a page shows it."""
+class Part:
+    """The samples of the method, or of what judges it."""
+    title: str
     newest: Sample
     earlier: list[Sample]  # the latest first
+
+
+@dataclass
+class MutantRecord:
+    """The record as a page shows it."""
+    parts: list[Part]
     survivors: list[Row]   # of all samples, that are not explained
     explained: list[Row]   # with the reason
+
+    @property
+    def asked(self) -> int:
+        """How many the newest samples have."""
+        scores = [part.newest.scores[-1] for part in self.parts]
+        return sum(row.killed + row.survived + row.equivalent for row in scores)
 
 
 def key_of_row(row: Row) -> Key:
@@ -74,10 +87,8 @@ def load_mutant_record(record: Path = RECORD, explained: Path = EXPLAINED) -> Mu
         said = tomllib.loads(explained.read_text(encoding="utf-8"))["mutant"]
         reasons = {(row["file"], row["line"], row["becomes"]): row["reason"] for row in said}
     with reading(record):
-        *earlier, newest = samples_of(rows, set(reasons))
         return MutantRecord(
-            newest,
-            earlier[::-1],
+            parts_of(rows, set(reasons)),
             [
                 row for row in rows
                 if row["outcome"] == "SURVIVED" and key_of_row(row) not in reasons
@@ -87,6 +98,17 @@ def load_mutant_record(record: Path = RECORD, explained: Path = EXPLAINED) -> Mu
                 if key_of_row(row) in reasons
             ],
         )
+
+
+def parts_of(rows: list[Row], explained: set[Key]) -> list[Part]:
+    """The method first; none without rows."""
+    parts = []
+    for title, is_method in (("The method", True), ("What judges it", False)):
+        of_part = [row for row in rows if row["room"].startswith("reference/") == is_method]
+        if of_part:
+            *earlier, newest = samples_of(of_part, explained)
+            parts.append(Part(title, newest, earlier[::-1]))
+    return parts
 
 
 def samples_of(rows: list[Row], explained: set[Key]) -> list[Sample]:

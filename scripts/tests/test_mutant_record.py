@@ -19,12 +19,11 @@ from mutant_record import (  # noqa: E402
     read_asked,
     read_rows,
     rows_of,
-    samples_of,
     with_new,
     with_noticed,
     write_record,
 )
-from data.mutant_record import score_interval  # noqa: E402
+from data.mutant_record import parts_of, samples_of, score_interval  # noqa: E402
 from mutant_trials import Judgement, Mutant  # noqa: E402
 
 
@@ -62,6 +61,19 @@ class Record(unittest.TestCase):
         rows += rows_of("reference", [Judgement(mutant("x"), "killed", "", "check.x")], 1, "c2")
         found = [(one.commit, one.scores[-1].killed) for one in samples_of(rows[::-1], set())]
         self.assertEqual(found, [("c1", 0), ("c2", 1)])
+
+    def test_the_method_and_what_judges_it_have_samples_of_their_own(self) -> None:
+        rows = []
+        for room, commit in (("reference/x", "c1"), ("verification/y", "c2"),
+                             ("convergence/order.cpp", "c2"), ("reference/x", "c3")):
+            rows += rows_of(room, [Judgement(mutant(room), "killed", "", "check.x")], 1, commit)
+        method, judges = parts_of(rows, set())
+        found = [(part.newest.commit, [one.commit for one in part.earlier])
+                 for part in (method, judges)]
+        self.assertEqual(found, [("c3", ["c1"]), ("c2", [])])
+        self.assertEqual([row.room for row in judges.newest.scores],
+                         ["convergence/order.cpp", "verification/y", "all"])
+        self.assertEqual([part.title for part in parts_of(rows[1:3], set())], ["What judges it"])
 
     def test_what_a_campaign_asked_is_read_again_but_for_a_torn_line(self) -> None:
         row = rows_of("reference", [Judgement(mutant("x"), "killed", "", "check.x")], 1, "c1")
