@@ -13,13 +13,13 @@ import math
 import os
 import re
 import shlex
-import signal
 import subprocess
 import threading
-import time
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 from typing import Any, NamedTuple
+
+from clocked import run
 
 ROOT = Path(__file__).resolve().parent.parent
 BUILD = ROOT / "build"
@@ -42,7 +42,6 @@ PYTHON_TESTS = {
     "IndependentTest": ROOT / "verification/independent/test_independent.py",
 }
 APART_FOLDER = BUILD / "faults" / "apart"
-BUSY_TRIES, NOT_EXECUTED = 25, 126  # exit code of prlimit
 CLOCK = 240  # s: how long the processor may take for a mutant
 
 
@@ -70,24 +69,6 @@ class Plan(NamedTuple):
     units: list[Unit]
     links: dict[str, list[str]]  # program: the command that links it, as ninja runs it in build/
     objects: dict[str, set[str]]  # of each program, with those of its libraries
-
-
-def run(command: list, folder: Path, clock: float | None = None) -> subprocess.CompletedProcess:
-    """`clock` [s] is of each process's own processor time, so that it says the same on a busy
-    machine; one that only sleeps has ten times as long. Raises TimeoutExpired."""
-    if clock is not None:
-        most = math.ceil(clock)
-        command = ["prlimit", f"--cpu={most}:{most + 5}", "--", *command]
-    text = {"capture_output": True, "text": True, "errors": "replace"}
-    latest = None if clock is None else 10 * clock
-    for _ in range(BUSY_TRIES):
-        ran = subprocess.run(command, cwd=folder, stdin=subprocess.DEVNULL, timeout=latest, **text)
-        if clock is None or ran.returncode != NOT_EXECUTED:
-            break
-        time.sleep(0.2)  # a process of another thread still has the linked file open for writing
-    if ran.returncode == -signal.SIGXCPU:
-        raise subprocess.TimeoutExpired(command, clock)
-    return ran
 
 
 def clean_commit(record: Path) -> str:

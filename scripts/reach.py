@@ -27,6 +27,7 @@ from collections.abc import Iterator, Set
 from pathlib import Path
 from typing import NamedTuple
 
+from clocked import run
 from cpp_pieces import CODE, pieces_of
 from mutant_questions import (
     FOLDER,
@@ -37,7 +38,7 @@ from mutant_questions import (
     does_not_hold,
     faults_listed,
 )
-from mutants import ROOT, Plan, Unusable, findings, keys_of, run, unit_tests, write_at_once
+from mutants import ROOT, Plan, Unusable, findings, keys_of, unit_tests, write_at_once
 from occurrences import occurrences
 
 BUILD = ROOT / "build-reach"

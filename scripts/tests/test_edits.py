@@ -6,15 +6,17 @@ import subprocess
 import sys
 import tempfile
 import threading
+import time
 import unittest
 from pathlib import Path
+from unittest import mock
 
 sys.dont_write_bytecode = True
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from edits import apply, changes_of, place_of, sample, tokens_of  # noqa: E402
 from mutant_trials import sample_of  # noqa: E402
-from mutants import run  # noqa: E402
+from clocked import run  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[2]
 KERNEL = (ROOT / "reference/forces/springs.cpp").read_text(encoding="utf-8")
@@ -130,8 +132,14 @@ double f(const Points& x, int n, double a, double b) {
         run(["sleep", "1.5"], ROOT, 1)
         with self.assertRaises(subprocess.TimeoutExpired):
             run([sys.executable, "-c", "while True: pass"], ROOT, 1)
-        with self.assertRaises(subprocess.TimeoutExpired):
-            run(["sleep", "60"], ROOT, 0.1)
+
+    def test_what_stands_still_is_ended_with_all_that_it_started(self) -> None:
+        start = time.monotonic()
+        with mock.patch.multiple("clocked", LOOK=0.2, STILL=1.0):
+            with self.assertRaises(subprocess.TimeoutExpired):
+                run(["sh", "-c", "sleep 60; true"], ROOT, 100)
+            run(["sh", "-c", "sleep 0.7; seq 10000000 > /dev/null; sleep 0.7"], ROOT, 100)
+        self.assertLess(time.monotonic() - start, 30)
 
     def test_a_program_that_is_still_written_to_is_waited_for(self) -> None:
         with tempfile.TemporaryDirectory() as folder:
