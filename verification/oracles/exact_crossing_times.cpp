@@ -148,7 +148,7 @@ Motion exact_motion(const FourPoints& start, const FourPoints& displacement) {
 
 // x = start + t end way; end = whole / 2^halvings
 Motion until(const Motion& motion, double end) {
-  const int exponent = std::min(common_exponent({Vector3(end, 0, 0)}), 0);
+  const int exponent = common_exponent({Vector3(end, 0, 0)});
   const Whole numerator = whole(end, exponent), denominator = Whole(1) << unsigned(-exponent);
   Motion shorter;
   for (std::size_t i = 0; i < 4; ++i) {

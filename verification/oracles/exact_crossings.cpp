@@ -92,11 +92,11 @@ bool segments_meet(const Vector3& p, const Vector3& q, const Vector3& a, const V
   return meet(Features::edge_and_edge, four(p, q, a, b));
 }
 
-/// All in one plane, or on a line.
+/// All in one plane, or on a line. A segment whose ends lie outside crosses two sides, if any.
 bool flat_ones_meet(const Pair& pair) {
   const auto& [p, q, t, is_shared] = pair;
   return is_in_triangle(p, t) || is_in_triangle(q, t) || segments_meet(p, q, t[0], t[1]) ||
-         segments_meet(p, q, t[1], t[2]) || segments_meet(p, q, t[2], t[0]);
+         segments_meet(p, q, t[1], t[2]);
 }
 
 /// Without a particle in common.

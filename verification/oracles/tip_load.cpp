@@ -21,11 +21,12 @@ struct Elliptic {
   long double first, second;  // K(k) - F(phi, k), E(k) - E(phi, k)
 };
 
-/// The slope of the tip is pi/2 - 2 eta. Then k = cos(eta), and 1 - k^2 = sin(eta)^2. In extended
-/// precision: the library's integrals are good to a thousand roundings only.
+/// The slope of the tip is pi/2 - 2 eta, eta <= pi/4. Then k = cos(eta), and 1 - k^2 = sin(eta)^2.
+/// In extended precision: the library's integrals are good to a thousand roundings only. There the
+/// double that is nearest to pi/4 is below it, so 1/(k sqrt 2) < 1.
 Elliptic elliptic(double eta) {
   const long double k = std::cos((long double)eta);
-  const long double phi = std::asin(std::min(1.0L, 1 / (k * std::numbers::sqrt2_v<long double>)));
+  const long double phi = std::asin(1 / (k * std::numbers::sqrt2_v<long double>));
   return {std::comp_ellint_1(k) - std::ellint_1(k, phi),
           std::comp_ellint_2(k) - std::ellint_2(k, phi)};
 }
@@ -67,7 +68,10 @@ LoadedTip tip_load_by_shooting(double alpha) {
   const auto miss = [alpha](double curvature) { return shoot(alpha, curvature).values[0][1]; };
   // theta'(0)^2 = 2 alpha sin(theta(1)) < 2 alpha, and theta'(0) < alpha
   const double most = std::min(alpha, std::sqrt(2 * alpha) * (1 - 1e-9));
-  const Estimate curvature = bracketed_root(miss, 0, most, 1e-14);
+  // a little below the wanted curvature the tip curls back; far below, it swings to and fro
+  double least = most;
+  while (miss(least) > 0) least *= 0.995;
+  const Estimate curvature = bracketed_root(miss, least, most, 1e-14);
   const ReferenceSolution hit = shoot(alpha, curvature.value);
   // a tip moves less than 10 times that
   const double off = 10 * (curvature.uncertainty + hit.uncertainty[0]);
