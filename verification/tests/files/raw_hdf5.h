@@ -2,11 +2,7 @@
 // made that they would never write.
 #pragma once
 
-#if __has_include(<hdf5.h>)
 #include <hdf5.h>
-#else
-#include <hdf5/serial/hdf5.h>
-#endif
 
 #include <sys/resource.h>
 
