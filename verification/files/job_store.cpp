@@ -36,10 +36,15 @@ json json_of(const std::string& key, const JobResult& result) {
           {"host", result.host},   {"date", result.date},           {"commit", result.commit}};
 }
 
+/// Thrown for a line that claims to be a result, and is none.
+struct NoResult : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 JobEnd end_named(const std::string& name) {
   for (const JobEnd end : job_ends())
     if (name == name_of(end)) return end;
-  throw std::runtime_error("'" + name + "' is no end of a job");
+  throw NoResult("'" + name + "' is no end of a job");
 }
 
 JobResult result_of(const json& content) {
@@ -49,6 +54,18 @@ JobResult result_of(const json& content) {
   result.digest = content.at("digest").get<std::string>();
   for (const auto& [name, value] : content.at("values").items())
     result.values[name] = value.is_null() ? not_a_number : value.get<double>();
+  return result;
+}
+
+/// All that the index keeps of a result's line.
+JobResult result_of_line(const json& record) {
+  JobResult result = result_of(record.at("content"));
+  result.seconds = record.value("seconds", 0.0);
+  result.bytes = record.value("bytes", 0L);
+  result.kept = record.value("kept", "");
+  result.host = record.value("host", "");
+  result.date = record.value("date", "");
+  result.commit = record.value("commit", "");
   return result;
 }
 
@@ -134,8 +151,8 @@ std::vector<std::pair<std::string, std::string>> shards_in(const std::string& ba
 }  // namespace
 
 struct JobIndex::Row {
-  std::string key;
-  json record;
+  std::string key, content;
+  JobResult result;
 };
 
 JobIndex::JobIndex(const std::string& store) : store_(store) {
@@ -145,7 +162,7 @@ JobIndex::JobIndex(const std::string& store) : store_(store) {
   try {
     open();
   } catch (const std::runtime_error&) {  // whatever it is, the shards have all that it had
-    find_.reset(), contains_.reset(), database_.reset();
+    database_.reset();
     for (const char* end : {"", "-journal"}) fs::remove(store_ + "/index.sqlite" + end);
     open();
   }
@@ -169,14 +186,13 @@ void JobIndex::open() {
   SqliteQuery version = database_->query("select version from layout");
   if (!version.next() || version.whole(0) != layout)
     throw std::runtime_error(store_ + "/index.sqlite: of another layout");
-  version.reset();
   find_ = database_->query(
       "select content, seconds, bytes, kept, host, date, program from results where key = ?");
   contains_ = database_->query("select 1 from results where key = ?");
 }
 
 void JobIndex::add_line(const std::string& line, const std::string& shard, std::vector<Row>& rows) {
-  json record = json::parse(line, nullptr, false);
+  const json record = json::parse(line, nullptr, false);
   try {
     if (record.contains("start")) {
       database_->query("insert or ignore into open_starts values(?, ?)")
@@ -192,14 +208,14 @@ void JobIndex::add_line(const std::string& line, const std::string& shard, std::
     } else {
       const bool is_result = record.contains("result");
       const auto key = record.at(is_result ? "result" : "interrupted").get<std::string>();
-      if (is_result) result_of(record.at("content"));  // or it is none
+      if (is_result) rows.push_back({key, line_text(record.at("content")), result_of_line(record)});
       database_->query("delete from open_starts where shard = ? and key = ?")
           .bind(shard)
           .bind(key)
           .run();
-      if (is_result) rows.push_back({key, std::move(record)});
     }
   } catch (const json::exception&) {  // torn by a full disk, or none of ours
+  } catch (const NoResult&) {         // of another version
   }
 }
 
@@ -209,24 +225,21 @@ long JobIndex::insert(std::vector<Row>& rows, const std::string& shard) {
       "insert into results values(?, ?, ?, ?, ?, ?, ?, ?, ?) on conflict(key) do nothing");
   long added = 0;
   for (const Row& row : rows) {
-    const json& content = row.record.at("content");
-    const std::string text = line_text(content);
-    add.bind(row.key).bind(text).bind(content.at("end").get<std::string>());
-    add.bind(row.record.value("seconds", 0.0)).bind(row.record.value("bytes", 0L));
-    for (const char* name : {"kept", "host", "date", "commit"})
-      add.bind(row.record.value(name, ""));
-    add.run();
+    const JobResult& result = row.result;
+    add.bind(row.key).bind(row.content).bind(name_of(result.end));
+    add.bind(result.seconds).bind(result.bytes);
+    add.bind(result.kept).bind(result.host).bind(result.date).bind(result.commit).run();
     if (database_->changes() > 0) {
       ++added;
       continue;
     }
     database_->query("insert or ignore into repeated values(?, ?)").bind(row.key).bind(shard).run();
     SqliteQuery first = database_->query("select content from results where key = ?");
-    if (first.bind(row.key).next() && first.text(0) != text)
+    if (first.bind(row.key).next() && first.text(0) != row.content)
       database_->query("insert or ignore into conflicts values(?, ?, ?)")
           .bind(row.key)
           .bind(shard)
-          .bind(text)
+          .bind(row.content)
           .run();
   }
   rows.clear();
@@ -236,9 +249,8 @@ long JobIndex::insert(std::vector<Row>& rows, const std::string& shard) {
 long JobIndex::merge_shard(const std::string& path, const std::string& name) {
   SqliteQuery known = database_->query("select bytes from shards where name = ?");
   const long read = known.bind(name).next() ? known.whole(0) : 0;
-  known.reset();
-  std::error_code unreadable;
-  if (long(fs::file_size(path, unreadable)) <= read || unreadable) return 0;
+  std::error_code unreadable;  // its size is then -1
+  if (long(fs::file_size(path, unreadable)) <= read) return 0;
   std::vector<Row> rows;
   long added = 0;
   const auto end = read_whole_lines(path, std::uint64_t(read), [&](const std::string& line) {
