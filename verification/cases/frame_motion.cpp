@@ -31,16 +31,10 @@ std::vector<Nearest> nearest_of_free_vertices(const FrameMotion& motion, const T
   return all;
 }
 
-double depth_at_start(const FrameMotion& motion) {
-  const Scene& scene = motion.of.scene;
-  if (motion.built.objects.empty()) return 0;
-  return depth_in(motion, {"", 0, scene.x, scene.mesh.triangles});
-}
-
 /// Corrections of a start that breaks a constraint do work.
 void require_sound_start(const FrameMotion& motion) {
   const Scene& scene = motion.of.scene;
-  if (depth_at_start(motion) > usual_particle_depth(scene))
+  if (depth_in(motion, {"", 0, scene.x, scene.mesh.triangles}) > usual_particle_depth(scene))
     throw NotOffered{"a closed budget: the cloth starts inside an object"};
   if (crossings_in({"", 0, scene.x, scene.mesh.triangles}) > 0)
     throw NotOffered{"a closed budget: the cloth starts crossed"};
@@ -77,6 +71,7 @@ double crossings_in(const TimedMesh& frame) {
 }
 
 double depth_in(const FrameMotion& motion, const TimedMesh& frame) {
+  if (!frame.x.allFinite()) return nan;
   Worst worst;
   for (const Nearest& nearest : nearest_of_free_vertices(motion, frame))
     if (!nearest.pinched()) worst.observe(-nearest.first.phi);
@@ -84,11 +79,10 @@ double depth_in(const FrameMotion& motion, const TimedMesh& frame) {
 }
 
 double clearance_in(const FrameMotion& motion, const TimedMesh& frame) {
+  if (!frame.x.allFinite()) return nan;
   double smallest = std::numeric_limits<double>::infinity();
-  for (const Nearest& nearest : nearest_of_free_vertices(motion, frame)) {
-    if (std::isnan(nearest.first.phi)) return nan;
+  for (const Nearest& nearest : nearest_of_free_vertices(motion, frame))
     smallest = std::min(smallest, nearest.first.phi);
-  }
   return smallest;
 }
 

@@ -30,7 +30,7 @@ FrameMotion motion_of(const Case& of, const BuiltScene& built, std::span<const T
 double crossings_in(const TimedMesh& frame);
 
 /// Depth of the deepest vertex inside an object [m]; prescribed vertices, and those between two
-/// objects, do not count.
+/// objects, do not count. NaN if a position is not finite.
 double depth_in(const FrameMotion& motion, const TimedMesh& frame);
 
 /// Distance of the nearest free vertex from an object, negative inside [m]; infinite without
