@@ -10,19 +10,22 @@ import time
 from pathlib import Path
 
 BUSY_TRIES, NOT_EXECUTED = 25, 126  # exit code of prlimit
+LARGEST_FILE = 2_000_000_000  # bytes
 LOOK, STILL = 5.0, 30.0  # s: how often a process is looked at; how long it may use no processor
 
 
 def run(command: list, folder: Path, clock: float | None = None) -> subprocess.CompletedProcess:
     """`clock` [s] is of each process's own processor time, so that it says the same on a busy
-    machine. One that stands still, with all that it started, has 30 s. Raises TimeoutExpired."""
+    machine. One that stands still, with all that it started, has 30 s; one that writes 2 GB into a
+    file dies of it. Raises TimeoutExpired."""
     if clock is None:
         return subprocess.run(
             command, cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, text=True,
             errors="replace"
         )
     most = math.ceil(clock)
-    limited = ["prlimit", f"--cpu={most}:{most + 5}", "--", *command]
+    limits = [f"--cpu={most}:{most + 5}", f"--fsize={LARGEST_FILE}"]
+    limited = ["prlimit", *limits, "--", *command]
     for _ in range(BUSY_TRIES):
         ran = run_until_still(limited, folder)
         if ran.returncode != NOT_EXECUTED:

@@ -2,11 +2,7 @@
 #pragma once
 
 #include <fmt/format.h>
-#if __has_include(<hdf5.h>)
 #include <hdf5.h>
-#else
-#include <hdf5/serial/hdf5.h>
-#endif
 
 #include <functional>
 #include <map>

@@ -1,6 +1,5 @@
 // Files that are complete or absent, and the reader that a damaged file cannot crash.
 #include <fcntl.h>
-#include <pthread.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/time.h>
