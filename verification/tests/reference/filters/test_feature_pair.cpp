@@ -56,6 +56,13 @@ TEST_CASE("the corners of a pair are the columns of its particles") {
   CHECK(corners_of({PairKind::edge_edge, {3, 0, 4, 2}}, of) == expected);
 }
 
+TEST_CASE("an edge without length is touched at its first end") {
+  const Vector3 from(0.3, 1.2, -0.7), along(1.1, -0.4, 0.9), point = from - 0.5 * along;
+  const Nearness at = nearness(PairKind::edge_edge, columns(from, from + along, point, point));
+  CHECK(at.weights == Eigen::Vector4d(1, 0, -1, 0));
+  CHECK(at.distance == Approx(0.5 * along.norm()));
+}
+
 TEST_CASE("nearest points of random features are where no corner lies beyond them") {
   std::mt19937 random(71);
   for (int k = 0; k < 300; ++k) check_both(random_corners(random, 1.3));
