@@ -30,6 +30,7 @@ TEST_CASE("a verdict holds, fails, or cannot be decided") {
   CHECK(outcome_of({1.5, 2.0, 0.5, "1", ""}) == Outcome::holds);
   CHECK(outcome_of({1.75, 2.0, 0.5, "1", ""}) == Outcome::inconclusive);
   CHECK(outcome_of({2.25, 2.0, 0.5, "1", ""}) == Outcome::inconclusive);
+  CHECK(outcome_of({2.5, 2.0, 0.5, "1", ""}) == Outcome::inconclusive);
   CHECK(outcome_of({2.75, 2.0, 0.5, "1", ""}) == Outcome::fails);
 }
 
