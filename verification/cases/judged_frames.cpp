@@ -69,11 +69,11 @@ std::vector<Record> judge_laws(const FrameMotion& motion) {
   return records;
 }
 
-/// Energies alone: of the rest no expectation of frames is asked.
+/// Energies alone: of momenta no expectation of frames is asked, and none could hold.
 Diagnostics diagnostics_of(const FrameMotion& motion, const State& state) {
   Diagnostics row;
   row.energy = energies(motion.built.system, state);
-  row.linear_momentum = row.angular_momentum = Vector3::Zero();
+  row.linear_momentum = row.angular_momentum = Vector3::Constant(nan);
   return row;
 }
 

@@ -6,22 +6,14 @@
 #include "reference/mesh/shapes.h"
 #include "verification/cases/judge.h"
 #include "verification/specimens/scratch_folder.h"
+#include "verification/tests/cases/small_sheet.h"
 
 using namespace foldproof;
 using Catch::Matchers::Contains;
 
 namespace {
 
-const std::string sheet = R"([cloth]
-shape = "sheet"
-width = 0.3
-height = 0.2
-columns = 3
-rows = 2
-density = 0.2
-[stretch]
-stiffness = 40
-[gravity]
+const std::string sheet = small_sheet + R"([gravity]
 [time]
 end = 0.05
 frames_per_second = 100

@@ -5,6 +5,7 @@
 
 #include "verification/cases/expectations.h"
 #include "verification/specimens/scratch_folder.h"
+#include "verification/tests/cases/small_sheet.h"
 
 namespace foldproof {
 
@@ -17,16 +18,7 @@ constexpr double density = 0.2, mass = density * area;              // kg/m^2, k
 constexpr double g = 9.5;                                           // m/s^2
 
 /// Particles 0 .. 11, four in a row along x, rows along y; the object's inside is x < -0.05.
-const std::string sheet = R"([cloth]
-shape = "sheet"
-width = 0.3
-height = 0.2
-columns = 3
-rows = 2
-density = 0.2
-[stretch]
-stiffness = 40
-[gravity]
+const std::string sheet = small_sheet + R"([gravity]
 acceleration = [0, -9.5, 0]
 [time]
 end = 0.05

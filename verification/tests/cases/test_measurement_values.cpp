@@ -7,21 +7,13 @@
 #include "reference/bodies/level_set_provider.h"
 #include "verification/cases/expectations.h"
 #include "verification/specimens/scratch_folder.h"
+#include "verification/tests/cases/small_sheet.h"
 
 using namespace foldproof;
 
 namespace {
 
-const std::string sheet = R"([cloth]
-shape = "sheet"
-width = 0.3
-height = 0.2
-columns = 3
-rows = 2
-grading = 2.5
-density = 0.2
-[stretch]
-stiffness = 40
+const std::string sheet = small_sheet + R"(grading = 2.5
 [bending]
 stiffness = 0.01
 [gravity]

@@ -4,21 +4,13 @@
 #include "verification/cases/expectations.h"
 #include "verification/cases/quantities.h"
 #include "verification/specimens/scratch_folder.h"
+#include "verification/tests/cases/small_sheet.h"
 
 using namespace foldproof;
 
 namespace {
 
-const std::string sheet = R"([cloth]
-shape = "sheet"
-width = 0.3
-height = 0.2
-columns = 3
-rows = 2
-density = 0.2
-[stretch]
-stiffness = 40
-[time]
+const std::string sheet = small_sheet + R"([time]
 end = 0.05
 frames_per_second = 100
 )";

@@ -18,6 +18,7 @@
 #include "verification/files/atomic_file.h"
 #include "verification/files/isolated_reader.h"
 #include "verification/specimens/scratch_folder.h"
+#include "verification/tests/files/small_files.h"
 
 namespace foldproof {
 
@@ -42,26 +43,6 @@ std::string refusal(const std::string& path, const std::string& why) {
   return path + ": cannot be written (" + why +
          "); are its folder and the space left as they should be?";
 }
-
-/// While it lives, no file grows beyond so many bytes.
-class SmallFiles {
- public:
-  explicit SmallFiles(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-    getrlimit(RLIMIT_FSIZE, &before_);
-    const struct rlimit limit = {bytes, before_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~SmallFiles() {
-    setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, handler_);
-  }
-  SmallFiles(const SmallFiles&) = delete;
-  SmallFiles& operator=(const SmallFiles&) = delete;
-
- private:
-  struct rlimit before_ = {};
-  void (*handler_)(int);
-};
 
 rlim_t limit_of(decltype(RLIMIT_CPU) what) {
   struct rlimit now = {};

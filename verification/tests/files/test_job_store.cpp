@@ -11,6 +11,7 @@
 #include "reference/types.h"
 #include "verification/files/job_store.h"
 #include "verification/specimens/scratch_folder.h"
+#include "verification/tests/files/small_files.h"
 
 namespace foldproof {
 
@@ -32,27 +33,6 @@ JobResult job_specimen() {
 std::string shard_path(const ScratchFolder& scratch, const std::string& name) {
   return scratch.file("store/batches/batch/shards/0007/" + name + ".jsonl");
 }
-
-/// While it lives, no file grows beyond so many bytes.
-class SmallFiles {
- public:
-  explicit SmallFiles(rlim_t bytes) {
-    getrlimit(RLIMIT_FSIZE, &before_);
-    const struct rlimit limit = {bytes, before_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &limit);
-    handler_ = std::signal(SIGXFSZ, SIG_IGN);
-  }
-  ~SmallFiles() {
-    setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, handler_);
-  }
-  SmallFiles(const SmallFiles&) = delete;
-  SmallFiles& operator=(const SmallFiles&) = delete;
-
- private:
-  struct rlimit before_ = {};
-  void (*handler_)(int) = nullptr;
-};
 
 void append_text(const std::string& path, const std::string& text) {
   std::ofstream(path, std::ios::app) << text;

@@ -12,6 +12,7 @@
 #include "verification/oracles/scalars.h"
 #include "verification/oracles/stability.h"
 #include "verification/oracles/tip_load.h"
+#include "verification/tests/complaint.h"
 
 using namespace foldproof;
 using namespace foldproof::oracles;
@@ -20,16 +21,6 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 const Oscillator good{37.3, 2.9, .7, -1.3};
-
-template <class Call>
-std::string complaint(const Call& call) {
-  try {
-    call();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
 
 std::string solutions(const std::string& what) { return "oracle exact_solutions: " + what; }
 std::string stability(const std::string& what) { return "oracle stability: " + what; }

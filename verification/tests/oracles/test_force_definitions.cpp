@@ -8,6 +8,7 @@
 #include "verification/oracles/definitions.h"
 #include "verification/oracles/force_derivatives.h"
 #include "verification/oracles/scalars.h"
+#include "verification/tests/complaint.h"
 #include "verification/tests/hinge_specimens.h"
 
 using namespace foldproof;
@@ -22,16 +23,6 @@ double largest(const std::array<Vector3, std::size_t(N)>& p) {
   double most = 0;
   for (const Vector3& v : p) most = std::max(most, v.cwiseAbs().maxCoeff());
   return most;
-}
-
-template <class Call>
-std::string complaint(const Call& call) {
-  try {
-    call();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
 }
 
 std::string must(const std::string& what) { return "oracle definitions: " + what; }

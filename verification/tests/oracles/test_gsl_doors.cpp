@@ -7,6 +7,7 @@
 
 #include "reference/types.h"
 #include "verification/oracles/gsl.h"
+#include "verification/tests/complaint.h"
 
 using namespace foldproof;
 using namespace foldproof::oracles;
@@ -14,16 +15,6 @@ using namespace foldproof::oracles;
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-template <class Call>
-std::string complaint(const Call& call) {
-  try {
-    call();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
 
 std::string gsl(const std::string& what) { return "oracle gsl: " + what; }
 

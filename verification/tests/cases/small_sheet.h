@@ -1,0 +1,20 @@
+// The cloth of small cases, to which each test adds its keys and tables.
+#pragma once
+
+#include <string>
+
+namespace foldproof {
+
+/// 12 particles, four in a row along x, rows along y: 0.3 m x 0.2 m, 0.2 kg/m^2, 40 N/m.
+inline const std::string small_sheet = R"([stretch]
+stiffness = 40
+[cloth]
+shape = "sheet"
+width = 0.3
+height = 0.2
+columns = 3
+rows = 2
+density = 0.2
+)";
+
+}  // namespace foldproof
