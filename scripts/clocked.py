@@ -15,9 +15,9 @@ LOOK, STILL = 5.0, 30.0  # s: how often a process is looked at; how long it may 
 
 
 def run(command: list, folder: Path, clock: float | None = None) -> subprocess.CompletedProcess:
-    """`clock` [s] is of each process's own processor time, so that it says the same on a busy
-    machine. One that stands still, with all that it started, has 30 s; one that writes 2 GB into a
-    file dies of it. Raises TimeoutExpired."""
+    """`clock` [s] limits the processor time of each process, so that a busy machine changes nothing.
+    A command is also stopped when neither it nor its children use the processor for 30 s, and
+    killed when it writes a file of 2 GB. Raises TimeoutExpired."""
     if clock is None:
         return subprocess.run(
             command, cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, text=True,
@@ -59,7 +59,7 @@ def run_until_still(command: list, folder: Path) -> subprocess.CompletedProcess:
 
 
 def processor_time(session: int) -> float:
-    """Of all processes of a session that live, and of those that they waited for [s]."""
+    """Of all live processes of a POSIX session, and of the children that they waited for [s]."""
     ticks = 0
     for file in Path("/proc").glob("[0-9]*/stat"):
         try:

@@ -128,7 +128,7 @@ TEST_CASE("quantities of shape: folds all to one side are far from the other") {
   CHECK(value("folds_back_to", scene, start_state(scene)) == exactly(-angle));
 }
 
-TEST_CASE("quantities of place: speeds, turning rate and ways of the mean") {
+TEST_CASE("quantities of place: speeds, turning rate and path lengths of the mean") {
   const Scene scene = scene_of_everything();
   const PerParticle mass = lumped_masses(scene.mesh, 0.23);
   for (unsigned seed = 1; seed < 6; ++seed) {

@@ -193,7 +193,7 @@ TEST_CASE("atomic file: only a file, or nothing, can be replaced") {
                       other + ": cannot be written: what is there is no file");
 }
 
-TEST_CASE("isolated reader: what the reader says is told, and how it ended") {
+TEST_CASE("isolated reader: it reports what the reader says, and how the reader ended") {
   const ScratchFolder scratch;
   const std::string path = scratch.write("a", "text");
   CHECK(failure_in_isolation(path, [] { return true; }) == "");

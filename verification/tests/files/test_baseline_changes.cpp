@@ -90,7 +90,7 @@ TEST_CASE("baseline changes: without a bound above zero the numbers themselves a
   CHECK(change_of_failure(3, 0.5, 6, 0) == '-');
 }
 
-TEST_CASE("baseline changes: each is told with what it is and what it was") {
+TEST_CASE("baseline changes: each is reported with its new and its old value") {
   const BaselineChanges all =
       changes({{"worse", "holds", 0.25, 2},
                {"better", "fails", 9, 4},
@@ -114,7 +114,7 @@ TEST_CASE("baseline changes: each is told with what it is and what it was") {
   CHECK(all.looser.empty());
 }
 
-TEST_CASE("baseline changes: of a declaration all that is less is told") {
+TEST_CASE("baseline changes: each reduced declaration is reported") {
   RunRecord run;
   const auto against = [&](const std::optional<Declared>& kept, const Declared& now) {
     run.declared = now;

@@ -291,7 +291,7 @@ TEST_CASE("hdf5: what was flushed lies in the file, though it is still open") {
   CHECK(Hdf5::open_file(copy).read_doubles("numbers") == rising(9));
 }
 
-TEST_CASE("hdf5: what the disk cannot take is told, with the name of it") {
+TEST_CASE("hdf5: a write that fails names the file") {
   const ScratchFolder scratch;
   {
     const Hdf5 file = Hdf5::create_file(scratch.file("a.h5"));

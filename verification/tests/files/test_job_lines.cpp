@@ -160,7 +160,7 @@ TEST_CASE("job lines: a result that says nothing of its run is read with zeros a
   CHECK((found.kept + found.host + found.date + found.commit) == "");
 }
 
-TEST_CASE("job lines: a line of a result that is none leaves the others to be read") {
+TEST_CASE("job lines: an invalid line of a result leaves the others to be read") {
   const Store store;
   const std::string good = line_with("good", "holds");
   for (const std::string& bad :
@@ -179,7 +179,7 @@ TEST_CASE("job lines: a line of a result that is none leaves the others to be re
   CHECK(index.units().empty());
 }
 
-TEST_CASE("job lines: a result that is none does not end its job") {
+TEST_CASE("job lines: an invalid result leaves its job unfinished") {
   const Store store;
   store.add("a", "{\"start\":\"k\",\"label\":\"\"}\n" + line_with("k", "no such end"));
   JobIndex index(store.folder);

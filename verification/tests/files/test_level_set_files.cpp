@@ -235,7 +235,7 @@ TEST_CASE("level set folder: a deforming body is computed once, kept and loaded"
   CHECK(RawFile(path).text("/", "origin") == input_key(moving_ball(), coarse));
 }
 
-TEST_CASE("level set folder: a file that is refused is told and replaced") {
+TEST_CASE("level set folder: a refused file is reported and replaced") {
   const Keeper keeper;
   const std::string path = keeper.grid_path();
   const auto sound = keeper.grid();

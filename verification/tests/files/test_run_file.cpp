@@ -270,7 +270,7 @@ TEST_CASE("run file: a run of nothing has its groups, but no parts and no faults
   CHECK(difference_of(hdf5_listing(folder.file("run.h5")), expected) == "");
 }
 
-TEST_CASE("run file: the parts of a run that went on are told in their order") {
+TEST_CASE("run file: the parts of a resumed run stand in their order") {
   RunRecord run;
   CHECK(origins_text(run) == "");
   run.origins = {{"0123456789abcdef", "clean", "day 1", 12},

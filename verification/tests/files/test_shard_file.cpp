@@ -151,7 +151,7 @@ TEST_CASE("shards: a torn line gets its end before the next one, however many wr
   CHECK(bytes_of_file(path) == "first\ns\nfourth\nfifth\nseventh\n");
 }
 
-TEST_CASE("shards: whole lines are read from a byte on, and the byte after them is told") {
+TEST_CASE("shards: whole lines are read from a byte on, and the next byte is returned") {
   const ScratchFolder scratch;
   const std::string path = scratch.write("s.jsonl", "one\nthree\n\nfour\ntorn");
   std::vector<std::string> lines;

@@ -212,7 +212,7 @@ TEST_CASE("trajectory: until it is finished each frame lies in a partial file") 
   CHECK(RawFile(path).numbers("frames/time") == Numbers{0.5, 1.5});
 }
 
-TEST_CASE("trajectory: what cannot be written is told with the file's name") {
+TEST_CASE("trajectory: a write that fails names the file") {
   const ScratchFolder scratch;
   const std::string path = scratch.file("a.h5");
   {

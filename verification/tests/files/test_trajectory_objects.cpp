@@ -91,7 +91,8 @@ TEST_CASE("trajectory: each particle's distance is that to the nearest solid at 
   }
 }
 
-TEST_CASE("trajectory: sticky patches are told, and the bonds of all frames one after the other") {
+TEST_CASE(
+    "trajectory: sticky patches are stored, and the bonds of all frames one after the other") {
   const ScratchFolder scratch;
   const std::string path = scratch.file("a.h5");
   const Scene scene = full_scene();

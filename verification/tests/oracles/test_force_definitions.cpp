@@ -189,7 +189,8 @@ TEST_CASE("the formulas of springs name the input that they refuse") {
           must("SpringInput law must be finite"));
 }
 
-TEST_CASE("the elastic force's derivative is the same by both roads, symmetric, and as sure") {
+TEST_CASE(
+    "both methods give the same symmetric derivative of the elastic force, equally accurate") {
   for (const HingeInput& hinge : hinges()) {
     const MatrixEstimate one = bending_elastic_derivative_autodiff(hinge),
                          other = bending_elastic_derivative_differences(hinge);

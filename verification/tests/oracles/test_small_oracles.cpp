@@ -286,7 +286,7 @@ TEST_CASE("triangles are separated across either's plane, side or two sides") {
   CHECK(are_separated(stick, other));
 }
 
-TEST_CASE("what nothing fills is nothing, sure, and the paper's") {
+TEST_CASE("inputs and answers of oracles begin with the paper's defaults, and zero") {
   CHECK(Estimate{}.value == 0);
   CHECK(Estimate{}.uncertainty == 0);
   const LimitedSpringAnswer spring{};
