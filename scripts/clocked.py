@@ -15,9 +15,9 @@ LOOK, STILL = 5.0, 30.0  # s: how often a process is looked at; how long it may 
 
 
 def run(command: list, folder: Path, clock: float | None = None) -> subprocess.CompletedProcess:
-    """`clock` [s] limits the processor time of each process, so that a busy machine changes nothing.
-    A command is also stopped when neither it nor its children use the processor for 30 s, and
-    killed when it writes a file of 2 GB. Raises TimeoutExpired."""
+    """`clock` [s] limits the processor time of each process, so that a busy machine changes
+    nothing. A command is also stopped when neither it nor its children use the processor for 30 s,
+    and killed when it writes a file of 2 GB. Raises TimeoutExpired."""
     if clock is None:
         return subprocess.run(
             command, cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, text=True,
