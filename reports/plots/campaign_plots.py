@@ -49,6 +49,9 @@ NO_VALUE = "not set"  # of a parameter that only some parts of a campaign vary
 MOST_PANELS, MOST_CURVES, MOST_NAMED = 12, 11, 8
 NUMBER = re.compile(r"(?<![\w.])([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)(?![\w.])")
 LETTER = 0.075  # width [inch], with the space around a tick's name shared out
+KEY = 0.4  # width of a legend's mark, with the space around it [inch]
+LINE = 0.2  # height of a tick's name [inch], with the space above it
+BEFORE_PANELS = 0.75  # for the numbers of an axis and its label [inch]
 ABOVE_PANELS = 0.2  # for the name of the colour bar [inch]
 SPARSE = 4  # places for each run beyond which a map becomes points
 
@@ -188,12 +191,18 @@ def _draw_panels(layout: Layout, table: CampaignTable, values: np.ndarray, draw)
     columns = min(3, count)
     rows = -(-count // columns)
     wide, high = (5.2, 3.4) if count == 1 else (2.5, 2.1)
-    across, up, right, below = wide + 0.75, high + 0.95, 1.2, 0.55
-    canvas = new_figure(columns * across + right, rows * up + below + ABOVE_PANELS)
+    before = BEFORE_PANELS
+    if draw is _draw_map:
+        before = max(before, LETTER * (2 + max(map(len, layout.y.named()))))
+    across, up, right = wide + before, high + 0.95, 1.2
+    wide_canvas = columns * across + right
+    key_rows = -(-len(layout.y.texts) // key_columns(layout, wide_canvas))
+    below = 0.55 + (LINE * max(0, key_rows - 2) if draw is _draw_curves else 0)
+    canvas = new_figure(wide_canvas, rows * up + below + ABOVE_PANELS)
     width, height = canvas.get_size_inches()
     norm = _norm(values, layout.figure.is_logarithmic)
     for k, panel in enumerate(layout.panels):
-        left = 0.75 + (k % columns) * across
+        left = before + (k % columns) * across
         bottom = below + 0.5 + (rows - 1 - k // columns) * up
         axes = canvas.add_axes((left / width, bottom / height, wide / width, high / height))
         label_axes(axes, *layout.labels[0], "", "1")
@@ -243,6 +252,12 @@ def _draw_colour_bar(canvas: Figure, layout: Layout, norm: Normalize, left: floa
     )
 
 
+def key_columns(layout: Layout, width: float) -> int:
+    """How many keys of the second parameter's values stand side by side in this width [inch]."""
+    longest = max(map(len, layout.y.named()))
+    return max(1, min(MOST_NAMED, int(width / (KEY + LETTER * longest))))
+
+
 def _draw_legend(canvas: Figure, layout: Layout, table: CampaignTable, has_curves: bool) -> None:
     jobs = [job for panel in layout.panels for cell in panel.jobs.values() for job in cell]
     seen = {table.outcomes[job] for job in jobs}
@@ -263,7 +278,7 @@ def _draw_legend(canvas: Figure, layout: Layout, table: CampaignTable, has_curve
         title=title,
         loc="lower left",
         bbox_to_anchor=(0.01, 0.0),
-        ncol=MOST_NAMED,
+        ncol=key_columns(layout, canvas.get_figwidth()),
         frameon=False,
         fontsize=7.4,
         title_fontsize=7.4,
@@ -336,13 +351,16 @@ def cells_of(layout: Layout, panel: Panel, values: np.ndarray) -> np.ndarray:
 
 
 def _name_places(axes: Axes, which: str, levels: Levels) -> None:
-    """Ticks at cells, every second or third one where there are many."""
+    """Ticks at cells, every second or third one where there are many: names must not touch."""
     named = levels.named()
-    every = -(-len(named) // MOST_NAMED)
-    if which == "x":  # names must not touch
-        width = axes.get_position().width * axes.figure.get_figwidth()
-        room = max(1, int(width / (LETTER * (2 + max(map(len, named))))))
-        every = max(every, -(-len(named) // room))
+    place, canvas = axes.get_position(), axes.figure
+    if which == "x":
+        longest = max(map(len, named))
+        room = int(place.width * canvas.get_figwidth() / (LETTER * (2 + longest)))
+    else:
+        room = int(place.height * canvas.get_figheight() / LINE)
+    most = room if levels.numbers is None else min(room, MOST_NAMED)
+    every = -(-len(named) // max(1, most))
     places = list(range(0, len(named), every))
     (axes.set_xticks if which == "x" else axes.set_yticks)(places, [named[k] for k in places])
     (axes.set_xlim if which == "x" else axes.set_ylim)(-0.5, len(named) - 0.5)
