@@ -16,15 +16,8 @@ import numpy as np
 import make_campaign
 from data.case_keys import LENGTHS, unit_of_key, units_of_keys
 from data.campaign_table import WITH_VALUE, CampaignFigure, figures_of, load_campaign
-from plots.campaign_plots import (
-    MARKS,
-    cells_of,
-    figure_notes,
-    is_sparse,
-    layout_of,
-    levels_of,
-    median_of,
-)
+from plots.campaign_layout import layout_of, levels_of
+from plots.campaign_plots import MARKS, cells_of, figure_notes, is_sparse, median_of
 
 ROOT = Path(__file__).resolve().parents[2]
 STEPS, METHODS = ["0.1", "0.01", "0.001"], ["A", "C"]
