@@ -45,7 +45,7 @@ std::vector<Check> all_checks() {
         depth_map_checks, projection_checks, projection_exact_checks, projection_cloth_checks,
         projection_mesh_checks, smooth_cloth_checks,
         // level_set
-        octree_checks, octree_union_checks, deforming_checks,
+        octree_checks, octree_union_checks, deforming_checks, level_set_thread_checks,
         // filters
         repulsion_checks, impact_checks, untangling_checks, impulse_checks, crossing_checks,
         // forces

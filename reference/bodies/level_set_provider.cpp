@@ -43,11 +43,13 @@ LevelSetProvider memoizing_provider(const LevelSetProvider& provider) {
           }};
 }
 
-LevelSetProvider computing_provider() {
-  return {make_level_set,
-          [](const MeshSequence& sequence, const OctreeSettings& settings, BetweenFrames between) {
+LevelSetProvider computing_provider(int threads) {
+  return {[=](const TriangleSoup& soup, const GridMethod& method, Repair repair) {
+            return make_level_set(soup, method, repair, threads);
+          },
+          [=](const MeshSequence& sequence, const OctreeSettings& settings, BetweenFrames between) {
             return std::make_shared<const DeformingBody>(
-                make_deforming_body(sequence, settings, between));
+                make_deforming_body(sequence, settings, between, threads));
           }};
 }
 

@@ -19,8 +19,8 @@ struct LevelSetProvider {
       make_deforming_body;
 };
 
-/// Computes every request.
-LevelSetProvider computing_provider();
+/// Computes every request, on so many threads.
+LevelSetProvider computing_provider(int threads = 1);
 
 /// Calls `provider` once per distinct request and returns the stored result afterwards, from any
 /// thread. Copies share the stored results for as long as one of them exists.

@@ -8,6 +8,7 @@
 
 #include "reference/bodies/closed_mesh.h"
 #include "reference/bodies/winding.h"
+#include "reference/fast/threads.h"
 #include "reference/mesh/mesh_locations.h"
 
 namespace foldproof {
@@ -73,13 +74,27 @@ std::vector<int> collect_patch(int first, const std::vector<std::vector<Neighbou
 }
 
 /// Winding number minus a half, the other way round: negative inside.
-std::vector<float> sides_of(const MeshDistance& mesh, const Lattice& lattice) {
+std::vector<float> sides_of(const MeshDistance& mesh, const Lattice& lattice, int threads) {
   const std::vector<Dipole> dipoles = make_dipoles(mesh);
   std::vector<float> side(lattice.size());
-  for (long index = 0; index < lattice.size(); ++index)
-    side[index] =
-        float(0.5 - winding_number(mesh, dipoles, lattice.position(lattice.node(index)), far));
+  for_each_range(threads, lattice.size(), [&](Eigen::Index first, Eigen::Index count) {
+    for (long index = first; index < first + count; ++index)
+      side[index] =
+          float(0.5 - winding_number(mesh, dipoles, lattice.position(lattice.node(index)), far));
+  });
   return side;
+}
+
+/// Gives seeds at most a cell from a triangle their exact distance to it.
+void measure(const MeshDistance& mesh, const Lattice& lattice, Seeds& seeds, int threads) {
+  for_each_range(threads, seeds.nodes, [&](std::span<const long> nodes, size_t first) {
+    for (size_t i = 0; i < nodes.size(); ++i) {
+      const Vector3 p = lattice.position(lattice.node(nodes[i]));
+      const NearestFeature nearest = nearest_feature(mesh, p, lattice.spacing);
+      double& phi = seeds.phi[first + i];
+      if (nearest.triangle >= 0) phi = std::copysign(std::sqrt(nearest.squared_distance), phi);
+    }
+  });
 }
 
 }  // namespace
@@ -102,29 +117,25 @@ std::vector<Triangle> orient_triangles(const TriangleSoup& soup) {
   return triangles;
 }
 
-std::shared_ptr<const Grid> make_repaired_grid(const TriangleSoup& soup, const GridMethod& method) {
+std::shared_ptr<const Grid> make_repaired_grid(const TriangleSoup& soup, const GridMethod& method,
+                                               int threads) {
   const MeshDistance mesh = make_mesh_distance(soup.rest, orient_triangles(soup));
   const Lattice lattice = lattice_about(mesh.tree.nodes[0].bounds, method.cells, method.margin);
-  Seeds seeds = seeds_from_sides(lattice, sides_of(mesh, lattice));
+  Seeds seeds = seeds_from_sides(lattice, sides_of(mesh, lattice, threads));
   if (seeds.nodes.empty())
     throw InputError(
         mesh_location(soup.origin) + "repair finds no inside: the winding number of its " +
         std::to_string(soup.triangles.size()) +
         " triangles is below 1/2 at every node; turn them outward, or give a finer grid");
-  for (size_t i = 0; i < seeds.nodes.size(); ++i) {
-    const Vector3 p = lattice.position(lattice.node(seeds.nodes[i]));
-    const NearestFeature nearest = nearest_feature(mesh, p, lattice.spacing);
-    if (nearest.triangle >= 0)
-      seeds.phi[i] = std::copysign(std::sqrt(nearest.squared_distance), seeds.phi[i]);
-  }
+  measure(mesh, lattice, seeds, threads);
   return std::make_shared<const Grid>(march(lattice, seeds, method.order));
 }
 
 std::shared_ptr<const Grid> make_level_set(const TriangleSoup& soup, const GridMethod& method,
-                                           Repair repair) {
-  if (repair == Repair::winding) return make_repaired_grid(soup, method);
+                                           Repair repair, int threads) {
+  if (repair == Repair::winding) return make_repaired_grid(soup, method, threads);
   const TriangleMesh mesh = make_closed_mesh(soup);
-  return make_grid(make_mesh_distance(mesh.rest, mesh.triangles), method);
+  return make_grid(make_mesh_distance(mesh.rest, mesh.triangles), method, threads);
 }
 
 }  // namespace foldproof

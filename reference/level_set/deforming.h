@@ -68,9 +68,9 @@ struct DeformingBody {
 /// the previous frame where they are still close enough: there |phi| may be too large by half of a
 /// cell's allowed error, beyond (|phi| - band)/2, and the displacement is that of the reused point.
 /// Throws what make_octree throws, and InputError for a sequence without frames, with times that do
-/// not rise or numbers of vertices that differ.
+/// not rise or numbers of vertices that differ. The same bits for every number of threads.
 DeformingBody make_deforming_body(const MeshSequence& sequence, const OctreeSettings& settings,
-                                  BetweenFrames between);
+                                  BetweenFrames between, int threads = 1);
 
 /// phi and N at the point p and time t, and the velocity [m/s] of the body there.
 struct DeformingPoint {

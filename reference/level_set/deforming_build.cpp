@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
 #include <cstdint>
 #include <filesystem>
-#include <unordered_map>
 
+#include "reference/fast/shared_map.h"
+#include "reference/fast/threads.h"
 #include "reference/level_set/deforming.h"
 #include "reference/level_set/mesh_distance.h"
 #include "reference/level_set/octree_nodes.h"
@@ -50,7 +52,7 @@ constexpr double kept_share = 0.5;
 /// In the band the nearest point is looked for. Beyond it the point that was nearest in the frame
 /// before, moved along with the mesh, is kept if nothing is nearer by more than the share: to see
 /// that is a short search, which ends at every box that is farther away. The sign is the frame
-/// before's if the surface was farther than it has moved.
+/// before's if the surface was farther than it has moved. Several threads may ask at once.
 class NodeValues {
  public:
   NodeValues(const MeshSequence& sequence, std::size_t frame, const OctreeSettings& settings)
@@ -65,13 +67,11 @@ class NodeValues {
 
   const NodeValue& at(const Vector3& p) {
     const Position position = {p.x(), p.y(), p.z()};
-    const auto [place, is_new] = known_.try_emplace(position);
-    if (is_new && !keep(p, position, place->second)) place->second = search_nearest(p);
-    return place->second;
+    return known_.at(position, [&] { return found(p, position); });
   }
 
   long searches() const { return searches_; }
-  long nodes() const { return long(known_.size()); }
+  long nodes() const { return known_.size(); }
 
  private:
   using Position = std::array<double, 3>;  // m
@@ -91,15 +91,13 @@ class NodeValues {
             barycentric(mesh_.corners[nearest.triangle], nearest.point)};
   }
 
-  NodeValue search_nearest(const Vector3& p) {
+  NodeValue found(const Vector3& p, const Position& position) {
+    const NodeValue* old = before_ ? before_->find(position) : nullptr;
+    if (old && old->least > displacement_) return kept_or_nearer(p, *old);
     return value_at(p, nearest_feature(mesh_, p, std::numeric_limits<double>::infinity()));
   }
 
-  bool keep(const Vector3& p, const Position& position, NodeValue& value) {
-    if (!before_) return false;
-    const auto known = before_->find(position);
-    if (known == before_->end() || !(known->second.least > displacement_)) return false;
-    const NodeValue& old = known->second;
+  NodeValue kept_or_nearer(const Vector3& p, const NodeValue& old) {
     const Triangle& t = mesh_.triangles[old.triangle];
     const double most = (p - at_point_of(t, old.weight, mesh_.x)).norm();
     const double share = kept_share * settings_.beyond;
@@ -107,48 +105,50 @@ class NodeValues {
     // the nearest point
     const double least = (most + share * settings_.band) / (1 + share);
     const NearestFeature nearer = nearest_feature(mesh_, p, least);
-    value = nearer.triangle < 0
-                ? NodeValue{std::copysign(most, old.phi), least, old.triangle, old.weight}
-                : value_at(p, nearer);
-    return true;
+    if (nearer.triangle >= 0) return value_at(p, nearer);
+    return {std::copysign(most, old.phi), least, old.triangle, old.weight};
   }
 
-  using Known = std::unordered_map<Position, NodeValue, Hash>;
+  using Known = SharedMap<Position, NodeValue, Hash>;
   MeshDistance mesh_;
   const OctreeSettings& settings_;
   const Known* before_ = nullptr;
   double displacement_ = 0;  // m
-  long searches_ = 0;
+  std::atomic<long> searches_ = 0;
   Known known_;
 };
 
 /// Displacements of the points of all nodes from the frame `from` to the frame `to`.
 std::vector<BranchNodes<Vector3>> node_displacements(const Octree& tree, NodeValues& values,
                                                      const MeshSequence& sequence, std::size_t from,
-                                                     std::size_t to) {
+                                                     std::size_t to, int threads) {
   const PerParticle3 moved = sequence.positions[to] - sequence.positions[from];
   const std::vector<OctreePlace> places = branch_places(tree);
   std::vector<BranchNodes<Vector3>> all(places.size());
-  for (std::size_t b = 0; b < places.size(); ++b) {
-    for (int n = 0; n < 27; ++n) {
-      const NodeValue& node = values.at(node_position(tree.settings, places[b], n));
-      all[b][n] = at_point_of(sequence.triangles[node.triangle], node.weight, moved);
+  for_each_range(threads, places, [&](std::span<const OctreePlace> part, std::size_t first) {
+    for (std::size_t b = 0; b < part.size(); ++b) {
+      BranchNodes<Vector3>& nodes = all[first + b];
+      for (int n = 0; n < 27; ++n) {
+        const NodeValue& node = values.at(node_position(tree.settings, part[b], n));
+        nodes[n] = at_point_of(sequence.triangles[node.triangle], node.weight, moved);
+      }
+      if (tree.settings.hanging == HangingNodes::constrained)
+        constrain(hanging_nodes(tree, part[b]), nodes);
     }
-    if (tree.settings.hanging == HangingNodes::constrained)
-      constrain(hanging_nodes(tree, places[b]), all[b]);
-  }
+  });
   return all;
 }
 
 DeformingFrame make_frame(const MeshSequence& sequence, std::size_t k, NodeValues& values,
-                          const OctreeSettings& settings) {
+                          const OctreeSettings& settings, int threads) {
   const DistanceFunction distance = [&](const Vector3& p) {
     return Distance{values.at(p).phi, Vector3::Zero()};  // the octree takes no directions
   };
-  DeformingFrame frame{sequence.times[k], make_octree({distance}, settings), {}, {}, 0, 0};
+  DeformingFrame frame{sequence.times[k], make_octree({distance}, settings, threads), {}, {}, 0, 0};
   if (k + 1 < sequence.times.size())
-    frame.to_next = node_displacements(frame.field, values, sequence, k, k + 1);
-  if (k > 0) frame.from_previous = node_displacements(frame.field, values, sequence, k - 1, k);
+    frame.to_next = node_displacements(frame.field, values, sequence, k, k + 1, threads);
+  if (k > 0)
+    frame.from_previous = node_displacements(frame.field, values, sequence, k - 1, k, threads);
   frame.nodes = values.nodes();
   frame.searches = values.searches();
   return frame;
@@ -220,7 +220,7 @@ MeshSequence read_obj_sequence(const std::string& folder, double interval, long 
 }
 
 DeformingBody make_deforming_body(const MeshSequence& sequence, const OctreeSettings& settings,
-                                  BetweenFrames between) {
+                                  BetweenFrames between, int threads) {
   require_usable(sequence);
   DeformingBody body{{}, between};
   std::unique_ptr<NodeValues> before;
@@ -229,7 +229,7 @@ DeformingBody make_deforming_body(const MeshSequence& sequence, const OctreeSett
     if (before)
       values->follow(*before,
                      largest_displacement(sequence.positions[k - 1], sequence.positions[k]));
-    body.frames.push_back(make_frame(sequence, k, *values, settings));
+    body.frames.push_back(make_frame(sequence, k, *values, settings, threads));
     before = std::move(values);
   }
   return body;

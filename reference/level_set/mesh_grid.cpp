@@ -4,10 +4,11 @@
 
 namespace foldproof {
 
-std::shared_ptr<const Grid> make_grid(const MeshDistance& mesh, const GridMethod& method) {
+std::shared_ptr<const Grid> make_grid(const MeshDistance& mesh, const GridMethod& method,
+                                      int threads) {
   const Lattice lattice = lattice_about(mesh.tree.nodes[0].bounds, method.cells, method.margin);
   return std::make_shared<const Grid>(
-      march(lattice, narrow_band(mesh, lattice, method.band), method.order));
+      march(lattice, narrow_band(mesh, lattice, method.band, threads), method.order));
 }
 
 }  // namespace foldproof

@@ -16,8 +16,9 @@ struct GridMethod {
   MarchingOrder order;  // of the values beyond
 };
 
-/// Exact signed distance in the band, fast marching beyond it. The mesh must be closed,
-/// see MeshDistance.
-std::shared_ptr<const Grid> make_grid(const MeshDistance& mesh, const GridMethod& method);
+/// Exact signed distance in the band, fast marching beyond it. The mesh must be closed, see
+/// MeshDistance. The same bits for every number of threads.
+std::shared_ptr<const Grid> make_grid(const MeshDistance& mesh, const GridMethod& method,
+                                      int threads = 1);
 
 }  // namespace foldproof

@@ -4,11 +4,19 @@
 #include <cmath>
 #include <string>
 
+#include "reference/fast/threads.h"
+
 namespace foldproof {
 
 namespace {
 
 constexpr int block = 4;  // nodes along the side of the blocks that are kept or left out as one
+
+/// A node in the band.
+struct Seed {
+  long node;   // its index in the lattice
+  double phi;  // m
+};
 
 /// Is any node of the block that begins at `first` possibly closer than `width` [m]?
 bool is_near(const MeshDistance& mesh, const Lattice& lattice, const Node& first, double width) {
@@ -19,7 +27,7 @@ bool is_near(const MeshDistance& mesh, const Lattice& lattice, const Node& first
 /// Adds the nodes of a row of the block, from `node` on. A node is at most one spacing farther away
 /// than the one before it, which shortens the search.
 void add_row(const MeshDistance& mesh, const Lattice& lattice, Node node, double width,
-             Seeds& seeds) {
+             std::vector<Seed>& seeds) {
   double bound = width;
   const int end = std::min(node[0] + block, lattice.nodes[0]);
   for (; node[0] < end; ++node[0]) {
@@ -28,33 +36,52 @@ void add_row(const MeshDistance& mesh, const Lattice& lattice, Node node, double
     if (nearest.triangle < 0) continue;  // the bound is the width
     const double phi = signed_distance(mesh, nearest, p).phi;
     bound = std::min(width, std::abs(phi) + 1.001 * lattice.spacing);
-    seeds.nodes.push_back(lattice.index(node));
-    seeds.phi.push_back(phi);
+    seeds.push_back({lattice.index(node), phi});
   }
 }
 
 void add_block(const MeshDistance& mesh, const Lattice& lattice, const Node& first, double width,
-               Seeds& seeds) {
-  if (!is_near(mesh, lattice, first, width)) return;
+               std::vector<Seed>& seeds) {
   for (int k = first[2]; k < std::min(first[2] + block, lattice.nodes[2]); ++k)
     for (int j = first[1]; j < std::min(first[1] + block, lattice.nodes[1]); ++j)
       add_row(mesh, lattice, {first[0], j, k}, width, seeds);
 }
 
+/// The first nodes of all blocks that may hold a node of the band, in order: most blocks hold none,
+/// so that those that do are shared out evenly.
+std::vector<Node> near_blocks(const MeshDistance& mesh, const Lattice& lattice, double width,
+                              int threads) {
+  Node count;  // of blocks along each axis
+  for (int axis = 0; axis < 3; ++axis) count[axis] = (lattice.nodes[axis] + block - 1) / block;
+  return found_in_order<Node>(
+      threads, Eigen::Index(count[0]) * count[1] * count[2],
+      [&](Eigen::Index begin, Eigen::Index blocks, std::vector<Node>& found) {
+        for (Eigen::Index b = begin; b < begin + blocks; ++b) {
+          const Node first = {block * int(b % count[0]), block * int(b / count[0] % count[1]),
+                              block * int(b / count[0] / count[1])};
+          if (is_near(mesh, lattice, first, width)) found.push_back(first);
+        }
+      });
+}
+
 }  // namespace
 
-Seeds narrow_band(const MeshDistance& mesh, const Lattice& lattice, double cells) {
+Seeds narrow_band(const MeshDistance& mesh, const Lattice& lattice, double cells, int threads) {
   if (!(cells >= 1))
     throw InputError("narrow_band: " + std::to_string(cells) + " cells; give at least 1");
   // a little more than asked for, so that neighbours of a node on the surface are in a
   // band of one cell
   const double width = (1 + 1e-12) * cells * lattice.spacing;
+  const std::vector<Node> blocks = near_blocks(mesh, lattice, width, threads);
+  const auto add_blocks = [&](Eigen::Index first, Eigen::Index count, std::vector<Seed>& found) {
+    for (Eigen::Index b = first; b < first + count; ++b)
+      add_block(mesh, lattice, blocks[size_t(b)], width, found);
+  };
   Seeds seeds;
-  Node first;
-  for (first[2] = 0; first[2] < lattice.nodes[2]; first[2] += block)
-    for (first[1] = 0; first[1] < lattice.nodes[1]; first[1] += block)
-      for (first[0] = 0; first[0] < lattice.nodes[0]; first[0] += block)
-        add_block(mesh, lattice, first, width, seeds);
+  for (const Seed& seed : found_in_order<Seed>(threads, Eigen::Index(blocks.size()), add_blocks)) {
+    seeds.nodes.push_back(seed.node);
+    seeds.phi.push_back(seed.phi);
+  }
   return seeds;
 }
 

@@ -8,7 +8,7 @@ namespace foldproof {
 
 /// All nodes closer to the mesh than `cells` (at least 1) spacings, with their signed distance as
 /// MeshDistance gives it. One cell separates inside from outside; second-order marching needs at
-/// least two. Throws InputError for fewer.
-Seeds narrow_band(const MeshDistance& mesh, const Lattice& lattice, double cells);
+/// least two. Throws InputError for fewer. The same bits for every number of threads.
+Seeds narrow_band(const MeshDistance& mesh, const Lattice& lattice, double cells, int threads = 1);
 
 }  // namespace foldproof

@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reference/fast/threads.h"
+
 namespace foldproof {
 
 namespace {
 
 constexpr int centre = 13;                      // of the nodes of a branch
 constexpr std::size_t most_branches = 1 << 24;  // about 5 GB while they grow
+constexpr std::size_t batch = 32;  // branches a thread whose children are found at once
 
 double cell_width(const OctreeSettings& settings, int level) {
   return std::ldexp(settings.width, -level);
@@ -18,8 +21,7 @@ double half_diagonal(const OctreeSettings& settings, int level) {
   return 0.5 * std::sqrt(3.0) * cell_width(settings, level);
 }
 
-double sample(OctreeGrowth& growth, int part, const Vector3& p) {
-  ++growth.evaluations;
+double sample(const OctreeGrowth& growth, int part, const Vector3& p) {
   return growth.bodies[part](p).phi;
 }
 
@@ -32,6 +34,7 @@ struct Samples {
 Samples take_samples(OctreeGrowth& growth, const std::vector<int>& parts,
                      const OctreePlace& place) {
   Samples samples{parts, std::vector<BranchNodes<double>>(parts.size())};
+  growth.evaluations += 27 * long(parts.size());
   for (std::size_t k = 0; k < parts.size(); ++k)
     for (int n = 0; n < 27; ++n)
       samples.phi[k][n] = sample(growth, parts[k], node_position(growth.settings, place, n));
@@ -51,9 +54,10 @@ int add_branch(OctreeGrowth& growth, const OctreePlace& place, const Samples& sa
 
 /// Values at the 5 x 5 x 5 corners of the children of a branch's children, x fastest.
 using FineNodes = std::array<double, 125>;
+constexpr long unknown_fine_nodes = 125 - 27;
 
 /// Those at the branch's own nodes are known; the others are asked for.
-FineNodes fine_nodes(OctreeGrowth& growth, const OctreePlace& place, int channel) {
+FineNodes fine_nodes(const OctreeGrowth& growth, const OctreePlace& place, int channel) {
   FineNodes fine;
   const auto& [cx, cy, cz] = place.cell;
   const int part = growth.part[channel];
@@ -114,10 +118,13 @@ bool wants_split(const Samples& samples, const OctreeSettings& settings, int lev
   return false;
 }
 
-void split_children(OctreeGrowth& growth, int b) {
-  const GrowingBranch branch = growth.branches[b];
+/// The children of a branch that are split in turn; one without samples stays a leaf.
+using SplitChildren = std::array<Samples, 8>;
+
+SplitChildren split_children(const OctreeGrowth& growth, const GrowingBranch& branch) {
+  SplitChildren split;
   const int level = branch.place.level + 1;
-  if (level >= growth.settings.depth) return;
+  if (level >= growth.settings.depth) return split;
   std::vector<FineNodes> fine;
   for (int k = branch.channels; k < branch.channels + branch.parts; ++k)
     fine.push_back(fine_nodes(growth, branch.place, k));
@@ -128,9 +135,28 @@ void split_children(OctreeGrowth& growth, int b) {
       samples.phi.push_back(nodes_of_child(fine[k], c));
     }
     samples = near_parts(samples, growth.settings, level);
-    if (wants_split(samples, growth.settings, level))
-      growth.branches[b].child[c] = add_branch(growth, child_place(branch.place, c), samples);
+    if (wants_split(samples, growth.settings, level)) split[c] = std::move(samples);
   }
+  return split;
+}
+
+void add_children(OctreeGrowth& growth, std::size_t b, const SplitChildren& split) {
+  const GrowingBranch branch = growth.branches[b];
+  if (branch.place.level + 1 < growth.settings.depth)
+    growth.evaluations += unknown_fine_nodes * branch.parts;
+  for (int c = 0; c < 8; ++c)
+    if (!split[c].part.empty())
+      growth.branches[b].child[c] = add_branch(growth, child_place(branch.place, c), split[c]);
+}
+
+/// Splits the children of `count` branches. Several threads find them; they are added in order.
+void split_children(OctreeGrowth& growth, std::size_t first, std::size_t count, int threads) {
+  std::vector<SplitChildren> split(count);
+  for_each_range(threads, Eigen::Index(count), [&](Eigen::Index begin, Eigen::Index share) {
+    for (Eigen::Index k = begin; k < begin + share; ++k)
+      split[size_t(k)] = split_children(growth, growth.branches[first + size_t(k)]);
+  });
+  for (std::size_t k = 0; k < count; ++k) add_children(growth, first + k, split[k]);
 }
 
 int child_towards(const OctreePlace& place, int shift) {
@@ -188,13 +214,18 @@ bool needs_channel(const std::vector<BranchNodes<double>>& phi, std::size_t part
 }
 
 OctreeGrowth grow_octree(const std::vector<DistanceFunction>& bodies,
-                         const OctreeSettings& settings) {
+                         const OctreeSettings& settings, int threads) {
   OctreeGrowth growth{bodies, settings, {}, {}, {}, 0};
   std::vector<int> all(bodies.size());
   for (std::size_t k = 0; k < all.size(); ++k) all[k] = int(k);
   const OctreePlace cube{0, {0, 0, 0}};
   add_branch(growth, cube, near_parts(take_samples(growth, all, cube), settings, 0));
-  for (std::size_t b = 0; b < growth.branches.size(); ++b) split_children(growth, int(b));
+  for (std::size_t first = 0; first < growth.branches.size();) {
+    const std::size_t count =
+        std::min(batch * std::size_t(std::max(1, threads)), growth.branches.size() - first);
+    split_children(growth, first, count, threads);
+    first += count;
+  }
   return growth;
 }
 

@@ -25,9 +25,10 @@ struct OctreeGrowth {
   long evaluations = 0;
 };
 
-/// Splits cells, from the whole cube down, until the settings are met.
+/// Splits cells, from the whole cube down, until the settings are met; asks the bodies from so many
+/// threads at once.
 OctreeGrowth grow_octree(const std::vector<DistanceFunction>& bodies,
-                         const OctreeSettings& settings);
+                         const OctreeSettings& settings, int threads);
 
 /// Splits leaves that touch, be it at a corner, cells more than one level finer.
 void balance(OctreeGrowth& growth);

@@ -107,7 +107,7 @@ std::vector<std::string> names_of_case_findings() {
 /// Judges all shipped cases; those that are shown leave their files in the folder.
 std::vector<Job> jobs_of_built_in_cases(const Options& options, const Provenance& provenance) {
   constexpr double length = 60;
-  const LevelSetProvider provider = provider_for(options.cache);
+  const LevelSetProvider provider = provider_for(options.cache, 1);
   std::vector<Job> jobs;
   for (const std::string& name : hard_cases())
     jobs.push_back({"case." + name, length, [name](const Progress& progress) {

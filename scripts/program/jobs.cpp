@@ -122,17 +122,20 @@ void run_jobs(const std::vector<Job>& jobs, const std::string& label, const JobS
   run_jobs(jobs, {line, 0, whole}, settings, run);
 }
 
+int threads_of(const JobSettings& running) {
+  return int(running.threads > 0 ? running.threads
+                                 : std::max(1u, std::thread::hardware_concurrency()));
+}
+
 void run_jobs(const std::vector<Job>& jobs, const ProgressSpan& span, const JobSettings& settings,
               RunRecord& run) {
   KeptResults kept(settings, run);
   const std::vector<Job> all = kept.wrapped(jobs);
   Queue queue(all, span, settings.order);
   {
-    const size_t threads =
-        settings.threads > 0 ? settings.threads : std::thread::hardware_concurrency();
+    const auto threads = std::min(size_t(threads_of(settings)), all.size());
     std::vector<std::jthread> others;
-    for (size_t k = 1; k < std::min(threads, all.size()); ++k)
-      others.emplace_back([&] { queue.work(); });
+    for (size_t k = 1; k < threads; ++k) others.emplace_back([&] { queue.work(); });
     queue.work();
   }
   queue.gather(run);

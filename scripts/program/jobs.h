@@ -33,6 +33,9 @@ struct JobSettings {
   bool restarts = false;  // delete it
 };
 
+/// As many as asked for, or else one a core.
+int threads_of(const JobSettings& running);
+
 class ProgressLine;
 
 /// Where jobs stand in a longer work, in the unit of their lengths.

@@ -105,8 +105,9 @@ int judge_frames_of_a_case(const Options& options) {
   const auto baseline = baseline_of(options);
   const OutFolder folder(options.out);
   const ReadMotion motion = read_motion(options);
-  const FramesJudgement judged =
-      judge_frames(motion.of, build(motion.of.scene, provider_for(options.cache)), motion.frames);
+  const FramesJudgement judged = judge_frames(
+      motion.of, build(motion.of.scene, provider_for(options.cache, threads_of(options.running))),
+      motion.frames);
   return finish_trial(
       {run_of(motion, judged, options), facts_of(motion, judged.matching, options),
        heading(motion, judged.matching, options), starts_as_the_case(judged) ? "" : other_start},

@@ -50,7 +50,7 @@ Source source_of(const Options& options) {
   const Scene& scene = source.run.scene;
   if (scene.objects.empty())
     throw InputError(options.file + ": its case names no object to project out of");
-  source.objects = build_objects(scene, provider_for(options.cache));
+  source.objects = build_objects(scene, provider_for(options.cache, threads_of(options.running)));
   const SubdivisionRule rule =
       options.rule == "loop" ? SubdivisionRule::loop : SubdivisionRule::midpoint;
   source.finer = subdivision(scene.mesh, rule, options.subdivisions);

@@ -49,8 +49,8 @@ Provenance provenance(const std::string& command) {
 
 std::string program_identity() {
   std::ifstream code("/proc/self/exe", std::ios::binary);
-  const std::vector<char> bytes{std::istreambuf_iterator<char>(code),
-                                std::istreambuf_iterator<char>()};
+  std::vector<char> bytes(std::filesystem::file_size("/proc/self/exe"));
+  code.read(bytes.data(), std::streamsize(bytes.size()));
   ContentKey key;
   key.add(bytes);
   return std::string(FOLDPROOF_VERSION) + ", commit " + FOLDPROOF_COMMIT + ", code " + key.text();

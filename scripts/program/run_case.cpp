@@ -226,8 +226,8 @@ Case built_in_case(const std::string& name) {
   return with_usual_expectations(read_case(shipped_case_file(name)));
 }
 
-LevelSetProvider provider_for(const std::string& cache) {
-  return cache.empty() ? computing_provider() : caching_provider(cache, log_line);
+LevelSetProvider provider_for(const std::string& cache, int threads) {
+  return cache.empty() ? computing_provider(threads) : caching_provider(cache, log_line, threads);
 }
 
 }  // namespace foldproof

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "reference/scene/field_recipe.h"
 #include "scripts/program/commands.h"
@@ -104,16 +103,16 @@ int report(const CaseRun& run, const Options& options) {
 
 /// As typed, or else one a core, but no more than pay.
 int threads_of_run(const Scene& scene, const Options& options) {
-  if (options.running.threads > 0) return int(options.running.threads);
-  const auto useful = scene.x.cols() / least_particles_per_thread;
-  return int(
-      std::clamp<Eigen::Index>(useful, 1, std::max(1u, std::thread::hardware_concurrency())));
+  const int all = threads_of(options.running);
+  if (options.running.threads > 0) return all;
+  return int(std::clamp<Eigen::Index>(scene.x.cols() / least_particles_per_thread, 1, all));
 }
 
 /// Level sets may take a minute.
 BuiltCase built_with_notice(Case input_case, const Options& options) {
   const InterruptionNotice notice("no step is made yet", typed_again(options.words));
-  BuiltCase of = built_case(std::move(input_case), provider_for(options.cache));
+  BuiltCase of =
+      built_case(std::move(input_case), provider_for(options.cache, threads_of(options.running)));
   use_threads(of.built.system, threads_of_run(of.input_case.scene, options));
   return of;
 }

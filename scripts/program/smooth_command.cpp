@@ -50,7 +50,8 @@ SmoothedFrame smooth_frame(const ClothSmoother& smoother, const std::vector<Tria
 
 SmoothedRun smooth_all(const Options& options) {
   const StoredRun run = read_stored_run(options.file);
-  const std::vector<Object> objects = build_objects(run.scene, provider_for(options.cache));
+  const std::vector<Object> objects =
+      build_objects(run.scene, provider_for(options.cache, threads_of(options.running)));
   const ClothSmoother smoother(run.scene.mesh, options.smooth_levels);
   Scene scene = run.scene;
   scene.mesh = make_triangle_mesh(smoother.flat.of(scene.mesh.rest), smoother.smooth.triangles);

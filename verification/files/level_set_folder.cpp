@@ -77,7 +77,7 @@ auto kept(const std::string& path, const std::function<void(const std::string&)>
 }  // namespace
 
 LevelSetProvider caching_provider(const std::string& folder,
-                                  std::function<void(const std::string&)> log_line) {
+                                  std::function<void(const std::string&)> log_line, int threads) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error)
@@ -86,7 +86,7 @@ LevelSetProvider caching_provider(const std::string& folder,
   const auto file = [folder](const std::string& key) {
     return (std::filesystem::path(folder) / (key + ".h5")).string();
   };
-  const LevelSetProvider compute = computing_provider();
+  const LevelSetProvider compute = computing_provider(threads);
   return {[=](const TriangleSoup& soup, const GridMethod& method, Repair repair) {
             const std::string origin = input_key(soup, method, repair), path = file(origin);
             return kept(

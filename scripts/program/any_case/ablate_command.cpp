@@ -281,7 +281,8 @@ void print(const Ablation& one) {
 
 std::vector<Ablation> ablations_of(const Options& options) {
   std::vector<Ablation> all;
-  const LevelSetProvider level_sets = memoizing_provider(provider_for(options.cache));
+  const LevelSetProvider level_sets =
+      memoizing_provider(provider_for(options.cache, threads_of(options.running)));
   std::vector<std::string> files = options.names;
   if (files.empty())
     for (const std::string& name : built_in_cases(tier_of(options)))

@@ -56,7 +56,8 @@ Comparison compared(const Options& options) {
       options.frames, {options.times, options.rate, options.first_time}, run.scene.name);
   Comparison comparison{run.scene.name, Matching::particles, {}, leave_out(run, frames)};
   comparison.matching = matching_of(run.scene.mesh, frames);
-  const BuiltScene built = build(run.scene, provider_for(options.cache));
+  const BuiltScene built =
+      build(run.scene, provider_for(options.cache, threads_of(options.running)));
   for (const TimedMesh& frame : frames) {
     const double t = std::clamp(frame.time, run.times.front(), run.times.back());
     comparison.frames.push_back(

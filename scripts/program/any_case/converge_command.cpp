@@ -176,7 +176,8 @@ int report(const std::vector<Told>& all, const Options& options) {
 }  // namespace
 
 int converge(const Options& options) {
-  const LevelSetProvider level_sets = memoizing_provider(provider_for(options.cache));
+  const LevelSetProvider level_sets =
+      memoizing_provider(provider_for(options.cache, threads_of(options.running)));
   CaseSource source{case_file(options.file), options.overrides, "", options.until};
   const std::vector<std::string> methods = methods_of(options);
   if (!options.solver.empty() && methods.size() > 1)

@@ -7,7 +7,6 @@
 #include <fstream>
 #include <numeric>
 #include <stdexcept>
-#include <thread>
 #include <utility>
 
 #include "scripts/program/progress.h"
@@ -27,11 +26,6 @@ double available_memory() {
   for (double kilobytes; file >> name >> kilobytes; std::getline(file, rest))
     if (name == "MemAvailable:") return 1024 * kilobytes;
   return LadderLimits().bytes;
-}
-
-int threads_of(const JobSettings& running) {
-  return int(running.threads > 0 ? running.threads
-                                 : std::max(1u, std::thread::hardware_concurrency()));
 }
 
 /// Of the clock, for jobs side by side that each take so many seconds.

@@ -242,7 +242,8 @@ bool is_answered(const PrecisionAnswer& answer) {
 
 int precision(const Options& options) {
   const auto start = std::chrono::steady_clock::now();
-  const LevelSetProvider level_sets = memoizing_provider(provider_for(options.cache));
+  const LevelSetProvider level_sets =
+      memoizing_provider(provider_for(options.cache, threads_of(options.running)));
   const PrecisionPlan plan = plan_of(options, level_sets);
   std::optional<PrecisionOfSolver> other;  // refuses now what it cannot run
   if (!options.solver.empty()) other.emplace(options, plan, level_sets);

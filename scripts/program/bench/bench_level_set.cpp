@@ -1,11 +1,14 @@
 // Speed and memory of level sets: a grid of 128^3 nodes about a mesh of 81,920 triangles.
 #include <fmt/format.h>
 
+#include <memory>
 #include <random>
 #include <string>
 
-#include "reference/level_set/narrow_band.h"
+#include "reference/bodies/repair.h"
 #include "reference/bodies/self_intersection.h"
+#include "reference/level_set/deforming.h"
+#include "reference/level_set/narrow_band.h"
 #include "reference/mesh/shapes.h"
 #include "scripts/program/bench/bench_parts.h"
 
@@ -49,6 +52,49 @@ double queries(const S& solid, const std::vector<Vector3>& points) {
 }
 
 }  // namespace
+
+std::vector<ThreadScaling> level_set_scalings() {
+  const TriangleMesh body = make_statue(1, 6);
+  const auto mesh = std::make_shared<MeshDistance>(make_mesh_distance(body.rest, body.triangles));
+  ThreadScaling band{.scene =
+                         fmt::format("band of 128^3 nodes, {} triangles", body.triangles.size())};
+  measure_on_threads(
+      [&](int threads) -> std::function<void()> {
+        return [&, threads] {
+          narrow_band(*mesh, cube_about(mesh->tree.nodes[0].bounds), 3, threads);
+        };
+      },
+      band);
+
+  const TriangleMesh smaller = make_statue(1, 4);
+  const TriangleSoup soup{smaller.rest, smaller.triangles, {}};
+  ThreadScaling repair{.scene = fmt::format("grid by winding numbers, 64 cells, {} triangles",
+                                            soup.triangles.size())};
+  measure_on_threads(
+      [&](int threads) -> std::function<void()> {
+        return [&, threads] {
+          make_repaired_grid(soup, {64, 3, 3, MarchingOrder::second}, threads);
+        };
+      },
+      repair);
+
+  const auto bend = [](const Vector3& X, double t) -> Vector3 {
+    return 0.4 * X + t * Vector3(0.1 * X.y() * X.y(), 0, 0.02);
+  };
+  const MeshSequence frames = deformed_mesh(smaller, bend, {0, 0.5, 1});
+  const OctreeSettings settings{Vector3(-0.5, -0.4, -0.5), 1, 7, 4, 1e-3, 0.03, 0.25, 0,
+                                HangingNodes::constrained};
+  ThreadScaling octrees{
+      .scene = fmt::format("three frames of a body, {} triangles", smaller.triangles.size())};
+  measure_on_threads(
+      [&](int threads) -> std::function<void()> {
+        return [&, threads] {
+          make_deforming_body(frames, settings, BetweenFrames::carried, threads);
+        };
+      },
+      octrees);
+  return {band, repair, octrees};
+}
 
 std::vector<Record> level_set_rates() {
   const TriangleMesh body = make_statue(1, 6);

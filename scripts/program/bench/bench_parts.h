@@ -46,18 +46,26 @@ Scene stacked_sheets(int columns);
 /// Least-squares slope of log seconds over log sizes.
 double growth_exponent(const std::vector<double>& sizes, const std::vector<double>& seconds);
 
-/// How a step of scheme C speeds up with threads.
+/// How a step of scheme C, or the making of a level set, speeds up with threads.
 struct ThreadScaling {
-  std::string name, scene;
-  double target;  // of the share [1]
-  std::string why_target;
+  std::string name = {}, scene = {};  // name: of the record of its share; "": it has none
+  double target = 0;                  // of the share [1]
+  std::string why_target = {};
   std::vector<int> threads = {};     // 1, 2, 4, ... to the cores of the machine
-  std::vector<double> seconds = {};  // the least of a step
+  std::vector<double> seconds = {};  // the least of it
   // processor time over clock time: fewer than `threads` where other programs need the cores
   std::vector<double> cores = {};
-  double share = 0, uncertainty = 0;  // serial share of a step by Amdahl's law [1]
+  double share = 0, uncertainty = 0;  // serial share by Amdahl's law [1]
 };
 
+/// Times run_on(threads)() for its numbers of threads, in rounds over all, so that what slows the
+/// machine down slows all. The share is the median of the rounds' shares; its uncertainty half of
+/// the range of the middle half.
+void measure_on_threads(const std::function<std::function<void()>(int threads)>& run_on,
+                        ThreadScaling& scaling);
+
+/// bench_level_set.cpp: of a grid's band, of signs by winding number, of a body's frames.
+std::vector<ThreadScaling> level_set_scalings();
 /// bench_threads.cpp: of a sheet of 100,000 particles without contact, and of layers in contact.
 std::vector<ThreadScaling> thread_scalings();
 Record serial_share(const ThreadScaling& scaling);

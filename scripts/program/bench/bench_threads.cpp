@@ -1,8 +1,10 @@
-// How much of a step several threads share, and how far that leads.
+// How much of a step, and of the making of level sets, several threads share, and how
+// far that leads.
 #include <algorithm>
 #include <cmath>
 #include <ctime>
 #include <array>
+#include <memory>
 #include <thread>
 
 #include <fmt/format.h>
@@ -40,10 +42,25 @@ double fitted_share(const std::vector<int>& threads, const std::vector<double>& 
 
 double speed_up(double share, int threads) { return 1 / (share + (1 - share) / threads); }
 
-/// Rounds over all numbers of threads, so that what slows the machine down slows all. The share is
-/// the median of the rounds' shares; its uncertainty half of the range of the middle half.
-void measure(const System& system, const State& start, double h, ThreadScaling& scaling) {
+/// Steps of scheme C.
+void measure_steps(const System& system, const State& start, double h, ThreadScaling& scaling) {
   const Integrator& scheme = integrator_named("C");
+  measure_on_threads(
+      [&](int threads) -> std::function<void()> {
+        const auto shared = std::make_shared<System>(system);
+        use_threads(*shared, threads);
+        return [&, shared] {
+          Work work;
+          scheme.step(*shared, {&start, 1}, h, work);
+        };
+      },
+      scaling);
+}
+
+}  // namespace
+
+void measure_on_threads(const std::function<std::function<void()>(int threads)>& run_on,
+                        ThreadScaling& scaling) {
   scaling.threads = thread_counts();
   scaling.seconds.assign(scaling.threads.size(), INFINITY);
   std::vector<double> shares;
@@ -51,13 +68,9 @@ void measure(const System& system, const State& start, double h, ThreadScaling& 
   for (int round = 0; round < rounds; ++round) {
     std::vector<double> seconds;
     for (size_t k = 0; k < scaling.threads.size(); ++k) {
-      System shared = system;
-      use_threads(shared, scaling.threads[k]);
-      Work work;
+      const std::function<void()> run = run_on(scaling.threads[k]);
       const std::clock_t before = std::clock();
-      clock[k] += seconds_of([&] {
-        seconds.push_back(least_seconds([&] { scheme.step(shared, {&start, 1}, h, work); }));
-      });
+      clock[k] += seconds_of([&] { seconds.push_back(least_seconds(run)); });
       processor[k] += double(std::clock() - before) / CLOCKS_PER_SEC;
     }
     for (size_t k = 0; k < seconds.size(); ++k)
@@ -70,15 +83,13 @@ void measure(const System& system, const State& start, double h, ThreadScaling& 
   scaling.uncertainty = (shares[rounds - 2] - shares[1]) / 2;
 }
 
-}  // namespace
-
 std::vector<ThreadScaling> thread_scalings() {
   const Load load = make_load(315);
   ThreadScaling sheet{.name = "serial-share-of-a-step",
                       .scene = fmt::format("sheet, {} particles", load.scene.x.cols()),
                       .target = 0.07,
                       .why_target = "16 cores then make a step 8 times as fast"};
-  measure(load.system, load.state, load.limit / 2, sheet);
+  measure_steps(load.system, load.state, load.limit / 2, sheet);
 
   const Scene layers = stacked_sheets(35);
   const System system = build_system(layers);
@@ -91,7 +102,7 @@ std::vector<ThreadScaling> thread_scalings() {
           "queries of all are not"};
   State start = start_state(layers);
   begin_step(system, start);
-  measure(system, start, 0.5 * elastic_limit(system, start), stack);
+  measure_steps(system, start, 0.5 * elastic_limit(system, start), stack);
   return {sheet, stack};
 }
 
@@ -113,8 +124,8 @@ Record serial_share(const ThreadScaling& scaling) {
 Table threads_table(const std::vector<ThreadScaling>& scalings) {
   Table table{
       "threads",
-      "A step of scheme C on several threads",
-      {{"scene", ""}, {"threads", "1"}, {"cores in use", "1"}, {"step", "ms"}, {"speed-up", "1"}}};
+      "A step of scheme C, or a level set, on several threads",
+      {{"of", ""}, {"threads", "1"}, {"cores in use", "1"}, {"time", "ms"}, {"speed-up", "1"}}};
   for (const ThreadScaling& of : scalings)
     for (size_t k = 0; k < of.threads.size(); ++k)
       table.row(of.scene, of.threads[k], of.cores[k], 1e3 * of.seconds[k],

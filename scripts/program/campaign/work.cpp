@@ -184,7 +184,7 @@ class Crew {
  public:
   Crew(const Batch& batch, size_t slice, std::vector<BatchJob> jobs, const WorkSettings& settings)
       : batch_(batch), slice_(slice), settings_(settings), jobs_(std::move(jobs)) {
-    level_sets_ = memoizing_provider(provider_for(settings.cache));
+    level_sets_ = memoizing_provider(provider_for(settings.cache, 1));
   }
   ~Crew() { end_all(SIGKILL); }
 

@@ -8,11 +8,12 @@
 
 namespace foldproof {
 
-std::vector<Check> mesh_distance_checks();  // the exact distance to a mesh
-std::vector<Check> grid_checks();           // values between nodes
-std::vector<Check> marching_checks();       // fast marching
-std::vector<Check> octree_checks();         // adaptively sampled distance of one body
-std::vector<Check> octree_union_checks();   // several bodies on one tree
-std::vector<Check> deforming_checks();      // level sets at frames and between them
+std::vector<Check> mesh_distance_checks();     // the exact distance to a mesh
+std::vector<Check> grid_checks();              // values between nodes
+std::vector<Check> marching_checks();          // fast marching
+std::vector<Check> octree_checks();            // adaptively sampled distance of one body
+std::vector<Check> octree_union_checks();      // several bodies on one tree
+std::vector<Check> deforming_checks();         // level sets at frames and between them
+std::vector<Check> level_set_thread_checks();  // level sets made on several threads
 
 }  // namespace foldproof
