@@ -71,11 +71,11 @@ class Plan(NamedTuple):
     objects: dict[str, set[str]]  # of each program, with those of its libraries
 
 
-def clean_commit(record: Path) -> str:
-    """The commit of the working tree; Unusable if a file but the record differs: what is recorded
+def clean_commit(*records: Path) -> str:
+    """The commit of the working tree; Unusable if a file but the records differs: what is recorded
     must be repeatable."""
-    but = f":!{record.relative_to(ROOT)}"
-    status = run(["git", "status", "--porcelain", "--untracked-files=no", "--", ".", but], ROOT)
+    but = [f":!{record.relative_to(ROOT)}" for record in records]
+    status = run(["git", "status", "--porcelain", "--untracked-files=no", "--", ".", *but], ROOT)
     if status.returncode or status.stdout:
         raise Unusable("--record needs a working tree without changes: commit them first")
     return run(["git", "rev-parse", "HEAD"], ROOT).stdout.strip()

@@ -16,6 +16,7 @@ from data.unreadable import reading
 FAULTS = Path(__file__).resolve().parents[2] / "verification" / "faults"
 RECORD = FAULTS / "mutants.json"
 EXPLAINED = FAULTS / "equivalent_mutants.toml"
+EXPLAINED_ASKED = FAULTS / "explained_mutants.json"
 
 Row = dict[str, Any]
 Key = tuple[str, str, str]  # file, line, and what the line becomes
@@ -56,6 +57,13 @@ class MutantRecord:
     parts: list[Part]
     survivors: list[Row]   # of all samples, that are not explained
     explained: list[Row]   # with the reason
+    all_explained: int     # edits with a reason, drawn or not
+    explained_asked: list[Row]  # those that all checks and unit tests that reach them were asked of
+
+    @property
+    def explained_noticed(self) -> int:
+        """Of those asked: where the reason is wrong."""
+        return sum(row["outcome"] == "killed" for row in self.explained_asked)
 
     @property
     def asked(self) -> int:
@@ -78,7 +86,9 @@ def read_rows(path: Path = RECORD) -> list[Row]:
         return rows
 
 
-def load_mutant_record(record: Path = RECORD, explained: Path = EXPLAINED) -> MutantRecord | None:
+def load_mutant_record(
+    record: Path = RECORD, explained: Path = EXPLAINED, asked: Path = EXPLAINED_ASKED
+) -> MutantRecord | None:
     """The record for a page; None of an empty one. Throws Unreadable if a file is damaged."""
     rows = read_rows(record)
     if not rows:
@@ -86,6 +96,7 @@ def load_mutant_record(record: Path = RECORD, explained: Path = EXPLAINED) -> Mu
     with reading(explained):
         said = tomllib.loads(explained.read_text(encoding="utf-8"))["mutant"]
         reasons = {(row["file"], row["line"], row["becomes"]): row["reason"] for row in said}
+    answers = [row for row in read_rows(asked) if key_of_row(row) in reasons]
     with reading(record):
         return MutantRecord(
             parts_of(rows, set(reasons)),
@@ -97,6 +108,7 @@ def load_mutant_record(record: Path = RECORD, explained: Path = EXPLAINED) -> Mu
                 {**row, "reason": reasons[key_of_row(row)]} for row in rows
                 if key_of_row(row) in reasons
             ],
+            len(reasons), answers,
         )
 
 

@@ -11,6 +11,7 @@ sys.dont_write_bytecode = True
 
 from script_module import ROOT  # noqa: E402
 from edits import Change  # noqa: E402
+from mutant_explained import edit_of, not_asked, with_answers, write_answers  # noqa: E402
 from mutant_record import (  # noqa: E402
     RECORD,
     log_asked,
@@ -29,6 +30,36 @@ from mutant_trials import Judgement, Mutant  # noqa: E402
 
 def mutant(after: str) -> Mutant:
     return Mutant("reference/a.cpp", 0, Change(0, 1, "b", "operator"), 3, "a + b", after)
+
+
+class Explained(unittest.TestCase):
+    def test_edits_that_were_asked_are_not_asked_again(self) -> None:
+        first = not_asked([], 1)[:3]
+        answers = with_answers(
+            [],
+            [Judgement(first[0], "killed", "", "check.x"), Judgement(first[1], "SURVIVED"),
+             Judgement(first[2], "ERROR")], "c"
+        )
+        self.assertEqual([row["outcome"] for row in answers], ["killed", "SURVIVED"])
+        left = {(one.file, one.before, one.after) for one in not_asked(answers, 2)}
+        self.assertEqual(
+            [(one.file, one.before, one.after) in left for one in first], [False, False, True]
+        )
+        self.assertEqual(len(left), len(not_asked([], 1)) - 2)
+
+    def test_an_explained_edit_stands_where_its_line_does(self) -> None:
+        for one in not_asked([], 3)[:50]:
+            text = (ROOT / one.file).read_text(encoding="utf-8")
+            self.assertEqual(edit_of(0, one.file, one.before, one.after).line, one.line)
+            self.assertEqual(text.splitlines()[one.line - 1].strip(), one.before)
+            self.assertTrue(text[one.change.at:].startswith(one.before))
+
+    def test_answers_are_read_as_they_were_written(self) -> None:
+        rows = with_answers([], [Judgement(mutant("a - b"), "SURVIVED")], "c")
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "explained.json"
+            write_answers(rows, path)
+            self.assertEqual(read_rows(path), rows)
 
 
 class Record(unittest.TestCase):
