@@ -27,6 +27,7 @@
 #include "scripts/program/report_commands.h"
 #include "scripts/program/run_all.h"
 #include "scripts/program/run_case.h"
+#include "verification/cases/frame_laws.h"
 #include "verification/checks.h"
 #include "verification/claims/read_claims.h"
 #include "verification/faults/faults.h"
@@ -174,7 +175,8 @@ nlohmann::json names_and_claims(const std::vector<Asked>& all) {
 int list(const Options& options) {
   nlohmann::json json = {{"checks", names_and_claims(all_checks())},
                          {"studies", names_and_claims(all_studies())},
-                         {"laws", names_and_claims(portable_laws())}};
+                         {"laws", names_and_claims(portable_laws())},
+                         {"frame_laws", names_and_claims(frame_laws())}};
   json["cases"] = built_in_cases(Tier::full);
   json["cases_folder"] = data_folder() + "/cases";
   json["long_cases"] = long_cases();
@@ -191,7 +193,10 @@ int list(const Options& options) {
     return all_hold;
   }
   for (const auto& [kind, heading] :
-       {std::pair("checks", "checks"), {"studies", "studies"}, {"laws", "laws for `judge`"}}) {
+       {std::pair("checks", "checks"),
+        {"studies", "studies"},
+        {"laws", "laws for `judge`"},
+        {"frame_laws", "laws for `judge --frames`"}}) {
     fmt::print("{}:\n", heading);
     for (const auto& row : json[kind])
       fmt::print("  {:<58} {}\n", row["name"].get<std::string>(), row["claim"].get<std::string>());

@@ -24,6 +24,7 @@ from judge_case import SUBJECTS, TOY, JudgeCase, bad  # noqa: E402
 from program_case import PROGRAM, ROOT, run  # noqa: E402
 
 LAWS = 77  # of the portable suite
+FRAME_LAWS = 12
 TOY_DECLINES = {
     "rest.curved-sheet-keeps-its-rest-angles", "order.with-damping-is-as-claimed",
     "momentum.linear-under-damping-is-conserved",
@@ -186,12 +187,15 @@ class Judge(JudgeCase):
         self.assertEqual((done.returncode, done.stdout), (2, ""))
 
     def test_the_laws_are_listed(self) -> None:
-        laws = json.loads(run("list", "--json").stdout)["laws"]
-        self.assertEqual(len(laws), LAWS)
+        listed = json.loads(run("list", "--json").stdout)
         lines = run("list").stdout.splitlines()
-        first = lines.index("laws for `judge`:") + 1
-        for law, line in zip(laws, lines[first:first + LAWS], strict=True):
-            self.assertEqual(line.split(maxsplit=1), [law["name"], law["claim"]])
+        for laws, command, count in (
+            (listed["laws"], "judge", LAWS), (listed["frame_laws"], "judge --frames", FRAME_LAWS)
+        ):
+            self.assertEqual(len(laws), count)
+            first = lines.index(f"laws for `{command}`:") + 1
+            for law, line in zip(laws, lines[first:first + count], strict=True):
+                self.assertEqual(line.split(maxsplit=1), [law["name"], law["claim"]])
 
     def test_the_example_of_the_help_works(self) -> None:
         told = run("subject", "--help").stdout
