@@ -47,8 +47,8 @@ void add_block(const MeshDistance& mesh, const Lattice& lattice, const Node& fir
       add_row(mesh, lattice, {first[0], j, k}, width, seeds);
 }
 
-/// The first nodes of all blocks that may hold a node of the band, in order: most blocks hold none,
-/// so that those that do are shared out evenly.
+/// The first nodes of all blocks that may hold a node of the band, in order. They are found first
+/// because most blocks hold none: the others can then be shared out evenly.
 std::vector<Node> near_blocks(const MeshDistance& mesh, const Lattice& lattice, double width,
                               int threads) {
   Node count;  // of blocks along each axis

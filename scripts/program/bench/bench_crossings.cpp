@@ -22,7 +22,7 @@ Record crossing_rate() {
       "crossing-queries",
       "Vertices and triangles, edges and edges that move at random: do they meet? One thread.",
       approach > 0 ? 1e9 * seconds / double(queries.size()) : 0,
-      {1000, "ns", "lower", "a handful of planes, each from one search for the nearest points"});
+      {500, "ns", "lower", "a handful of planes, each from one search for the nearest points"});
 }
 
 }  // namespace foldproof

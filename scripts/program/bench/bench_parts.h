@@ -24,7 +24,7 @@ double resident_megabytes(const std::string& what);
 void forget_peak();
 
 struct Target {
-  double value;
+  double value = 0;
   std::string unit, better;  // "higher" or "lower"
   std::string why;
 };
@@ -56,6 +56,8 @@ struct ThreadScaling {
   // processor time over clock time: fewer than `threads` where other programs need the cores
   std::vector<double> cores = {};
   double share = 0, uncertainty = 0;  // serial share by Amdahl's law [1]
+  std::string on_two = {};  // name of the record of its time on two threads; "": it has none
+  Target target_on_two = {};
 };
 
 /// Times run_on(threads)() for its numbers of threads, in rounds over all, so that what slows the
@@ -69,6 +71,7 @@ std::vector<ThreadScaling> level_set_scalings();
 /// bench_threads.cpp: of a sheet of 100,000 particles without contact, and of layers in contact.
 std::vector<ThreadScaling> thread_scalings();
 Record serial_share(const ThreadScaling& scaling);
+Record on_two_threads(const ThreadScaling& scaling);
 Table threads_table(const std::vector<ThreadScaling>& scalings);
 Table forecast_table(const std::vector<ThreadScaling>& scalings);
 

@@ -74,6 +74,11 @@ TEST_CASE("folds: a jump is as uncertain as the other hinges are fast, and the c
   const Finding earlier = folds({{-120, 130}, {120, 138}, {170, 10}, {-170, 130}});
   CHECK(earlier.verdict.measured == exactly(240));
   CHECK(earlier.verdict.uncertainty == exactly(8));
+  // a jump hardly larger than the other hinge's turn says nothing
+  const Finding unclear = folds({{-100, -90}, {80.4, 89.9}});
+  CHECK(unclear.verdict.measured == exactly(180.4));
+  CHECK(unclear.verdict.uncertainty == exactly(179.9));
+  CHECK(outcome_of(unclear.verdict) == Outcome::inconclusive);
 }
 
 TEST_CASE("folds: one oriented surface and two frames are needed") {

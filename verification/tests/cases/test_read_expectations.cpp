@@ -3,6 +3,7 @@
 
 #include "verification/cases/expectations.h"
 #include "verification/cases/quantities.h"
+#include "verification/cases/replaced_shape.h"
 #include "verification/specimens/scratch_folder.h"
 #include "verification/tests/cases/small_sheet.h"
 
@@ -156,4 +157,13 @@ TEST_CASE("shapes: what replaces them is named, all of it, and the same again is
         "written for sphere and sphere; this run uses capsule and capsule");
   CHECK(reason({"object=[{shape = \"half_space\", move = [0, 0, -1]}]"}) ==
         "written for the file's 'object'; this run uses another 'object'");
+}
+
+TEST_CASE("shapes: a mesh that is the same file does not hide what else is replaced") {
+  const ScratchFolder folder;
+  const std::string mesh = folder.write("a.obj", "v 0 0 0\n");
+  const CaseKeys keys = parse_case_text(
+      "[[object]]\nmesh = \"a.obj\"\nshape = \"sphere\"\nframes = \"b\"\n", folder.file("one.toml"),
+      {"object.0.mesh=" + mesh, "object.0.shape=capsule", "object.0.frames=c"});
+  CHECK(replaced_shape(keys) == "written for sphere and b; this run uses capsule and c");
 }

@@ -172,6 +172,28 @@ TEST_CASE("fractions are exact: a third of the way") {
   CHECK_FALSE(ever_meet(Features::vertex_and_triangle, motion_between(x)));
 }
 
+TEST_CASE("a motion between fractions has each of their numbers, over one denominator") {
+  const std::array<long, 3> denominators{2, 3, 5};
+  const auto numerator = [](std::size_t point, std::size_t axis) {
+    return long(7 * point + 3 * axis) - 11;
+  };
+  std::array<std::array<Fraction, 3>, 8> x;
+  for (std::size_t i = 0; i < 8; ++i)
+    for (std::size_t k = 0; k < 3; ++k) x[i][k] = {numerator(i, k), denominators[k]};
+  const Motion motion = motion_between(x);
+  const auto whole = [&](std::size_t point, std::size_t axis) {
+    return 30 / denominators[axis] * numerator(point, axis);
+  };
+  for (std::size_t i = 0; i < 4; ++i) {
+    CHECK(motion.start[i].x == whole(i, 0));
+    CHECK(motion.start[i].y == whole(i, 1));
+    CHECK(motion.start[i].z == whole(i, 2));
+    CHECK(motion.displacement[i].x == whole(i + 4, 0) - whole(i, 0));
+    CHECK(motion.displacement[i].y == whole(i + 4, 1) - whole(i, 1));
+    CHECK(motion.displacement[i].z == whole(i + 4, 2) - whole(i, 2));
+  }
+}
+
 TEST_CASE("an edge crosses a triangle, touches it, or stays clear") {
   const Corners3 t = {Vector3(0, 0, 0), Vector3(4, 0, 0), Vector3(0, 4, 0)};
   CHECK(pairs_of_edge({1, 1, -1}, {1, 1, 2}, t) == 1);
