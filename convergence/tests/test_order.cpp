@@ -112,6 +112,9 @@ TEST_CASE("an error at its floor says nothing") {
   CHECK(std::isinf(order_deviation(convergence, 2, 1).uncertainty));
   convergence.floor = 0;
   CHECK(order_deviation(convergence, 2, 1).uncertainty == 0);
+  convergence.errors.back() = 0;  // without a floor, too
+  CHECK(std::isnan(order_deviation(convergence, 2, 1).value));
+  CHECK(order_deviation(convergence, 2, 1).uncertainty == 0);
 }
 
 TEST_CASE("Richardson's extrapolation is exact for one power") {

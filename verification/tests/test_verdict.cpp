@@ -1,10 +1,12 @@
 // Verdicts: what holds, what fails, and that nothing that is NaN or stopped ever passes.
 #include <catch2/catch.hpp>
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <fstream>
 #include <limits>
 #include <stdexcept>
+#include <thread>
 
 #include "reference/scene/key_file.h"
 #include "verification/verdict.h"
@@ -115,6 +117,14 @@ TEST_CASE("the worst row is judged in its column's unit, with the largest uncert
   CHECK(judge_worst(table, 20, "why").verdict.measured == 16);
   table.row("three", Estimate{1, not_a_number}, 32);
   CHECK(outcome_of(judge_worst(table, "error", 6, "why").verdict) == Outcome::fails);
+}
+
+TEST_CASE("a check's record has the time that it took") {
+  const auto wait = [](const Subject&) -> Finding {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    return {};
+  };
+  CHECK(run_check(check_that(wait), reference_subject()).seconds >= 0.02);
 }
 
 TEST_CASE("a check that throws fails and says why; one that is not offered is not applicable") {
