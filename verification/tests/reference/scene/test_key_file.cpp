@@ -40,6 +40,14 @@ TEST_CASE("values come back as they were written") {
   CHECK(cloth->number_or("absent", 0.75) == 0.75);
 }
 
+TEST_CASE("an empty text, and a mark of its encoding alone, have no keys") {
+  for (const std::string nothing : {"", "\xEF\xBB\xBF"}) {
+    const auto root = parse_keys(nothing, "some.toml");
+    CHECK(!root->has("title"));
+    CHECK_NOTHROW(root->reject_unused());
+  }
+}
+
 TEST_CASE("a key that nobody asked for is refused with its line and what is known") {
   const auto root = parse_keys(text, "some.toml");
   root->has("title");
