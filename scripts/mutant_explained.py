@@ -44,9 +44,8 @@ def with_answers(rows: list[Row], judged: list[Judgement], commit: str) -> list[
 
 
 def read_answers() -> list[Row]:
-    """Of edits that are explained today."""
-    explained = read_explained()
-    return [row for row in read_rows(EXPLAINED_ASKED) if key_of_row(row) in explained]
+    """Of all edits that were explained when they were asked."""
+    return read_rows(EXPLAINED_ASKED)
 
 
 def write_answers(rows: list[Row], path: Path = EXPLAINED_ASKED) -> None:

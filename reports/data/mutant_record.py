@@ -58,11 +58,11 @@ class MutantRecord:
     survivors: list[Row]   # of all samples, that are not explained
     explained: list[Row]   # with the reason
     all_explained: int     # edits with a reason, drawn or not
-    explained_asked: list[Row]  # those that all checks and unit tests that reach them were asked of
+    explained_asked: list[Row]  # put to all checks and unit tests that reach them
 
     @property
     def explained_noticed(self) -> int:
-        """Of those asked: where the reason is wrong."""
+        """Of those asked: their reasons were wrong, and are gone."""
         return sum(row["outcome"] == "killed" for row in self.explained_asked)
 
     @property
@@ -96,7 +96,6 @@ def load_mutant_record(
     with reading(explained):
         said = tomllib.loads(explained.read_text(encoding="utf-8"))["mutant"]
         reasons = {(row["file"], row["line"], row["becomes"]): row["reason"] for row in said}
-    answers = [row for row in read_rows(asked) if key_of_row(row) in reasons]
     with reading(record):
         return MutantRecord(
             parts_of(rows, set(reasons)),
@@ -108,7 +107,7 @@ def load_mutant_record(
                 {**row, "reason": reasons[key_of_row(row)]} for row in rows
                 if key_of_row(row) in reasons
             ],
-            len(reasons), answers,
+            len(reasons), read_rows(asked),
         )
 
 

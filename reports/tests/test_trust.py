@@ -46,8 +46,10 @@ class Beside(ReportTest):
         record.write_text(json.dumps({"mutants": rows}))
         reasons.write_text('[[mutant]]\nfile = "a.cpp"\nline = "a < b"\nbecomes = "a <= b"\n'
                            'reason = "they are never equal"\n')
+        asked = self.root / "asked.json"
+        asked.write_text(json.dumps({"mutants": [equal, {**row, "after": "c"}]}))
         with mock.patch("make_report.load_mutant_record",
-                        lambda: load_mutant_record(record, reasons)):
+                        lambda: load_mutant_record(record, reasons, asked)):
             text = self.made()
         section = text[text.index('id="mutants"'):]
         self.assertIn('<td class="num">2</td><td class="num">2</td><td class="num">1</td>'
@@ -55,7 +57,9 @@ class Beside(ReportTest):
                       '<td class="num">15 to 85 %</td>', section)
         self.assertIn('<td>2026-01-01</td><td><code>old</code></td><td class="num">1</td>'
                       '<td class="num">0</td><td class="num">100.0 %</td>', section)
-        for said in ("<td>check.y</td>", "<td>nothing</td>", "they are never equal"):
+        for said in ("<td>check.y</td>", "<td>nothing</td>", "they are never equal",
+                     "1 edits have a reason", "2 such edits, drawn at random",
+                     "1 was noticed, and no longer has a reason"):
             self.assertIn(said, section)
         self.read(section)
 
