@@ -11,7 +11,7 @@ namespace {
 
 constexpr int centre = 13;                      // of the nodes of a branch
 constexpr std::size_t most_branches = 1 << 24;  // about 5 GB while they grow
-constexpr std::size_t batch = 32;  // branches a thread whose children are found at once
+constexpr std::size_t batch = 256;  // branches a thread whose children are found at once
 
 double cell_width(const OctreeSettings& settings, int level) {
   return std::ldexp(settings.width, -level);
