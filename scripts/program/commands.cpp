@@ -192,11 +192,10 @@ int list(const Options& options) {
     fmt::print("{}\n", json_text(json));
     return all_hold;
   }
-  for (const auto& [kind, heading] :
-       {std::pair("checks", "checks"),
-        {"studies", "studies"},
-        {"laws", "laws for `judge`"},
-        {"frame_laws", "laws for `judge --frames`"}}) {
+  for (const auto& [kind, heading] : {std::pair("checks", "checks"),
+                                      {"studies", "studies"},
+                                      {"laws", "laws for `judge`"},
+                                      {"frame_laws", "laws for `judge --frames`"}}) {
     fmt::print("{}:\n", heading);
     for (const auto& row : json[kind])
       fmt::print("  {:<58} {}\n", row["name"].get<std::string>(), row["claim"].get<std::string>());

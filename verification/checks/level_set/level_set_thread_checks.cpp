@@ -83,8 +83,8 @@ struct NamedMaking {
 };
 
 std::vector<NamedMaking> makings() {
-  const GridMethod method{41, 3, 3, MarchingOrder::second};
-  const OctreeSettings settings = sampling(7, 3e-4, HangingNodes::constrained);
+  const GridMethod method{31, 3, 3, MarchingOrder::second};
+  const OctreeSettings settings = sampling(6, 1e-3, HangingNodes::constrained);
   return {
       {"grid about a statue",
        [=](int threads) {
