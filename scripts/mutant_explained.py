@@ -32,14 +32,15 @@ def edit_of(number: int, file: str, line: str, becomes: str) -> Mutant:
 
 
 def with_answers(rows: list[Row], judged: list[Judgement], commit: str) -> list[Row]:
-    """The rows and those asked, but for edits that turned out to have no code of their own."""
+    """The rows and those answered: what has no code of its own, or could not be asked, is left
+    out."""
     today = time.strftime("%Y-%m-%d", time.gmtime())
     return rows + [
         {
             "file": one.mutant.file, "before": one.mutant.before, "after": one.mutant.after,
             "outcome": one.outcome, "by": one.by or one.what, "commit": commit, "date": today
         }
-        for one in judged if one.outcome in ("killed", "SURVIVED", "same code")
+        for one in judged if one.outcome in ("killed", "SURVIVED")
     ]
 
 

@@ -77,7 +77,7 @@ def clean_commit(*records: Path) -> str:
     but = [f":!{record.relative_to(ROOT)}" for record in records]
     status = run(["git", "status", "--porcelain", "--untracked-files=no", "--", ".", *but], ROOT)
     if status.returncode or status.stdout:
-        raise Unusable("--record needs a working tree without changes: commit them first")
+        raise Unusable("what is recorded needs a working tree without changes: commit them first")
     return run(["git", "rev-parse", "HEAD"], ROOT).stdout.strip()
 
 

@@ -1,4 +1,4 @@
-// The clock for all timings.
+// Processor time of the calling thread.
 #pragma once
 
 #include <ctime>

@@ -19,7 +19,7 @@ struct LevelSetProvider {
       make_deforming_body;
 };
 
-/// Computes every request, on so many threads.
+/// Computes every request, on that many threads.
 LevelSetProvider computing_provider(int threads = 1);
 
 /// Calls `provider` once per distinct request and returns the stored result afterwards, from any

@@ -24,7 +24,7 @@ struct System {
 /// without forces.
 System make_system(PerParticle mass);
 
-/// Lets the system's loops run on so many threads, by which no bit of a result changes. Call it
+/// Lets the system's loops run on that many threads, by which no bit of a result changes. Call it
 /// when all forces and filters are there.
 void use_threads(System& system, int threads);
 

@@ -13,14 +13,15 @@ namespace foldproof {
 template <class Key, class Value, class Hash>
 class SharedMap {
  public:
-  /// The value of the key, from make() if it has none; others that ask for it wait.
+  /// The value of the key, from make() if it has none. Threads that ask for another key of its part
+  /// wait; make() must not ask the map.
   template <class Make>
   const Value& at(const Key& key, const Make& make) {
     Part& part = part_of(key);
     const std::lock_guard lock(part.one_at_a_time);
-    const auto [place, is_new] = part.values.try_emplace(key);
-    if (is_new) place->second = make();
-    return place->second;
+    const auto found = part.values.find(key);
+    return found != part.values.end() ? found->second
+                                      : part.values.emplace(key, make()).first->second;
   }
 
   /// Null if it has none. While no thread adds values.

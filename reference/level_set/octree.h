@@ -77,7 +77,7 @@ struct Octree {
 /// the cells there are the finest; beyond the band, `beyond` times the distance is added. A
 /// constrained node adds the error of its coarse neighbour. Neighbours, also across edges and
 /// corners, differ by one level at most. Throws InputError: no bodies, a setting out of range, a
-/// body that reaches the cube's boundary. The bodies are asked from so many threads at once; the
+/// body that reaches the cube's boundary. The bodies are asked from that many threads at once; the
 /// bits are those of one.
 Octree make_octree(const std::vector<DistanceFunction>& bodies, const OctreeSettings& settings,
                    int threads = 1);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int centre = 13;                      // of the nodes of a branch
 constexpr std::size_t most_branches = 1 << 24;  // about 5 GB while they grow
-constexpr std::size_t batch = 256;  // branches a thread whose children are found at once
+constexpr std::size_t batch = 256;              // branches per thread in one batch
 
 double cell_width(const OctreeSettings& settings, int level) {
   return std::ldexp(settings.width, -level);
@@ -118,7 +118,7 @@ bool wants_split(const Samples& samples, const OctreeSettings& settings, int lev
   return false;
 }
 
-/// The children of a branch that are split in turn; one without samples stays a leaf.
+/// Samples of those children of a branch that are to be split; one without samples stays a leaf.
 using SplitChildren = std::array<Samples, 8>;
 
 SplitChildren split_children(const OctreeGrowth& growth, const GrowingBranch& branch) {

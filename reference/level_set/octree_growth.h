@@ -25,8 +25,8 @@ struct OctreeGrowth {
   long evaluations = 0;
 };
 
-/// Splits cells, from the whole cube down, until the settings are met; asks the bodies from so many
-/// threads at once.
+/// Splits cells, from the whole cube down, until the settings are met; asks the bodies from that
+/// many threads at once.
 OctreeGrowth grow_octree(const std::vector<DistanceFunction>& bodies,
                          const OctreeSettings& settings, int threads);
 

@@ -58,7 +58,7 @@ class Beside(ReportTest):
         self.assertIn('<td>2026-01-01</td><td><code>old</code></td><td class="num">1</td>'
                       '<td class="num">0</td><td class="num">100.0 %</td>', section)
         for said in ("<td>check.y</td>", "<td>nothing</td>", "they are never equal",
-                     "1 edits have a reason", "2 such edits, drawn at random",
+                     "1 edits have a reason", "2 such edits, drawn at random from",
                      "1 was noticed, and no longer has a reason"):
             self.assertIn(said, section)
         self.read(section)

@@ -49,7 +49,9 @@ Provenance provenance(const std::string& command) {
 
 std::string program_identity() {
   std::ifstream code("/proc/self/exe", std::ios::binary);
-  std::vector<char> bytes(std::filesystem::file_size("/proc/self/exe"));
+  std::error_code none;  // without /proc nothing is read
+  const auto size = std::filesystem::file_size("/proc/self/exe", none);
+  std::vector<char> bytes(none ? 0 : size);
   code.read(bytes.data(), std::streamsize(bytes.size()));
   ContentKey key;
   key.add(bytes);

@@ -80,7 +80,7 @@ std::string shipped_case_file(const std::string& name);
 Case built_in_case(const std::string& name);
 
 /// Makers that keep level sets in a folder and say so; those that compute them if it has no name.
-/// Both compute on so many threads.
+/// Both compute on that many threads.
 LevelSetProvider provider_for(const std::string& cache, int threads);
 
 }  // namespace foldproof

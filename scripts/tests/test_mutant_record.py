@@ -24,8 +24,8 @@ from mutant_record import (  # noqa: E402
     with_noticed,
     write_record,
 )
-from data.mutant_record import parts_of, samples_of, score_interval  # noqa: E402
-from mutant_trials import Judgement, Mutant  # noqa: E402
+from data.mutant_record import EXPLAINED_ASKED, parts_of, samples_of, score_interval  # noqa: E402
+from mutant_trials import Judgement, Mutant, read_explained  # noqa: E402
 
 
 def mutant(after: str) -> Mutant:
@@ -53,6 +53,12 @@ class Explained(unittest.TestCase):
             self.assertEqual(edit_of(0, one.file, one.before, one.after).line, one.line)
             self.assertEqual(text.splitlines()[one.line - 1].strip(), one.before)
             self.assertTrue(text[one.change.at:].startswith(one.before))
+
+    def test_no_edit_that_was_noticed_still_has_a_reason(self) -> None:
+        explained = read_explained()
+        for row in read_rows(EXPLAINED_ASKED):
+            if row["outcome"] == "killed":
+                self.assertNotIn((row["file"], row["before"], row["after"]), explained)
 
     def test_answers_are_read_as_they_were_written(self) -> None:
         rows = with_answers([], [Judgement(mutant("a - b"), "SURVIVED")], "c")

@@ -10,8 +10,8 @@ namespace foldproof {
 
 /// A provider that caches its results in the folder, one file each, named by the key of its input.
 /// `log_line` receives a message for every file that is loaded, written, or refused and replaced,
-/// with the reason. What is missing is computed on so many threads. A folder or file that cannot be
-/// written throws.
+/// with the reason. What is missing is computed on that many threads. A folder or file that cannot
+/// be written throws.
 LevelSetProvider caching_provider(const std::string& folder,
                                   std::function<void(const std::string&)> log_line,
                                   int threads = 1);

@@ -61,8 +61,8 @@ struct ThreadScaling {
 };
 
 /// Times run_on(threads)() for its numbers of threads, in rounds over all, so that what slows the
-/// machine down slows all. The share is the median of the rounds' shares; its uncertainty half of
-/// the range of the middle half.
+/// machine down slows all. The share is the median of the rounds' shares; its uncertainty half the
+/// range of the middle five of seven.
 void measure_on_threads(const std::function<std::function<void()>(int threads)>& run_on,
                         ThreadScaling& scaling);
 

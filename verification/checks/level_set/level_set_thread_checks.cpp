@@ -76,7 +76,7 @@ MeshSequence bending_ball() {
   return deformed_mesh(make_icosphere(0.15, 3), deformation, {0, 0.5, 1.1});
 }
 
-/// A level set by what makes it, on so many threads.
+/// A level set by what makes it, on that many threads.
 struct NamedMaking {
   std::string name;
   std::function<Numbers(int threads)> numbers_on;

@@ -234,6 +234,11 @@ TEST_CASE("points beside a box are outside it, however far and on whichever side
         REQUIRE(side_of(box, p) == Side::outside);
       }
   CHECK(side_of(box, {-.3, .7, .4}) == Side::inside);
+  // so small a box about the point (1, 1, 1) that all segments leave it through one corner
+  const double step = std::numeric_limits<double>::epsilon(), half = 1 + 2 * step,
+               end = 1 + 4 * step;
+  CHECK_THROWS_AS(side_of(box_between({1, 1, 1}, {end, end, end}), {half, half, half}),
+                  std::runtime_error);
   for (const double off : {.1, 1., 2., 2.9}) {
     CHECK(side_of(box, {-off, .7, .4}) == Side::inside);
     CHECK(side_of(box, {-.3, 1 - off, .4}) == Side::inside);

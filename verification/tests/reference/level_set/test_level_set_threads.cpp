@@ -1,4 +1,4 @@
-// Which threads make level sets: the work is shared out, and without others the caller does it all.
+// Level sets on one thread are made by the caller alone; on several they are the same.
 #include <catch2/catch.hpp>
 #include <mutex>
 #include <set>
