@@ -108,7 +108,7 @@ Finding threads_finding(const Subject&) {
     const Numbers alone = making.numbers_on(1);
     for (const int threads : {2, 3, 7})
       measured.row(making.name, threads, alone.size(),
-                   bits_that_differ(alone, making.numbers_on(threads)));
+                   alone.empty() ? NAN : bits_that_differ(alone, making.numbers_on(threads)));
   }
   return judge_worst(measured, 0,
                      "a node's value depends on its place alone, and nodes are put together in the "

@@ -19,7 +19,7 @@ using Squares = SharedMap<int, long, Hash>;
 
 }  // namespace
 
-TEST_CASE("a shared map makes each value once, whoever asks, and keeps it where it is") {
+TEST_CASE("a shared map makes each value once, and does not move it") {
   constexpr int keys = 3000;
   Squares squares;
   std::atomic<int> made = 0;
