@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "reference/bodies/self_intersection.h"
+#include "reference/mesh/self_intersection.h"
 #include "reference/bodies/winding.h"
 #include "reference/mesh/mesh_locations.h"
 

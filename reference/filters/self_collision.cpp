@@ -6,7 +6,7 @@
 #include "reference/filters/approach.h"
 #include "reference/filters/impact_zones.h"
 #include "reference/forces/degenerate.h"
-#include "reference/bodies/self_intersection.h"
+#include "reference/mesh/self_intersection.h"
 
 namespace foldproof {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "reference/bodies/self_intersection.h"
+#include "reference/mesh/self_intersection.h"
 
 namespace foldproof {
 

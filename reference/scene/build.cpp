@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <set>
 
-#include "reference/bodies/self_intersection.h"
+#include "reference/mesh/self_intersection.h"
 #include "reference/scene/field_recipe.h"
 
 namespace foldproof {

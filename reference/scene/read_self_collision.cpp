@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-#include "reference/bodies/self_intersection.h"
+#include "reference/mesh/self_intersection.h"
 #include "reference/scene/key_values.h"
 
 namespace foldproof {

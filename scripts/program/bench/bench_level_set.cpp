@@ -6,7 +6,7 @@
 #include <string>
 
 #include "reference/bodies/repair.h"
-#include "reference/bodies/self_intersection.h"
+#include "reference/mesh/self_intersection.h"
 #include "reference/level_set/deforming.h"
 #include "reference/level_set/narrow_band.h"
 #include "reference/mesh/shapes.h"

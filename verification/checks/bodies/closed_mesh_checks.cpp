@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "reference/bodies/closed_mesh.h"
-#include "reference/bodies/self_intersection.h"
+#include "reference/mesh/self_intersection.h"
 #include "reference/mesh/obj.h"
 #include "reference/mesh/shapes.h"
 #include "verification/checks/bodies/body_checks.h"

@@ -5,7 +5,7 @@
 #include <limits>
 #include <set>
 
-#include "reference/bodies/self_intersection.h"
+#include "reference/mesh/self_intersection.h"
 #include "reference/mesh/shapes.h"
 #include "reference/post/fold_projection.h"
 #include "reference/post/smooth_cloth.h"

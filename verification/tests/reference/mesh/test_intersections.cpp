@@ -5,7 +5,7 @@
 #include <random>
 
 #include "reference/bodies/ray_parity.h"
-#include "reference/bodies/self_intersection.h"
+#include "reference/mesh/self_intersection.h"
 
 using namespace foldproof;
 

@@ -1,4 +1,4 @@
-#include "reference/bodies/self_intersection.h"
+#include "reference/mesh/self_intersection.h"
 
 #include <algorithm>
 #include <array>
