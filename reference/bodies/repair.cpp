@@ -8,7 +8,7 @@
 
 #include "reference/bodies/closed_mesh.h"
 #include "reference/bodies/winding.h"
-#include "reference/fast/threads.h"
+#include "reference/fast/loops.h"
 #include "reference/mesh/mesh_locations.h"
 
 namespace foldproof {

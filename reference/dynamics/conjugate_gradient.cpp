@@ -4,7 +4,7 @@
 #include <cmath>
 #include <functional>
 
-#include "reference/fast/threads.h"
+#include "reference/fast/loops.h"
 
 namespace foldproof {
 

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "reference/dynamics/events.h"
-#include "reference/fast/threads.h"
+#include "reference/fast/loops.h"
 #include "reference/forces/degenerate.h"
 
 namespace foldproof {

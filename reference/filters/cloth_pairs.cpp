@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <atomic>
 
-#include "reference/fast/threads.h"
+#include "reference/fast/loops.h"
 #include "reference/filters/pair_search.h"
 
 namespace foldproof {

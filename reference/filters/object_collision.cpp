@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "reference/fast/out_of_reach.h"
-#include "reference/fast/threads.h"
+#include "reference/fast/loops.h"
 
 namespace foldproof {
 

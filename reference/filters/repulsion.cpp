@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "reference/fast/threads.h"
+#include "reference/fast/loops.h"
 
 namespace foldproof {
 

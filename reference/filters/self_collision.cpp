@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "reference/fast/threads.h"
+#include "reference/fast/loops.h"
 #include "reference/filters/approach.h"
 #include "reference/filters/impact_zones.h"
 #include "reference/forces/degenerate.h"

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "reference/fast/threads.h"
+#include "reference/fast/loops.h"
 #include "reference/forces/damping.h"
 #include "reference/forces/energies.h"
 #include "reference/forces/force_differential.h"

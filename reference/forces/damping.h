@@ -10,7 +10,7 @@
 #include <functional>
 #include <vector>
 
-#include "reference/fast/threads.h"
+#include "reference/fast/loops.h"
 #include "reference/forces/triangle_frame.h"
 #include "reference/types.h"
 

@@ -1,6 +1,6 @@
 #include "reference/forces/gravity.h"
 
-#include "reference/fast/threads.h"
+#include "reference/fast/loops.h"
 
 namespace foldproof {
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "reference/fast/threads.h"
+#include "reference/fast/loops.h"
 #include "reference/forces/damping.h"
 #include "reference/forces/energies.h"
 #include "reference/forces/force_differential.h"

@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "reference/fast/shared_map.h"
-#include "reference/fast/threads.h"
+#include "reference/fast/loops.h"
 #include "reference/level_set/deforming.h"
 #include "reference/level_set/mesh_distance.h"
 #include "reference/level_set/octree_nodes.h"

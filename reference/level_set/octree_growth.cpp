@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reference/fast/threads.h"
+#include "reference/fast/loops.h"
 
 namespace foldproof {
 

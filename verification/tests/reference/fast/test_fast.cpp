@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "reference/fast/out_of_reach.h"
-#include "reference/fast/threads.h"
+#include "reference/fast/loops.h"
 
 using namespace foldproof;
 

@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-#include "reference/fast/threads.h"
+#include "reference/fast/loops.h"
 
 using namespace foldproof;
 

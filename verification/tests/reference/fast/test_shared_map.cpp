@@ -4,7 +4,7 @@
 #include <thread>
 
 #include "reference/fast/shared_map.h"
-#include "reference/fast/threads.h"
+#include "reference/fast/loops.h"
 
 using namespace foldproof;
 

@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <vector>
 
-#include "reference/fast/threads.h"
+#include "reference/fast/loops.h"
 
 using namespace foldproof;
 

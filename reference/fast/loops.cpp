@@ -1,4 +1,4 @@
-#include "reference/fast/threads.h"
+#include "reference/fast/loops.h"
 
 #include <atomic>
 #include <exception>
