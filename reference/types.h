@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <iterator>
+#include <memory>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -34,8 +35,11 @@ struct State {
   std::vector<Bond> bonds = {};  // by patch, particle, triangle
 };
 
-/// Counted work: the cost of a method, independent of the machine. Returned or
-/// accumulated, never global.
+class KeptValues;  // fast/kept_values.h
+
+/// Counted work: the cost of a method, independent of the machine. Returned or accumulated,
+/// never global. It counts what a method asks for: a value that the run has kept counts like one
+/// that is computed.
 struct Work {
   long elastic_evaluations = 0;  // evaluations of all elastic and external forces of the system
   // evaluations of the position-dependent terms of the damping forces
@@ -64,6 +68,9 @@ struct Work {
   // solves, linear or not, that stopped before reaching their tolerance
   long unfinished_solves = 0;
   double worst_residual = 0;  // largest relative residual returned by a solve [1]
+
+  // What the run keeps for its next steps; no number of the work. Null: nothing is kept.
+  std::shared_ptr<KeptValues> kept = {};
 };
 
 // All numbers of a Work, in a fixed order: those that are summed, and those of which
@@ -90,7 +97,8 @@ inline constexpr double Work::*worst_counters[] = {&Work::strain_left, &Work::wo
 
 // A new counter must join one of these lists.
 static_assert(sizeof(Work) == std::size(summed_counters) * sizeof(long) +
-                                  std::size(worst_counters) * sizeof(double));
+                                  std::size(worst_counters) * sizeof(double) +
+                                  sizeof(std::shared_ptr<KeptValues>));
 
 /// Calls `visit` with every number of a Work, const or not: counts as long, the rest as double.
 template <class SomeWork, class Visit>

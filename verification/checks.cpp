@@ -27,8 +27,8 @@ std::vector<Check> all_checks() {
         // dynamics
         solver_checks, unsymmetric_solver_checks, cached_terms_checks, oscillator_checks,
         exact_motion_checks, momentum_checks, step_checks, symmetry_checks, run_checks,
-        resume_checks, thread_checks, event_checks, method_checks, other_method_checks,
-        energy_checks,
+        resume_checks, thread_checks, reuse_checks, event_checks, method_checks,
+        other_method_checks, energy_checks,
         // filters
         object_checks, response_checks, object_response_checks, pinch_checks, friction_checks,
         capstan_checks,

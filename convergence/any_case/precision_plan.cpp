@@ -37,7 +37,7 @@ double limit_of(const BuiltScene& built, const Integrator& integrator) {
   if (integrator.family != Family::fully_explicit) return limit;
   Work uncounted;
   return std::min(limit,
-                  2 / damping_rate_bound(damping_at(built.system.forces, built.start, uncounted),
+                  2 / damping_rate_bound(*damping_at(built.system.forces, built.start, uncounted),
                                          built.system.inverse_mass));
 }
 

@@ -52,7 +52,8 @@ double energy_of(const Scene& scene, const PerParticle3& x) {
   double energy = 0;
   const State s{0, x, PerParticle3::Zero(3, x.cols())};
   for (const Force& force : build_system(scene).forces)
-    if (const auto* bending = std::get_if<Bending>(&force)) energy += bending->energy(s);
+    if (const auto* bending = std::get_if<Bending>(&force))
+      energy += bending->energy(s, bending->shapes_at(x));
   return energy;
 }
 

@@ -43,13 +43,13 @@ LevelSetProvider memoizing_provider(const LevelSetProvider& provider) {
           }};
 }
 
-LevelSetProvider computing_provider(int threads) {
+LevelSetProvider computing_provider(const Team& team) {
   return {[=](const TriangleSoup& soup, const GridMethod& method, Repair repair) {
-            return make_level_set(soup, method, repair, threads);
+            return make_level_set(soup, method, repair, team);
           },
           [=](const MeshSequence& sequence, const OctreeSettings& settings, BetweenFrames between) {
             return std::make_shared<const DeformingBody>(
-                make_deforming_body(sequence, settings, between, threads));
+                make_deforming_body(sequence, settings, between, team));
           }};
 }
 

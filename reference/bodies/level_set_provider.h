@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 
+#include "reference/fast/team.h"
 #include "reference/level_set/deforming.h"
 #include "reference/bodies/repair.h"
 
@@ -19,8 +20,8 @@ struct LevelSetProvider {
       make_deforming_body;
 };
 
-/// Computes every request, on that many threads.
-LevelSetProvider computing_provider(int threads = 1);
+/// Computes every request; the loops run on the team.
+LevelSetProvider computing_provider(const Team& team = {});
 
 /// Calls `provider` once per distinct request and returns the stored result afterwards, from any
 /// thread. Copies share the stored results for as long as one of them exists.

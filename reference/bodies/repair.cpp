@@ -74,26 +74,23 @@ std::vector<int> collect_patch(int first, const std::vector<std::vector<Neighbou
 }
 
 /// Winding number minus a half, the other way round: negative inside.
-std::vector<float> sides_of(const MeshDistance& mesh, const Lattice& lattice, int threads) {
+std::vector<float> sides_of(const MeshDistance& mesh, const Lattice& lattice, const Team& team) {
   const std::vector<Dipole> dipoles = make_dipoles(mesh);
-  std::vector<float> side(lattice.size());
-  for_each_range(threads, lattice.size(), [&](Eigen::Index first, Eigen::Index count) {
-    for (long index = first; index < first + count; ++index)
-      side[index] =
-          float(0.5 - winding_number(mesh, dipoles, lattice.position(lattice.node(index)), far));
+  std::vector<float> side(size_t(lattice.size()));
+  for_each_index(team, lattice.size(), [&](Eigen::Index index) {
+    const Vector3 p = lattice.position(lattice.node(index));
+    side[size_t(index)] = float(0.5 - winding_number(mesh, dipoles, p, far));
   });
   return side;
 }
 
 /// Gives seeds at most a cell from a triangle their exact distance to it.
-void measure(const MeshDistance& mesh, const Lattice& lattice, Seeds& seeds, int threads) {
-  for_each_range(threads, seeds.nodes, [&](std::span<const long> nodes, size_t first) {
-    for (size_t i = 0; i < nodes.size(); ++i) {
-      const Vector3 p = lattice.position(lattice.node(nodes[i]));
-      const NearestFeature nearest = nearest_feature(mesh, p, lattice.spacing);
-      double& phi = seeds.phi[first + i];
-      if (nearest.triangle >= 0) phi = std::copysign(std::sqrt(nearest.squared_distance), phi);
-    }
+void measure(const MeshDistance& mesh, const Lattice& lattice, Seeds& seeds, const Team& team) {
+  for_each_item(team, seeds.nodes, [&](long node, size_t i) {
+    const Vector3 p = lattice.position(lattice.node(node));
+    const NearestFeature nearest = nearest_feature(mesh, p, lattice.spacing);
+    double& phi = seeds.phi[i];
+    if (nearest.triangle >= 0) phi = std::copysign(std::sqrt(nearest.squared_distance), phi);
   });
 }
 
@@ -118,24 +115,24 @@ std::vector<Triangle> orient_triangles(const TriangleSoup& soup) {
 }
 
 std::shared_ptr<const Grid> make_repaired_grid(const TriangleSoup& soup, const GridMethod& method,
-                                               int threads) {
+                                               const Team& team) {
   const MeshDistance mesh = make_mesh_distance(soup.rest, orient_triangles(soup));
   const Lattice lattice = lattice_about(mesh.tree.nodes[0].bounds, method.cells, method.margin);
-  Seeds seeds = seeds_from_sides(lattice, sides_of(mesh, lattice, threads));
+  Seeds seeds = seeds_from_sides(lattice, sides_of(mesh, lattice, team));
   if (seeds.nodes.empty())
     throw InputError(
         mesh_location(soup.origin) + "repair finds no inside: the winding number of its " +
         std::to_string(soup.triangles.size()) +
         " triangles is below 1/2 at every node; turn them outward, or give a finer grid");
-  measure(mesh, lattice, seeds, threads);
+  measure(mesh, lattice, seeds, team);
   return std::make_shared<const Grid>(march(lattice, seeds, method.order));
 }
 
 std::shared_ptr<const Grid> make_level_set(const TriangleSoup& soup, const GridMethod& method,
-                                           Repair repair, int threads) {
-  if (repair == Repair::winding) return make_repaired_grid(soup, method, threads);
+                                           Repair repair, const Team& team) {
+  if (repair == Repair::winding) return make_repaired_grid(soup, method, team);
   const TriangleMesh mesh = make_closed_mesh(soup);
-  return make_grid(make_mesh_distance(mesh.rest, mesh.triangles), method, threads);
+  return make_grid(make_mesh_distance(mesh.rest, mesh.triangles), method, team);
 }
 
 }  // namespace foldproof

@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "reference/fast/team.h"
 #include "reference/level_set/mesh_grid.h"
 #include "reference/mesh/triangle_soup.h"
 
@@ -19,9 +20,9 @@ std::vector<Triangle> orient_triangles(const TriangleSoup& soup);
 /// gets the distance to where the winding number, taken as linear along the axes, crosses 1/2: a
 /// membrane closes the surface over holes. All other nodes are marched; method.band is not used,
 /// and triangles inside the solid have no effect. Cost: one winding number per node. Throws
-/// InputError where no node is inside. The same bits for every number of threads.
+/// InputError where no node is inside. The same bits for every team.
 std::shared_ptr<const Grid> make_repaired_grid(const TriangleSoup& soup, const GridMethod& method,
-                                               int threads = 1);
+                                               const Team& team = {});
 
 /// How to treat a mesh that does not separate inside from outside.
 enum class Repair { refuse, winding };
@@ -29,6 +30,6 @@ enum class Repair { refuse, winding };
 /// The level set of a body. refuse: the mesh must be closed, or make_closed_mesh throws; winding:
 /// any triangles, by make_repaired_grid.
 std::shared_ptr<const Grid> make_level_set(const TriangleSoup& soup, const GridMethod& method,
-                                           Repair repair, int threads = 1);
+                                           Repair repair, const Team& team = {});
 
 }  // namespace foldproof

@@ -1,7 +1,8 @@
 // BiCGSTAB (van der Vorst 1992), for Newton steps with an unsymmetric matrix.
 #pragma once
 
-#include "reference/dynamics/conjugate_gradient.h"
+#include "reference/dynamics/newton_matrix.h"
+#include "reference/dynamics/solver_settings.h"
 
 namespace foldproof {
 

@@ -3,34 +3,10 @@
 #pragma once
 
 #include "reference/dynamics/newton_matrix.h"
+#include "reference/dynamics/system.h"
 #include "reference/types.h"
 
 namespace foldproof {
-
-/// Reference for the relative residual, in the mass-weighted norm |r|^2 = sum_i
-/// |r_i|^2/m_i [kg m^2/s^2]:
-enum class ResidualScale {
-  momentum,  // the right-hand side M w0, sqrt(sum m_i |w0_i|^2): an error relative to the velocity
-  // residual of the explicit guess: an error relative to the change due to damping, the same in
-  // every inertial frame
-  initial_residual
-};
-
-struct SolverSettings {
-  double tolerance = 1e-10;  // relative residual at which a solve stops [1]
-  int max_iterations = 1000;
-  ResidualScale scale = ResidualScale::momentum;
-  int threads = 1;  // of the loops over particles; changes no bit
-};
-
-struct SolveResult {
-  int iterations;
-  // relative, as accumulated by the iteration [1]; NaN if the data were not finite
-  double residual;
-  bool converged;  // residual <= tolerance
-  // stopped early at a direction of zero or negative curvature: the matrix is not positive definite
-  bool indefinite;
-};
 
 /// Solves (M - s D) w = M w0 for the velocity w of the free particles; prescribed particles
 /// (inverse mass 0) keep theirs.
@@ -40,8 +16,7 @@ struct SolveResult {
 /// the iteration is CG on that operator, written in terms of the masses. It starts from the
 /// explicit guess w0, so every iterate differs from it by internal forces only and conserves linear
 /// and angular momentum to rounding, however early it stops.
-SolveResult solve_velocity(const DampingOperator& damping, double s, const PerParticle& mass,
-                           const PerParticle& inverse_mass, const SolverSettings& settings,
+SolveResult solve_velocity(const System& system, const DampingOperator& D, double s,
                            PerParticle3& v, Work& work);
 
 /// Solves A dw = r, A symmetric, for the free particles from dw = 0; prescribed ones get 0. r: 3

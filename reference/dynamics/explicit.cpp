@@ -21,8 +21,9 @@ struct Rate {
 };
 
 Rate rate_at(const System& system, const State& s, Work& work) {
-  PerParticle3 force = elastic_forces(system.forces, s, work);
-  damping_at(system.forces, s, work).add_product(s.v, force);
+  const Forces at = forces_at(system.forces, s, work);
+  PerParticle3 force = *at.elastic;
+  at.damping->add_product(s.v, force);
   ++work.damping_products;
   return {s.v, force * system.inverse_mass.asDiagonal()};
 }

@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "reference/dynamics/biconjugate_gradient.h"
+#include "reference/dynamics/conjugate_gradient.h"
 #include "reference/dynamics/finish_step.h"
 #include "reference/forces/degenerate.h"
 
@@ -40,8 +41,9 @@ double norm_of(const PerParticle3& momentum, const PerParticle& inverse_mass) {
 PerParticle3 residual_of(const System& system, const Stage& stage, const PerParticle3& w,
                          Work& work) {
   const State at = state_of(stage, w);
-  PerParticle3 force = elastic_forces(system.forces, at, work);
-  damping_at(system.forces, at, work).add_product(w, force);
+  const Forces forces = forces_at(system.forces, at, work);
+  PerParticle3 force = *forces.elastic;
+  forces.damping->add_product(w, force);
   ++work.damping_products;
   PerParticle3 residual = stage.s * force - (w - stage.V) * system.mass.asDiagonal();
   for (const PrescribedParticle& p : system.prescribed) residual.col(p.particle).setZero();
@@ -83,13 +85,13 @@ Trial line_search(const System& system, const Stage& stage, const Trial& from,
 PerParticle3 symmetric_step(const System& system, const Stage& stage, const Trial& from,
                             Work& work) {
   const State at = state_of(stage, from.w);
-  const DampingOperator damping = damping_at(system.forces, at, work);
+  const auto damping = damping_at(system.forces, at, work);
   const SolverSettings settings{forcing, system.solver.max_iterations, ResidualScale::momentum};
   PerParticle3 dw;
   for (const Definiteness definiteness : {Definiteness::exact, Definiteness::semidefinite}) {
     const ForceDifferential stiffness =
         elastic_differential_at(system.forces, at, definiteness, work);
-    const NewtonMatrix A{system.mass, system.inverse_mass, damping, stiffness, stage.s};
+    const NewtonMatrix A{system.mass, system.inverse_mass, *damping, stiffness, stage.s};
     if (!solve_newton_step(A, settings, from.residual, dw, work).indefinite) break;
   }
   return dw;
@@ -102,10 +104,10 @@ std::optional<PerParticle3> exact_step(const System& system, const Stage& stage,
   const State at = state_of(stage, from.w);
   const ForceDifferential derivative = force_differential_at(system.forces, at, work);
   if (derivative.symmetric) return {};
-  const DampingOperator damping = damping_at(system.forces, at, work);
+  const auto damping = damping_at(system.forces, at, work);
   const SolverSettings settings{forcing, system.solver.max_iterations, ResidualScale::momentum};
   PerParticle3 dw;
-  const NewtonMatrix A{system.mass, system.inverse_mass, damping, derivative, stage.s};
+  const NewtonMatrix A{system.mass, system.inverse_mass, *damping, derivative, stage.s};
   const SolveResult solve = solve_unsymmetric_step(A, settings, from.residual, dw, work);
   if (!solve.converged || !(product(from.residual, dw) > 0)) return {};
   return dw;
@@ -129,11 +131,11 @@ Trial newton_step(const System& system, const Stage& stage, const Trial& from, W
 /// w: on entry the velocity to start from with the known velocities written in, on exit w + dw.
 SolveResult solve_linearised(const System& system, const State& now, const Stage& stage,
                              const SolverSettings& settings, PerParticle3& w, Work& work) {
-  const DampingOperator damping = damping_at(system.forces, now, work);
+  const auto damping = damping_at(system.forces, now, work);
   const ForceDifferential stiffness =
       elastic_differential_at(system.forces, now, Definiteness::semidefinite, work);
   PerParticle3 force = elastic_forces(system.forces, now, work);
-  damping.add_product(w, force);
+  damping->add_product(w, force);
   PerParticle3 displacement = stage.X - now.x + stage.s * w;
   stiffness.add_product(displacement, force);
   ++work.damping_products, ++work.stiffness_products;
@@ -141,7 +143,7 @@ SolveResult solve_linearised(const System& system, const State& now, const Stage
   for (const PrescribedParticle& p : system.prescribed) impulse.col(p.particle).setZero();
 
   PerParticle3 dw;
-  const NewtonMatrix start_matrix{system.mass, system.inverse_mass, damping, stiffness, stage.s};
+  const NewtonMatrix start_matrix{system.mass, system.inverse_mass, *damping, stiffness, stage.s};
   const SolveResult solve = solve_newton_step(start_matrix, settings, impulse, dw, work);
   w += dw;
   return solve;
@@ -149,9 +151,10 @@ SolveResult solve_linearised(const System& system, const State& now, const Stage
 
 /// Bound on the change of the residual by rounding of the positions alone [kg^1/2 m/s]: forces
 /// change by a bound on the stiffness times a rounding of the largest coordinate.
-double rounding_at(const System& system, const Stage& stage, const PerParticle3& w) {
+double rounding_at(const System& system, const Stage& stage, const PerParticle3& w,
+                   const Work& work) {
   const State at = state_of(stage, w);
-  const PerParticle rows = stiffness_row_bounds(system.forces, at, StickingPart::all);  // N/m
+  const PerParticle rows = stiffness_row_bounds(system.forces, at, StickingPart::all, work);
   const double rounding = std::numeric_limits<double>::epsilon() * at.x.cwiseAbs().maxCoeff();
   return stage.s * rounding * std::sqrt(rows.cwiseAbs2().dot(system.inverse_mass));
 }
@@ -201,7 +204,7 @@ PerParticle3 solve_stage(const System& system, const State& now, Stage& stage, W
   const Trial start = trial_at(system, stage, w, work);
   const double size = start.norm + norm_of(w * system.mass.asDiagonal(), system.inverse_mass);
   const double target_norm =
-      std::max(system.solver.tolerance * size, rounding_at(system, stage, w));
+      std::max(system.solver.tolerance * size, rounding_at(system, stage, w, work));
   Trial end = solve_newton(system, stage, start, target_norm, work);
   if (!(end.norm <= target_norm)) {
     const Trial again = solve_newton(

@@ -1,46 +1,33 @@
 #include "reference/dynamics/mixed.h"
 
-#include "reference/fast/loops.h"
+#include "reference/dynamics/conjugate_gradient.h"
+#include "reference/fast/vectors.h"
 
 namespace foldproof {
 
 namespace {
 
-/// All that a half step needs to know of one state: forces that do not depend on velocity, and the
-/// damping's cached terms.
-struct Forces {
-  PerParticle3 elastic;  // 3 x N [N], external forces included
-  DampingOperator damping;
-};
-
-Forces forces_at(const System& system, const State& s, Work& work) {
-  return {elastic_forces(system.forces, s, work), damping_at(system.forces, s, work)};
-}
-
-/// v + h/2 M^{-1} (F_elastic + D v_damped); prescribed particles keep v.
+/// v + h/2 M^{-1} (F_elastic + D v); prescribed particles keep v.
 PerParticle3 explicit_half_step(const System& system, const Forces& at, const PerParticle3& v,
-                                const PerParticle3& v_damped, double h, Work& work) {
-  const int threads = system.solver.threads;
-  PerParticle3 force = evaluated(threads, at.elastic);
-  at.damping.add_product(v_damped, force);
+                                double h, Work& work) {
+  PerParticle3 force = *at.elastic;
+  at.damping->add_product(v, force);
   ++work.damping_products;
-  return evaluated(threads, v + (h / 2) * force * system.inverse_mass.asDiagonal());
+  return kicked(system.team, v, h / 2, force, system.inverse_mass);
 }
 
 /// The w of w = v + h/2 M^{-1} (F_elastic + D w), with the known velocities imposed.
 PerParticle3 implicit_half_step(const System& system, const Forces& at, const PerParticle3& v,
                                 const std::vector<KnownVelocity>& known, double h, Work& work) {
-  PerParticle3 w =
-      evaluated(system.solver.threads, v + (h / 2) * at.elastic * system.inverse_mass.asDiagonal());
+  PerParticle3 w = kicked(system.team, v, h / 2, *at.elastic, system.inverse_mass);
   impose(known, w);
-  solve_velocity(at.damping, h / 2, system.mass, system.inverse_mass, system.solver, w, work);
+  solve_velocity(system, *at.damping, h / 2, w, work);
   return w;
 }
 
 /// The state a step of h [s] later, at the places where the velocity v leads.
 State moved(const System& system, const State& now, const PerParticle3& v, double h) {
-  const int threads = system.solver.threads;
-  return {now.time + h, evaluated(threads, now.x + h * v), evaluated(threads, v), now.bonds};
+  return {now.time + h, moved(system.team, now.x, h, v), v, now.bonds};
 }
 
 }  // namespace
@@ -49,17 +36,17 @@ State mixed_explicit_implicit(const System& system, std::span<const State> past,
                               Work& work) {
   const State& now = past.back();
   const double end = now.time + h;
-  const Forces here = forces_at(system, now, work);
+  const Forces here = forces_at(system.forces, now, work);
 
   // position: leapfrog with the explicit half-step velocity, once it has been modified
-  const PerParticle3 v_half = explicit_half_step(system, here, now.v, now.v, h, work);
-  PerParticle3 v_move = evaluated(system.solver.threads, v_half);
+  const PerParticle3 v_half = explicit_half_step(system, here, now.v, h, work);
+  PerParticle3 v_move = v_half;
   impose(mean_velocities(system.prescribed, now.x, now.time, h), v_move);
   correct(system.filters, {now.time, end, h}, now, v_move, work);
   State next = moved(system, now, v_move, h);
 
   // velocity: trapezoidal rule, continued from the half-step velocity before its modification
-  const Forces there = forces_at(system, next, work);
+  const Forces there = forces_at(system.forces, next, work);
   next.v =
       implicit_half_step(system, there, v_half, velocities_at(system.prescribed, end), h, work);
   correct(system.filters, {end, end, h}, next, next.v, work);
@@ -69,7 +56,7 @@ State mixed_explicit_implicit(const System& system, std::span<const State> past,
 State central_newmark(const System& system, std::span<const State> past, double h, Work& work) {
   const State& now = past.back();
   const double end = now.time + h;
-  const Forces here = forces_at(system, now, work);
+  const Forces here = forces_at(system.forces, now, work);
 
   // position: move with a velocity that is implicit in the damping
   PerParticle3 v_half = implicit_half_step(
@@ -78,8 +65,8 @@ State central_newmark(const System& system, std::span<const State> past, double 
   State next = moved(system, now, v_half, h);
 
   // velocity: the rest of the step, explicit, from the modified half-step velocity
-  const Forces there = forces_at(system, next, work);
-  next.v = explicit_half_step(system, there, v_half, v_half, h, work);
+  const Forces there = forces_at(system.forces, next, work);
+  next.v = explicit_half_step(system, there, v_half, h, work);
   impose(velocities_at(system.prescribed, end), next.v);
   return next;
 }
@@ -88,7 +75,7 @@ State variable_step_newmark(const System& system, std::span<const State> past, d
                             Work& work) {
   const State& now = past.back();
   const double end = now.time + h;
-  const Forces here = forces_at(system, now, work);
+  const Forces here = forces_at(system.forces, now, work);
 
   // position: move with a velocity that is implicit in the damping, as in scheme B
   PerParticle3 v_move = implicit_half_step(
@@ -97,8 +84,8 @@ State variable_step_newmark(const System& system, std::span<const State> past, d
   State next = moved(system, now, v_move, h);
 
   // velocity: trapezoidal rule from v_n, as in scheme A
-  const PerParticle3 v_half = explicit_half_step(system, here, now.v, now.v, h, work);
-  const Forces there = forces_at(system, next, work);
+  const PerParticle3 v_half = explicit_half_step(system, here, now.v, h, work);
+  const Forces there = forces_at(system.forces, next, work);
   next.v =
       implicit_half_step(system, there, v_half, velocities_at(system.prescribed, end), h, work);
   correct(system.filters, {end, end, h}, next, next.v, work);

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "reference/dynamics/events.h"
-#include "reference/fast/loops.h"
+#include "reference/fast/kept_values.h"
 #include "reference/forces/degenerate.h"
 
 namespace foldproof {
@@ -32,25 +32,14 @@ void check(const Schedule& schedule, const State& start) {
 
 /// The longest step in which no spring changes its length by more than `fraction` of its
 /// rest length [s].
-double step_by_strain_rate(const System& system, const State& s, double fraction) {
+double step_by_strain_rate(const System& system, const State& s, double fraction,
+                           const Work& work) {
   double fastest = 0;  // 1/s
-  for (const Force& force : system.forces) {
-    const auto* stretch = std::get_if<StretchSprings>(&force);
-    if (!stretch) continue;
-    const int threads = threads_of(stretch->sharing);
-    const auto n = Eigen::Index(stretch->springs.size());
-    const auto find = [&](Eigen::Index first, Eigen::Index count, std::vector<double>& found) {
-      found = {0};
-      for (const Spring& spring :
-           std::span(stretch->springs).subspan(size_t(first), size_t(count))) {
-        const Vector3 d = s.x.col(spring.b) - s.x.col(spring.a);
-        const double rate = d.dot(s.v.col(spring.b) - s.v.col(spring.a)) / d.norm();
-        found[0] = std::max(found[0], std::abs(rate) / spring.rest_length);
-      }
-    };
-    for (const double rate : found_in_order<double>(threads, n, find))
-      fastest = std::max(fastest, rate);
-  }
+  for_each_force(system.forces, s, *shapes_at(system.forces, s.x, work),
+                 [&](const auto& force, const auto&... at) {
+                   if constexpr (requires { force.fastest_strain_rate(at...); })
+                     fastest = std::max(fastest, force.fastest_strain_rate(at...));
+                 });
   return fraction / fastest;
 }
 
@@ -78,17 +67,16 @@ std::optional<Stop> fault_in(const State& now, const State& next, double size, l
 
 /// limit: the elastic limit [s].
 double automatic_step(const System& system, const Integrator& integrator, const State& s,
-                      const StepRule& rule, double limit) {
-  if (integrator.damping_widens_limit) limit = widened_limit(system, s, limit);
+                      const StepRule& rule, double limit, Work uncounted) {
+  if (integrator.damping_widens_limit) limit = widened_limit(system, s, limit, uncounted);
   if (integrator.family == Family::fully_explicit) {
-    Work uncounted;
     const double rate =
-        damping_rate_bound(damping_at(system.forces, s, uncounted), system.inverse_mass);
+        damping_rate_bound(*damping_at(system.forces, s, uncounted), system.inverse_mass);
     limit = std::min(limit, 2 / rate);
     if (std::isnan(rate)) limit = rate;
   }
-  const double wanted =
-      std::min(rule.safety * limit, step_by_strain_rate(system, s, rule.strain_per_step));
+  const double wanted = std::min(rule.safety * limit,
+                                 step_by_strain_rate(system, s, rule.strain_per_step, uncounted));
   if (std::isnan(wanted))
     throw DegenerateElement("the elastic limit of the step is not a number", {-1});
   return wanted;
@@ -123,8 +111,8 @@ class Run {
   void hand_out_checkpoint() const;
   double seconds() const;
   double damping_power(const State& s) const;
+  Work new_work() const;
 
-  const System& system_;  // as given; that of events_ is stepped
   const Integrator& integrator_;
   const Schedule& schedule_;
   const Observer& observer_;
@@ -140,12 +128,20 @@ class Run {
   double damping_power_;           // at the latest row [W]
   double seconds_before_;          // of clock time, in the part of the run before the checkpoint
   std::optional<Stop> stop_ = {};  // what went wrong
+  // from step to step, for speed alone
+  std::shared_ptr<KeptValues> kept_ = std::make_shared<KeptValues>();
 };
+
+/// Nothing is counted yet.
+Work Run::new_work() const {
+  Work work;
+  work.kept = kept_;
+  return work;
+}
 
 Run::Run(const System& system, const Integrator& integrator, const Schedule& schedule,
          const Observer& observer, const Checkpoint& from)
-    : system_(system),
-      integrator_(integrator),
+    : integrator_(integrator),
       schedule_(schedule),
       observer_(observer),
       events_(system, from.start_time, closest_event * schedule.frame_interval, from.event_time),
@@ -163,7 +159,7 @@ void Run::start() {
   const State& now = history_.now();
   if (observer_.frame) observer_.frame(now);
   try {
-    if (observer_.step) hand_out_row(now, 0, elastic_limit(system_, now), {});
+    if (observer_.step) hand_out_row(now, 0, elastic_limit(events_.system(), now, new_work()), {});
   } catch (const DegenerateElement& error) {
     stop_ = Stop{error.what(), now.time, 0, error.particles.front()};
     return;
@@ -227,25 +223,26 @@ void Run::step(double target) {
   const System& system = events_.system();
   State& now = history_.now();
   const long number = steps_ + 1;
-  begin_step(system, now);
+  Work work = new_work();
+  begin_step(system, now, work);
   const double left = target - now.time;
   const std::optional<double> end = prescribed_end(target);
   const bool asks_for_limit = observer_.step || !(end || schedule_.step.fixed > 0);
-  const double limit = asks_for_limit ? elastic_limit(system, now) : 0;
+  const double limit = asks_for_limit ? elastic_limit(system, now, work) : 0;
   const double h = end ? *end - now.time
                        : even_step(left, allowed_step(system, integrator_, history_.past(),
-                                                      schedule_.step, limit));
+                                                      schedule_.step, limit, work));
   if (!(now.time + h > now.time)) {
     stop_ = Stop{"a step became too short to advance the time", now.time, number, -1};
     return;
   }
-  Work work;
   work.bonds = long(now.bonds.size());
   State next = integrator_.step(system, history_.past(), h, work);
   if (h == left) next.time = target;  // no rounding between a frame's time and its state's
   if (end) next.time = *end;
   stop_ = fault_in(now, next, size_, number);
   if (stop_) return;
+  work.kept = nullptr;
   hand_out_row(next, h, limit, work);
   add(work_, work);
   history_.advance(std::move(next));
@@ -258,13 +255,14 @@ void Run::hand_out_row(const State& s, double h, double limit, const Work& work)
   Diagnostics row;
   row.time = s.time;
   row.step = h;
-  row.energy = energies(system_, s);
+  const System& system = events_.system();
+  row.energy = energies(system, s, new_work());
   const double power = damping_power(s);
   damping_work_ += h / 2 * (damping_power_ + power);
   damping_power_ = power;
   row.damping_work = damping_work_;
-  row.linear_momentum = linear_momentum(system_, s);
-  row.angular_momentum = angular_momentum(system_, s);
+  row.linear_momentum = linear_momentum(system, s);
+  row.angular_momentum = angular_momentum(system, s);
   row.step_over_elastic_limit = h / limit;
   row.work = work;
   row.seconds = seconds();
@@ -293,18 +291,21 @@ double Run::seconds() const {
 
 /// v.(D v) [W].
 double Run::damping_power(const State& s) const {
-  Work uncounted;
+  Work uncounted = new_work();
+  const auto damping = damping_at(events_.system().forces, s, uncounted);
+  if (damping->empty()) return 0;
   PerParticle3 force = PerParticle3::Zero(3, s.x.cols());
-  damping_at(system_.forces, s, uncounted).add_product(s.v, force);
+  damping->add_product(s.v, force);
   return force.cwiseProduct(s.v).sum();
 }
 
 }  // namespace
 
 double allowed_step(const System& system, const Integrator& integrator, std::span<const State> past,
-                    const StepRule& rule, double limit) {
-  double wanted =
-      rule.fixed > 0 ? rule.fixed : automatic_step(system, integrator, past.back(), rule, limit);
+                    const StepRule& rule, double limit, const Work& work) {
+  double wanted = rule.fixed > 0
+                      ? rule.fixed
+                      : automatic_step(system, integrator, past.back(), rule, limit, work);
   if (past.size() > 1) {
     const double before = past.back().time - past[past.size() - 2].time;
     wanted = std::min(wanted, integrator.largest_growth * before);

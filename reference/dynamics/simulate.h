@@ -109,6 +109,6 @@ RunResult resume(const System& system, const Integrator& integrator, const Check
 /// previous one never exceeds the integrator's largest_growth.
 ///   limit   the elastic limit at the latest of them [s]; not used by a rule with a fixed step
 double allowed_step(const System& system, const Integrator& integrator, std::span<const State> past,
-                    const StepRule& rule, double limit);
+                    const StepRule& rule, double limit, const Work& work = {});
 
 }  // namespace foldproof

@@ -18,15 +18,14 @@ System make_system(PerParticle mass) {
   return system;
 }
 
-void use_threads(System& system, int threads) {
-  if (threads < 1) throw InputError("a system needs at least one thread");
-  system.solver.threads = threads;
-  const auto use = [&](auto& part) {
-    if constexpr (requires { part.use_threads(threads, system.mass.size()); })
-      part.use_threads(threads, system.mass.size());
+void set_team(System& system, const Team& team) {
+  system.team = team;
+  const auto set = [&](auto& part) {
+    if constexpr (requires { part.set_team(team, system.mass.size()); })
+      part.set_team(team, system.mass.size());
   };
-  for (Force& force : system.forces) std::visit(use, force);
-  for (Filter& filter : system.filters) std::visit(use, filter);
+  for (Force& force : system.forces) std::visit(set, force);
+  for (Filter& filter : system.filters) std::visit(set, filter);
 }
 
 void prescribe(System& system, const PrescribedParticle& particle) {
@@ -40,35 +39,34 @@ void prescribe(System& system, const PrescribedParticle& particle) {
   system.prescribed.push_back(particle);
 }
 
-double elastic_limit(const System& system, const State& s) {
-  return 2 / frequency_bound(system.forces, s, system.inverse_mass);
+double elastic_limit(const System& system, const State& s, const Work& work) {
+  return 2 / frequency_bound(system.forces, s, system.inverse_mass, work);
 }
 
-double widened_limit(const System& system, const State& s, double limit) {
+double widened_limit(const System& system, const State& s, double limit, const Work& work) {
   double forecast = std::numeric_limits<double>::infinity();
-  for_each_force(system.forces, [&](const auto& force) {
-    if constexpr (requires { force.shortest_forecast(s); })
-      forecast = std::min(forecast, force.shortest_forecast(s));
-  });
+  for (const Force& force : system.forces)
+    if (const auto* sticking = std::get_if<Sticking>(&force))
+      forecast = std::min(forecast, sticking->shortest_forecast(s));
   if (std::isinf(forecast)) return limit;
   const double others =
-      2 / frequency_without_sticking_springs(system.forces, s, system.inverse_mass);
+      2 / frequency_without_sticking_springs(system.forces, s, system.inverse_mass, work);
   return std::max(limit, std::min(others, 2 * forecast));
 }
 
-void begin_step(const System& system, State& s) {
-  for_each_force(system.forces, [&](const auto& force) {
-    if constexpr (requires { force.update_bonds(s); }) force.update_bonds(s);
-  });
+void begin_step(const System& system, State& s, const Work& work) {
+  for (const Force& force : system.forces)
+    if (const auto* sticking = std::get_if<Sticking>(&force)) sticking->update_bonds(s);
   for (const Filter& filter : system.filters)
-    if (const auto* self = std::get_if<SelfCollision>(&filter)) self->update_pair_cache(s);
+    if (const auto* self = std::get_if<SelfCollision>(&filter)) self->look_ahead(s, work);
 }
 
-Energies energies(const System& system, const State& s) {
+Energies energies(const System& system, const State& s, const Work& work) {
   Energies e;
   e.kinetic = 0.5 * s.v.colwise().squaredNorm().dot(system.mass.transpose());
-  for_each_force(system.forces,
-                 [&](const auto& force) { e.*force.energy_term += force.energy(s); });
+  for_each_force(
+      system.forces, s, *shapes_at(system.forces, s.x, work),
+      [&](const auto& force, const auto&... at) { e.*force.energy_term += force.energy(at...); });
   return e;
 }
 

@@ -4,6 +4,8 @@
 #include <exception>
 #include <thread>
 
+#include "reference/fast/elements.h"
+
 namespace foldproof {
 
 namespace {
@@ -22,12 +24,12 @@ int next_value(const std::atomic<int>& value, int old) {
 /// The calling thread and its helpers. Whoever is free takes the next part: where other programs
 /// need the cores, the caller waits for nobody who has not begun. The last part comes first, so
 /// that results that depend on the order differ from those of one thread even on one core.
-class Team {
+class Helpers {
  public:
-  explicit Team(int threads) : threads_(threads) {
+  explicit Helpers(int threads) : threads_(threads) {
     for (int k = 1; k < threads; ++k) others_.emplace_back([this] { work(); });
   }
-  ~Team() {
+  ~Helpers() {
     ends_ = true;
     start_round();
   }
@@ -70,17 +72,21 @@ class Team {
 };
 
 /// Of the calling thread, which keeps it for its next loop.
-Team& team_of(int threads) {
-  thread_local std::unique_ptr<Team> team;
-  if (!team || team->threads() != threads) team = std::make_unique<Team>(threads);
-  return *team;
+Helpers& helpers_of(int threads) {
+  thread_local std::unique_ptr<Helpers> helpers;
+  if (!helpers || helpers->threads() != threads) helpers = std::make_unique<Helpers>(threads);
+  return *helpers;
 }
 
 }  // namespace
 
+Team::Team(int threads) : threads_(threads) {
+  if (threads < 1) throw InputError("a team needs at least one thread");
+}
+
 void in_parallel(int parts, const std::function<void(int)>& act) {
   std::vector<std::exception_ptr> thrown(static_cast<size_t>(parts));
-  team_of(parts).run([&](int k) {
+  helpers_of(parts).run([&](int k) {
     try {
       act(k);
     } catch (...) {
@@ -93,12 +99,12 @@ void in_parallel(int parts, const std::function<void(int)>& act) {
 
 namespace {
 
-/// The runs of elements that touch the share's particles.
-std::vector<ElementRun> runs_of(const Share& share,
+/// The runs of elements that touch an owner's particles.
+std::vector<ElementRun> runs_of(const OwnedParticles& owned,
                                 const std::vector<std::array<int, 4>>& elements) {
   std::vector<ElementRun> runs;
   for (size_t e = 0; e < elements.size(); ++e) {
-    const auto own = std::ranges::count_if(elements[e], [&](int i) { return share.has(i); });
+    const auto own = std::ranges::count_if(elements[e], [&](int i) { return owned.has(i); });
     if (own == 0) continue;
     const bool is_inside = size_t(own) == elements[e].size();
     if (!runs.empty() && runs.back().end == e && runs.back().is_inside == is_inside)
@@ -111,16 +117,17 @@ std::vector<ElementRun> runs_of(const Share& share,
 
 }  // namespace
 
-Sharing share_out(int threads, Eigen::Index particles,
-                  const std::vector<std::array<int, 4>>& elements) {
-  if (threads <= 1) return {};
-  SharedOut result{elements.size(), {}};
+Division divide(const Team& team, Eigen::Index particles,
+                const std::vector<std::array<int, 4>>& elements) {
+  const int threads = team.threads();
+  if (threads == 1) return {};
+  DividedElements result{elements.size(), {}};
   for (int k = 0; k < threads; ++k) {
-    Share share{int(particles * k / threads), int(particles * (k + 1) / threads), {}};
-    share.runs = runs_of(share, elements);
-    result.shares.push_back(std::move(share));
+    OwnedParticles owned{int(particles * k / threads), int(particles * (k + 1) / threads), {}};
+    owned.runs = runs_of(owned, elements);
+    result.owners.push_back(std::move(owned));
   }
-  return std::make_shared<const SharedOut>(std::move(result));
+  return std::make_shared<const DividedElements>(std::move(result));
 }
 
 }  // namespace foldproof

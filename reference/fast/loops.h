@@ -1,21 +1,17 @@
 // For speed alone: loops on several threads, with the same bits for every number of them.
 //
-// A loop over particles that never mixes them may be divided anywhere. A sum is taken in blocks of
-// a fixed size, and their sums are added in order. Elements that push on particles (springs,
-// hinges) are shared out by particle: each thread owns a range of particles, visits the elements
-// that touch it in ascending order, and adds to its own particles only. So each particle adds up
-// the same numbers in the same order as on one thread. An element across a border is computed by
-// each of its owners.
+// A loop over items that never mixes them may be divided anywhere. A sum is taken in blocks of a
+// fixed size, and their sums are added in order.
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <functional>
-#include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "reference/fast/team.h"
 #include "reference/types.h"
 
 namespace foldproof {
@@ -33,46 +29,37 @@ template <class Act, class... Arguments>
 
 /// Calls act(first, count) for consecutive ranges of n items, one a thread.
 template <class Act>
-void for_each_range(int threads, Eigen::Index n, const Act& act) {
-  if (threads <= 1) return call(act, Eigen::Index(0), n);
+void for_each_range(const Team& team, Eigen::Index n, const Act& act) {
+  const int threads = team.threads();
+  if (threads == 1) return call(act, Eigen::Index(0), n);
   in_parallel(threads, [&](int k) {
     const Eigen::Index first = n * k / threads, end = n * (k + 1) / threads;
     call(act, first, end - first);
   });
 }
 
-/// Calls act(part of the elements, index of its first) likewise.
-template <class Element, class Allocator, class Act>
-void for_each_range(int threads, const std::vector<Element, Allocator>& elements, const Act& act) {
-  const std::span<const Element> all(elements);
-  for_each_range(threads, Eigen::Index(all.size()), [&](Eigen::Index first, Eigen::Index count) {
-    act(all.subspan(size_t(first), size_t(count)), size_t(first));
+/// Calls act(item, its index) for each; act writes to no place but that of its item.
+template <class Items, class Act>
+void for_each_item(const Team& team, const Items& items, const Act& act) {
+  for_each_range(team, Eigen::Index(items.size()), [&](Eigen::Index first, Eigen::Index count) {
+    for (Eigen::Index k = first; k < first + count; ++k) act(items[size_t(k)], size_t(k));
   });
 }
 
-/// to = columns, where each column depends on the same column of others only; `to`
-/// may be among them.
-template <class Columns>
-void assign(int threads, PerParticle3& to, const Eigen::MatrixBase<Columns>& columns) {
-  to.resize(3, columns.cols());
-  for_each_range(threads, to.cols(), [&](Eigen::Index first, Eigen::Index count) {
-    to.middleCols(first, count) = columns.middleCols(first, count);
+/// Calls act(i) for i from 0 to n - 1; act writes to no place but that of its index.
+template <class Act>
+void for_each_index(const Team& team, Eigen::Index n, const Act& act) {
+  for_each_range(team, n, [&](Eigen::Index first, Eigen::Index count) {
+    for (Eigen::Index i = first; i < first + count; ++i) act(i);
   });
-}
-
-/// The same as a value.
-template <class Columns>
-PerParticle3 evaluated(int threads, const Eigen::MatrixBase<Columns>& columns) {
-  PerParticle3 result;
-  assign(threads, result, columns);
-  return result;
 }
 
 /// What find(first, count, found) appends to `found` for consecutive ranges of n items, in order.
 template <class Found, class Find>
-std::vector<Found> found_in_order(int threads, Eigen::Index n, const Find& find) {
-  std::vector<std::vector<Found>> parts(static_cast<size_t>(std::max(1, threads)));
-  if (threads <= 1) {
+std::vector<Found> found_in_order(const Team& team, Eigen::Index n, const Find& find) {
+  const int threads = team.threads();
+  std::vector<std::vector<Found>> parts(static_cast<size_t>(threads));
+  if (threads == 1) {
     find(Eigen::Index(0), n, parts[0]);
     return std::move(parts[0]);
   }
@@ -85,95 +72,74 @@ std::vector<Found> found_in_order(int threads, Eigen::Index n, const Find& find)
   return std::move(parts[0]);
 }
 
-// Items in a block of a sum, where no smaller block rounds better.
+/// The items for which find(item) has a value, and those values, in order.
+template <class Found, class Items, class Find>
+std::vector<Found> found_among(const Team& team, const Items& items, const Find& find) {
+  return found_in_order<Found>(
+      team, Eigen::Index(items.size()),
+      [&](Eigen::Index first, Eigen::Index count, std::vector<Found>& found) {
+        for (Eigen::Index k = first; k < first + count; ++k)
+          if (std::optional<Found> one = find(items[size_t(k)])) found.push_back(*one);
+      });
+}
+
+/// For items of which each may change what later ones find: calls act(item, answer) in order where
+/// ask(item) has a value. Several threads ask about all items beforehand; where has_changed(item)
+/// says that the answer may be another by then, it is asked anew. Returns how often it acted.
+template <class Items, class Ask, class HasChanged, class Act>
+long act_in_order(const Team& team, const Items& items, const Ask& ask,
+                  const HasChanged& has_changed, const Act& act) {
+  std::vector<char> has_none(team.threads() > 1 ? items.size() : 0);
+  if (!has_none.empty())
+    for_each_item(team, items, [&](const auto& item, size_t k) { has_none[k] = !ask(item); });
+  long acted = 0;
+  for (size_t k = 0; k < items.size(); ++k) {
+    if (!has_none.empty() && has_none[k] && !has_changed(items[k])) continue;
+    const auto answer = ask(items[k]);
+    if (!answer) continue;
+    act(items[k], *answer);
+    ++acted;
+  }
+  return acted;
+}
+
+// Block size for long sums; smaller blocks do not reduce the rounding error further.
 inline constexpr Eigen::Index block_of_sums = 8192;
 
 /// Calls act(first, count) for blocks of n items: for loops whose work, but not whose results,
 /// depend on where they start.
 template <class Act>
-void for_each_block(int threads, Eigen::Index n, Eigen::Index block, const Act& act) {
-  for_each_range(threads, (n + block - 1) / block, [&](Eigen::Index first, Eigen::Index count) {
+void for_each_block(const Team& team, Eigen::Index n, Eigen::Index block, const Act& act) {
+  for_each_range(team, (n + block - 1) / block, [&](Eigen::Index first, Eigen::Index count) {
     for (Eigen::Index b = first; b < first + count; ++b)
       act(b * block, std::min(block, n - b * block));
   });
 }
 
+/// Calls act(item, own) in order, within batches of a fixed size that each start from a copy of
+/// `start`. Returns these copies as they are at the end, in order.
+template <class Items, class Own, class Act>
+std::vector<Own> for_each_with(const Team& team, const Items& items, const Own& start,
+                               const Act& act) {
+  const auto n = Eigen::Index(items.size());
+  std::vector<Own> batches(size_t(n / block_of_sums + 1), start);
+  for_each_block(team, n, block_of_sums, [&](Eigen::Index first, Eigen::Index count) {
+    Own& own = batches[size_t(first / block_of_sums)];
+    for (Eigen::Index k = first; k < first + count; ++k) act(items[size_t(k)], own);
+  });
+  return batches;
+}
+
 /// The sum of part(first, count) over blocks of n items, block by block: a long sum rounds less so.
 template <class Part>
-double sum_of_blocks(int threads, Eigen::Index n, Eigen::Index block, const Part& part) {
+double sum_of_blocks(const Team& team, Eigen::Index n, Eigen::Index block, const Part& part) {
   std::vector<double> sums(static_cast<size_t>((n + block - 1) / block));
-  for_each_block(threads, n, block, [&](Eigen::Index first, Eigen::Index count) {
+  for_each_block(team, n, block, [&](Eigen::Index first, Eigen::Index count) {
     sums[size_t(first / block)] = part(first, count);
   });
   double sum = 0;
   for (const double one : sums) sum += one;
   return sum;
-}
-
-/// The sum of term(element), in blocks.
-template <class Element, class Term>
-double sum_over(int threads, const std::vector<Element>& elements, const Term& term) {
-  const auto n = Eigen::Index(elements.size());
-  return sum_of_blocks(threads, n, block_of_sums, [&](Eigen::Index first, Eigen::Index count) {
-    double sum = 0;
-    for (Eigen::Index e = first; e < first + count; ++e) sum += term(elements[size_t(e)]);
-    return sum;
-  });
-}
-
-/// Consecutive elements; is_inside: all their particles belong to the share.
-struct ElementRun {
-  size_t first, end;
-  bool is_inside;
-};
-
-/// A thread's particles, first to end - 1, and the elements that touch them, in ascending order.
-struct Share {
-  int first, end;
-  std::vector<ElementRun> runs;
-
-  bool has(int particle) const { return first <= particle && particle < end; }
-};
-
-/// The share of the only thread, and of a run inside a share.
-struct AllParticles {
-  static constexpr bool has(int) { return true; }
-};
-
-/// How elements are shared out; one thread takes all if there are no shares.
-struct SharedOut {
-  size_t elements = 0;
-  std::vector<Share> shares;
-};
-using Sharing = std::shared_ptr<const SharedOut>;  // null: one thread
-
-inline int threads_of(const Sharing& sharing) { return sharing ? int(sharing->shares.size()) : 1; }
-
-/// Shares out elements with these particles among threads, N particles in even ranges.
-///   elements   of each its particles; a spring's are listed twice
-Sharing share_out(int threads, Eigen::Index particles,
-                  const std::vector<std::array<int, 4>>& elements);
-
-/// Calls act(part of the elements, own) for each thread's runs; act adds to a particle i only if
-/// own.has(i). If act throws, the exception is that of one thread.
-template <class Element, class Allocator, class Act>
-void for_each_run(const Sharing& sharing, const std::vector<Element, Allocator>& elements,
-                  const Act& act) {
-  const std::span<const Element> all(elements);
-  if (!sharing) return call(act, all, AllParticles{});
-  if (sharing->elements != all.size()) throw std::logic_error("elements of another sharing");
-  try {
-    in_parallel(int(sharing->shares.size()), [&](int k) {
-      const Share& own = sharing->shares[size_t(k)];
-      for (const ElementRun& run : own.runs) {
-        const auto part = all.subspan(run.first, run.end - run.first);
-        run.is_inside ? call(act, part, AllParticles{}) : call(act, part, own);
-      }
-    });
-  } catch (...) {
-    call(act, all, AllParticles{});  // throws at the first element that one thread would meet
-    throw;
-  }
 }
 
 /// An allocator that leaves new elements of a vector unfilled, for threads to fill.

@@ -1,7 +1,6 @@
 #include "reference/filters/cloth_pairs.h"
 
 #include <algorithm>
-#include <atomic>
 
 #include "reference/fast/loops.h"
 #include "reference/filters/pair_search.h"
@@ -11,7 +10,7 @@ namespace foldproof {
 namespace {
 
 constexpr int triangles_per_leaf = 4;
-constexpr int levels_of_tasks = 7;  // of the tree, opened to share out a search among threads
+constexpr int levels_of_tasks = 7;  // of the tree, opened to divide a search
 
 struct ParticlePair {
   int a, b;
@@ -19,13 +18,12 @@ struct ParticlePair {
 
 /// Of each particle, the box over its straight way, widened by margin/2 on all sides.
 std::vector<Bounds> particle_boxes(const PerParticle3& x, const PerParticle3& end, double margin,
-                                   int threads) {
+                                   const Team& team) {
   const Vector3 wider = Vector3::Constant(margin / 2);
   std::vector<Bounds> boxes(static_cast<size_t>(x.cols()));
-  for_each_range(threads, x.cols(), [&](Eigen::Index first, Eigen::Index count) {
-    for (Eigen::Index i = first; i < first + count; ++i)
-      boxes[size_t(i)] = {x.col(i).cwiseMin(end.col(i)) - wider,
-                          x.col(i).cwiseMax(end.col(i)) + wider};
+  for_each_index(team, x.cols(), [&](Eigen::Index i) {
+    boxes[size_t(i)] = {x.col(i).cwiseMin(end.col(i)) - wider,
+                        x.col(i).cwiseMax(end.col(i)) + wider};
   });
   return boxes;
 }
@@ -95,13 +93,10 @@ Boxes::Boxes(const ClothTree& of, std::vector<Bounds> particle_boxes,
     : cloth(of), moved(which), particles(std::move(particle_boxes)) {
   triangles.resize(cloth.triangles.size());
   triangle_moved.assign(moved.empty() ? 0 : triangles.size(), 0);
-  for_each_range(cloth.threads, cloth.triangles, [&](std::span<const Triangle> part, size_t t) {
-    for (const Triangle& triangle : part) {
-      for (const int corner : triangle) {
-        triangles[t].extend(particles[size_t(corner)]);
-        if (!moved.empty() && moved[size_t(corner)]) triangle_moved[t] = 1;
-      }
-      ++t;
+  for_each_item(cloth.team, cloth.triangles, [&](const Triangle& triangle, size_t t) {
+    for (const int corner : triangle) {
+      triangles[t].extend(particles[size_t(corner)]);
+      if (!moved.empty() && moved[size_t(corner)]) triangle_moved[t] = 1;
     }
   });
   // nodes are depth first: both children come after their parent
@@ -198,11 +193,12 @@ void Search::add_edges(const ParticlePair& e, const ParticlePair& f) {
 
 /// The nodes that within(node) compares, a few levels down, in its order: a node with
 /// itself or two nodes.
-void add_tasks(const BoxTree& tree, int node, int levels, std::vector<std::pair<int, int>>& tasks) {
-  const int right = tree.nodes[size_t(node)].right;
+void add_tasks(const Boxes& boxes, int node, int levels, std::vector<std::pair<int, int>>& tasks) {
+  if (!boxes.moved.empty() && !boxes.node_moved[size_t(node)]) return;
+  const int right = boxes.cloth.tree.nodes[size_t(node)].right;
   if (levels == 0 || right < 0) return tasks.emplace_back(node, node), void();
-  add_tasks(tree, node + 1, levels - 1, tasks);
-  add_tasks(tree, right, levels - 1, tasks);
+  add_tasks(boxes, node + 1, levels - 1, tasks);
+  add_tasks(boxes, right, levels - 1, tasks);
   tasks.emplace_back(node + 1, right);
 }
 
@@ -245,44 +241,44 @@ std::vector<FeaturePair> near_pairs(const ClothTree& cloth, const PerParticle3& 
 PairSearch counted_near_pairs(const ClothTree& cloth, const PerParticle3& x,
                               const PerParticle3& end, double margin,
                               const std::vector<char>& moved) {
-  const Boxes boxes(cloth, particle_boxes(x, end, margin, cloth.threads), moved);
+  const Boxes boxes(cloth, particle_boxes(x, end, margin, cloth.team), moved);
   std::vector<std::pair<int, int>> tasks;
-  add_tasks(cloth.tree, 0, cloth.threads > 1 ? levels_of_tasks : 0, tasks);
-  std::atomic<long> box_tests = 0;  // a sum of whole numbers, in any order
-  const auto find = [&](Eigen::Index first, Eigen::Index count, std::vector<FeaturePair>& found) {
-    Search search{boxes, found};
-    for (const auto& [a, b] : std::span(tasks).subspan(size_t(first), size_t(count)))
-      a == b ? search.within(a) : search.between(a, b);
-    box_tests += search.box_tests;
-  };
+  add_tasks(boxes, 0, levels_of_tasks, tasks);
+  std::vector<PairSearch> parts(tasks.size());
+  for_each_item(cloth.team, tasks, [&](const std::pair<int, int>& task, size_t k) {
+    Search search{boxes, parts[k].pairs};
+    const auto [a, b] = task;
+    a == b ? search.within(a) : search.between(a, b);
+    parts[k].box_tests = search.box_tests;
+  });
   PairSearch done;
-  done.pairs = found_in_order<FeaturePair>(cloth.threads, Eigen::Index(tasks.size()), find);
-  done.box_tests = box_tests;
+  for (const PairSearch& part : parts) {
+    done.pairs.insert(done.pairs.end(), part.pairs.begin(), part.pairs.end());
+    done.box_tests += part.box_tests;
+  }
   return done;
 }
 
-PairCache make_pair_cache(const ClothTree& cloth, const PerParticle3& x, double margin) {
-  return {particle_boxes(x, x, margin, cloth.threads), near_pairs(cloth, x, x, margin),
-          cloth.threads};
+PairsAhead pairs_ahead(const ClothTree& cloth, const PerParticle3& x, double margin) {
+  return {particle_boxes(x, x, margin, cloth.team), near_pairs(cloth, x, x, margin), cloth.team};
 }
 
-bool cache_is_valid(const PairCache& cache, const PerParticle3& x, double margin) {
-  return lie_within(particle_boxes(x, x, margin, cache.threads), cache.boxes);
+bool is_inside(const PairsAhead& ahead, const PerParticle3& x, double margin) {
+  return lie_within(particle_boxes(x, x, margin, ahead.team), ahead.boxes);
 }
 
-std::optional<std::vector<FeaturePair>> pairs_from_cache(const PairCache& cache,
-                                                         const PerParticle3& x,
-                                                         const PerParticle3& end, double margin,
-                                                         const std::vector<char>& moved) {
+std::optional<std::vector<FeaturePair>> pairs_among(const PairsAhead& ahead, const PerParticle3& x,
+                                                    const PerParticle3& end, double margin,
+                                                    const std::vector<char>& moved) {
   // features whose boxes overlap now overlapped in the larger boxes, too; which pair comes first
   // the tree alone decides
-  const std::vector<Bounds> boxes = particle_boxes(x, end, margin, cache.threads);
-  if (!lie_within(boxes, cache.boxes)) return {};
-  const auto find = [&](Eigen::Index first, Eigen::Index count, std::vector<FeaturePair>& found) {
-    for (const FeaturePair& pair : std::span(cache.pairs).subspan(size_t(first), size_t(count)))
-      if (overlap(pair, boxes) && has_moved_particle(pair, moved)) found.push_back(pair);
+  const std::vector<Bounds> boxes = particle_boxes(x, end, margin, ahead.team);
+  if (!lie_within(boxes, ahead.boxes)) return {};
+  const auto near_pair = [&](const FeaturePair& pair) -> std::optional<FeaturePair> {
+    if (overlap(pair, boxes) && has_moved_particle(pair, moved)) return pair;
+    return {};
   };
-  return found_in_order<FeaturePair>(cache.threads, Eigen::Index(cache.pairs.size()), find);
+  return found_among<FeaturePair>(ahead.team, ahead.pairs, near_pair);
 }
 
 }  // namespace foldproof

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "reference/fast/team.h"
 #include "reference/filters/feature_pair.h"
 #include "reference/mesh/box_tree.h"
 #include "reference/mesh/triangle_mesh.h"
@@ -24,7 +25,7 @@ struct ClothTree {
   std::vector<OwnedFeatures> own;   // M
   BoxTree tree;                     // over the triangles
   double mean_edge;                 // at rest [m]
-  int threads = 1;                  // of a search
+  Team team = {};                   // that searches
 };
 
 ClothTree make_cloth_tree(const TriangleMesh& mesh);
@@ -37,28 +38,27 @@ std::vector<FeaturePair> near_pairs(const ClothTree& cloth, const PerParticle3& 
                                     const PerParticle3& end, double margin,
                                     const std::vector<char>& moved = {});
 
-/// Pairs found by one search with an enlarged margin. The boxes are the key: while the particles
-/// stay inside them, later searches only select from these pairs.
-struct PairCache {
+/// Pairs found by one search with an enlarged margin: while the particles stay inside these boxes,
+/// later searches only select from these pairs.
+struct PairsAhead {
   std::vector<Bounds> boxes;       // N: one per particle, widened by half that margin
   std::vector<FeaturePair> pairs;  // near_pairs of them
-  int threads = 1;                 // of a selection
+  Team team = {};                  // that selects
 };
 
 /// Is a particle of the pair marked?
 ///   moved   N, or empty: all are
 bool has_moved_particle(const FeaturePair& pair, const std::vector<char>& moved);
 
-PairCache make_pair_cache(const ClothTree& cloth, const PerParticle3& x, double margin);
+PairsAhead pairs_ahead(const ClothTree& cloth, const PerParticle3& x, double margin);
 
 /// Is every particle of x, widened by margin/2, inside its box?
-bool cache_is_valid(const PairCache& cache, const PerParticle3& x, double margin);
+bool is_inside(const PairsAhead& ahead, const PerParticle3& x, double margin);
 
 /// The pairs that near_pairs finds for the same cloth, in the same order; nullopt if a particle
 /// leaves its box on the way.
-std::optional<std::vector<FeaturePair>> pairs_from_cache(const PairCache& cache,
-                                                         const PerParticle3& x,
-                                                         const PerParticle3& end, double margin,
-                                                         const std::vector<char>& moved = {});
+std::optional<std::vector<FeaturePair>> pairs_among(const PairsAhead& ahead, const PerParticle3& x,
+                                                    const PerParticle3& end, double margin,
+                                                    const std::vector<char>& moved = {});
 
 }  // namespace foldproof

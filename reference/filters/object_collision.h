@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "reference/fast/team.h"
 #include "reference/filters/collision_points.h"
 #include "reference/filters/object_response.h"
 #include "reference/level_set/object.h"
@@ -16,10 +17,10 @@ struct ObjectCollision {
   std::vector<CollisionPoint> points;
   Response response = responses().front();
   double forecast_time = 0;  // tau [s]; 0: the step
-  int threads = 1;
+  Team team = {};
 
-  /// Points that share particles are corrected one after the other, on one thread.
-  void use_threads(int count, Eigen::Index particles);
+  /// Points with common particles are corrected one after the other.
+  void set_team(const Team& of, Eigen::Index particles);
 
   void correct(const Span& span, const State& s, PerParticle3& v, Work& work) const;
 };

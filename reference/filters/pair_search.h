@@ -8,7 +8,7 @@ namespace foldproof {
 /// Pairs of features, and how many pairs of boxes the search compared to find them.
 struct PairSearch {
   std::vector<FeaturePair> pairs;
-  long box_tests;
+  long box_tests = 0;
 };
 
 /// The pairs of near_pairs, with the work of finding them.

@@ -53,17 +53,15 @@ bool inside_both(const Eigen::Vector4d& weights) { return (weights.array() != 0)
 /// counts over a triangle, and at a triangle's rim only if it is no nearer to another triangle, as
 /// over a fold or at the cloth's border.
 std::vector<ClosePair> load_bearing_pairs(const std::vector<FeaturePair>& pairs,
-                                          const PerParticle3& x, double thickness, int threads) {
-  const auto find = [&](Eigen::Index first, Eigen::Index count, std::vector<ClosePair>& found) {
-    for (const FeaturePair& pair : std::span(pairs).subspan(size_t(first), size_t(count))) {
-      const Nearness at = nearness(pair.kind, corners_of(pair, x));
-      if (!(at.distance < thickness) || !(at.distance > 0)) continue;
-      if (pair.kind == PairKind::edge_edge && !inside_both(at.weights)) continue;
-      found.push_back({pair, at});
-    }
+                                          const PerParticle3& x, double thickness,
+                                          const Team& team) {
+  const auto close_pair = [&](const FeaturePair& pair) -> std::optional<ClosePair> {
+    const Nearness at = nearness(pair.kind, corners_of(pair, x));
+    if (!(at.distance < thickness) || !(at.distance > 0)) return {};
+    if (pair.kind == PairKind::edge_edge && !inside_both(at.weights)) return {};
+    return ClosePair{pair, at};
   };
-  std::vector<ClosePair> close =
-      found_in_order<ClosePair>(threads, Eigen::Index(pairs.size()), find);
+  std::vector<ClosePair> close = found_among<ClosePair>(team, pairs, close_pair);
   // of each vertex to a triangle [m]
   PerParticle nearest = PerParticle::Constant(x.cols(), thickness);
   for (const ClosePair& one : close) {
@@ -81,9 +79,9 @@ std::vector<ClosePair> load_bearing_pairs(const std::vector<FeaturePair>& pairs,
 
 long repel(const std::vector<FeaturePair>& pairs, const PerParticle3& x,
            const SelfCollisionSettings& settings, double h, const PerParticle& inverse_mass,
-           PerParticle3& v, int threads) {
+           PerParticle3& v, const Team& team) {
   long answered = 0;
-  for (const auto& [pair, at] : load_bearing_pairs(pairs, x, settings.thickness, threads)) {
+  for (const auto& [pair, at] : load_bearing_pairs(pairs, x, settings.thickness, team)) {
     const double overlap = settings.thickness - at.distance;                    // d [m]
     const double pair_compliance = compliance(pair, at.weights, inverse_mass);  // 1/kg
     const Vector3 relative = corners_of(pair, v) * at.weights;

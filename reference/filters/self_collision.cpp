@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "reference/fast/kept_values.h"
 #include "reference/fast/loops.h"
 #include "reference/filters/approach.h"
 #include "reference/filters/impact_zones.h"
@@ -14,7 +15,7 @@ namespace {
 
 // of the thickness: the distance that no motion may undercut
 constexpr double min_distance_share = 0.1;
-constexpr double spare_share = 0.12;  // of the mean edge: the margin to spare of the cache
+constexpr double spare_share = 0.12;  // of the mean edge: the margin of a search for many steps
 // s: in it what pierces moves by a thickness against what it pierces
 constexpr double untangling_time = 0.01;
 
@@ -32,24 +33,25 @@ struct Step {
   double min_distance() const { return min_distance_share * filter.settings.thickness; }  // m
   std::vector<FeaturePair> pairs() const;
   std::optional<Approach> approach(const FeaturePair& pair) const;
-  std::vector<char> clear_pairs(const std::vector<FeaturePair>& pairs) const;
   long resolve_all(int round);
   void resolve(const FeaturePair& pair, const Approach& contact, int round);
   bool join_approaching_pairs(ImpactZones& zones, std::vector<char>& is_off_its_path);
   void move_zones(ImpactZones& zones, std::vector<char>& is_off_its_path);
 };
 
-/// near_pairs, from the filter's cache where it reaches.
-std::vector<FeaturePair> pairs_of(const SelfCollision& filter, const PerParticle3& x,
-                                  const PerParticle3& end, double margin,
+/// near_pairs, among those that the run keeps where these suffice.
+std::vector<FeaturePair> pairs_of(const SelfCollision& filter, const Work& work,
+                                  const PerParticle3& x, const PerParticle3& end, double margin,
                                   const std::vector<char>& moved = {}) {
-  if (const std::shared_ptr<const PairCache> cache = filter.cache->load())
-    if (auto cached = pairs_from_cache(*cache, x, end, margin, moved)) return std::move(*cached);
+  if (work.kept)
+    if (auto pairs = pairs_among(work.kept->of<PairsAhead>(filter), x, end, margin, moved))
+      return std::move(*pairs);
   return near_pairs(filter.cloth, x, end, margin, moved);
 }
 
 std::vector<FeaturePair> Step::pairs() const {
-  std::vector<FeaturePair> found = pairs_of(filter, s.x, s.x + h * v, 2 * min_distance(), moved);
+  std::vector<FeaturePair> found =
+      pairs_of(filter, work, s.x, s.x + h * v, 2 * min_distance(), moved);
   if (!tangled.empty()) remove_tangled_pairs(tangled, found);
   return found;
 }
@@ -58,33 +60,18 @@ std::optional<Approach> Step::approach(const FeaturePair& pair) const {
   return first_approach(pair.kind, corners_of(pair, s.x), h * corners_of(pair, v), min_distance());
 }
 
-/// Marks the pairs that stay apart as v is now. Empty on one thread, which asks about each pair
-/// when its turn comes.
-std::vector<char> Step::clear_pairs(const std::vector<FeaturePair>& pairs) const {
-  if (filter.cloth.threads <= 1) return {};
-  std::vector<char> clear(pairs.size());
-  for_each_range(filter.cloth.threads, pairs, [&](std::span<const FeaturePair> part, size_t first) {
-    for (const FeaturePair& pair : part) clear[first++] = !approach(pair);
-  });
-  return clear;
-}
-
 /// Each pair that would come together, one after the other as v then is. Returns their number.
 long Step::resolve_all(int round) {
   const std::vector<FeaturePair> pairs_to_test = pairs();
-  const std::vector<char> clear = clear_pairs(pairs_to_test);
   moved.assign(size_t(v.cols()), 0);
   work.crossing_queries += long(pairs_to_test.size());
-  long resolved = 0;
-  for (size_t k = 0; k < pairs_to_test.size(); ++k) {
-    const FeaturePair& pair = pairs_to_test[k];
-    if (!clear.empty() && clear[k] && !has_moved_particle(pair, moved)) continue;
-    const std::optional<Approach> contact = approach(pair);
-    if (!contact) continue;
-    resolve(pair, *contact, round);
-    for (const int i : pair.particles) moved[size_t(i)] = 1;
-    ++resolved;
-  }
+  const long resolved = act_in_order(
+      filter.cloth.team, pairs_to_test, [&](const FeaturePair& pair) { return approach(pair); },
+      [&](const FeaturePair& pair) { return has_moved_particle(pair, moved); },
+      [&](const FeaturePair& pair, const Approach& contact) {
+        resolve(pair, contact, round);
+        for (const int i : pair.particles) moved[size_t(i)] = 1;
+      });
   work.crossings += resolved;
   return resolved;
 }
@@ -106,8 +93,8 @@ void Step::resolve(const FeaturePair& pair, const Approach& contact, int round) 
              filter.inverse_mass, v);
 }
 
-/// Joins what still comes together; false if nothing does. leads: prescribed particles that no
-/// zone's motion meets.
+/// Joins what still comes together; false if nothing does. is_off_its_path: marks prescribed
+/// particles that the motion of their zone does not follow.
 bool Step::join_approaching_pairs(ImpactZones& zones, std::vector<char>& is_off_its_path) {
   bool any = false;
   for (const FeaturePair& pair : pairs()) {
@@ -140,18 +127,18 @@ void Step::move_zones(ImpactZones& zones, std::vector<char>& is_off_its_path) {
 
 }  // namespace
 
-void SelfCollision::update_pair_cache(const State& s) const {
+void SelfCollision::look_ahead(const State& s, const Work& work) const {
+  if (!work.kept) return;
   const double spare = spare_share * cloth.mean_edge;
-  const std::shared_ptr<const PairCache> latest = cache->load();
+  PairsAhead& latest = work.kept->of<PairsAhead>(*this);
   // half of it is left for the step to come
-  if (latest && cache_is_valid(*latest, s.x, settings.thickness + spare / 2)) return;
-  cache->store(
-      std::make_shared<const PairCache>(make_pair_cache(cloth, s.x, settings.thickness + spare)));
+  if (is_inside(latest, s.x, settings.thickness + spare / 2)) return;
+  latest = pairs_ahead(cloth, s.x, settings.thickness + spare);
 }
 
 void SelfCollision::correct(const Span& span, const State& s, PerParticle3& v, Work& work) const {
   const double h = span.step;
-  std::vector<FeaturePair> close = pairs_of(*this, s.x, s.x, settings.thickness);
+  std::vector<FeaturePair> close = pairs_of(*this, work, s.x, s.x, settings.thickness);
   std::vector<char> tangled;
   if (!at_start.empty()) {
     const CrossingTriangles crossing = self_intersections(s.x, cloth.triangles);
@@ -160,7 +147,7 @@ void SelfCollision::correct(const Span& span, const State& s, PerParticle3& v, W
     push_out_of_tangle(crossing, cloth.triangles, s.x, settings.thickness / untangling_time,
                        inverse_mass, v);
   }
-  work.close_pairs += repel(close, s.x, settings, h, inverse_mass, v, cloth.threads);
+  work.close_pairs += repel(close, s.x, settings, h, inverse_mass, v, cloth.team);
   if (!(span.end > span.start)) return;
 
   Step step{*this, s, v, h, work, tangled};

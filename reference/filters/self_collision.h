@@ -3,9 +3,6 @@
 // free of crossings.
 #pragma once
 
-#include <atomic>
-#include <memory>
-
 #include "reference/filters/cloth_pairs.h"
 #include "reference/filters/repulsion.h"
 #include "reference/filters/untangling.h"
@@ -13,10 +10,6 @@
 #include "reference/types.h"
 
 namespace foldproof {
-
-/// A filter's latest cache; empty before the first. Copies of a filter, and threads that step
-/// different states of one system, share it: each replaces it as a whole.
-using LatestPairCache = std::atomic<std::shared_ptr<const PairCache>>;
 
 /// The filter. It comes last: objects first, then cloth against itself. It returns a velocity that
 /// is proven safe: for every pair of features whose boxes meet on the way, planes separate the two
@@ -30,14 +23,14 @@ struct SelfCollision {
   ClothTree cloth;
   PerParticle mass, inverse_mass;   // N [kg], [1/kg]; the latter 0 for prescribed particles
   CrossingTriangles at_start = {};  // pairs that cross before the first step
-  std::shared_ptr<LatestPairCache> cache = std::make_shared<LatestPairCache>();
 
-  /// Of searches and queries; impulses are given one after the other.
-  void use_threads(int count, Eigen::Index) { cloth.threads = count; }
+  /// Searches and queries run on it; impulses are given one after the other.
+  void set_team(const Team& team, Eigen::Index) { cloth.team = team; }
 
-  /// Rebuilds the cache if it is not valid at s, with a margin for the next steps. It saves most
-  /// searches without changing a bit: correct() searches where the cache is not valid.
-  void update_pair_cache(const State& s) const;
+  /// Looks for the pairs that may meet in the next steps of a run that keeps them, unless those
+  /// that it keeps still do. That saves most searches without changing a bit: correct()
+  /// searches where it must.
+  void look_ahead(const State& s, const Work& work) const;
 
   /// Throws DegenerateElement where prescribed particles force the cloth through itself.
   void correct(const Span& span, const State& s, PerParticle3& v, Work& work) const;

@@ -2,6 +2,7 @@
 // the coming step (BMF03 section 3, after Provot 1995).
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "reference/forces/springs.h"
@@ -51,7 +52,7 @@ struct StrainLimiter {
 };
 
 /// Sorts and colours the springs. Throws InputError for invalid limits.
-StrainLimiter make_strain_limiter(const StrainLimits& limits, const std::vector<Spring>& springs,
+StrainLimiter make_strain_limiter(const StrainLimits& limits, std::span<const Spring> springs,
                                   const PerParticle& inverse_mass);
 
 /// Result of a call.

@@ -54,7 +54,7 @@ void group_by_colour(StrainLimiter& limiter) {
 
 }  // namespace
 
-StrainLimiter make_strain_limiter(const StrainLimits& limits, const std::vector<Spring>& springs,
+StrainLimiter make_strain_limiter(const StrainLimits& limits, std::span<const Spring> springs,
                                   const PerParticle& inverse_mass) {
   check(limits);
   StrainLimiter limiter{limits, {}, {}, inverse_mass};

@@ -14,17 +14,6 @@ namespace {
 // rounding has eaten the normal.
 constexpr double smallest_height_squared = 1e-20;
 
-template <class Own>
-void add_forces(const std::array<int, 4>& particles, const HingeShape& shape, double magnitude,
-                const Own& own, PerParticle3& f) {
-  const Vector3 f1 = magnitude * shape.u1, f2 = magnitude * shape.u2;
-  const Vector3 f3 = -(shape.b1 * f1 + shape.b2 * f2);
-  if (own.has(particles[0])) f.col(particles[0]) += f1;
-  if (own.has(particles[1])) f.col(particles[1]) += f2;
-  if (own.has(particles[2])) f.col(particles[2]) += f3;
-  if (own.has(particles[3])) f.col(particles[3]) -= f1 + f2 + f3;
-}
-
 double sine_magnitude(double theta, double rest_angle) {
   return std::sin(theta / 2) - std::sin(rest_angle / 2);
 }
@@ -34,7 +23,9 @@ double sine_slope(double theta, double) { return 0.5 * std::cos(theta / 2); }
 double sine_potential(double theta, double rest_angle) {
   // 2 (cos(theta0/2) - cos(theta/2)) as a product of sines, which loses no digits near a rest angle
   // of 0; near others a share of about tan(theta0/2)/(theta - theta0) of a rounding
-  return 4 * std::sin((theta + rest_angle) / 4) * std::sin((theta - rest_angle) / 4) -
+  const double difference = std::sin((theta - rest_angle) / 4);
+  if (rest_angle == 0) return 4 * difference * difference;
+  return 4 * std::sin((theta + rest_angle) / 4) * difference -
          std::sin(rest_angle / 2) * (theta - rest_angle);
 }
 
@@ -96,15 +87,19 @@ HingeShape hinge_shape(const Vector3& x1, const Vector3& x2, const Vector3& x3, 
   // n1.n2)/2), which is accurate just there; a sine of -0 counts as positive, like one of 0.
   const double cosine = N1.dot(N2) * (per_length1 * per_length2);
   const double sine = N1.dot(x3 - x2) * (edge * per_length1 * per_length2);
+  shape.sine = N1.dot(x3 - x2) * edge;
+  shape.cosine = N1.dot(N2);
   shape.sin_half = cosine >= 0 ? sine / std::sqrt(2 + 2 * cosine)
                                : std::copysign(std::sqrt(0.5 - 0.5 * cosine), sine + 0.0);
   return shape;
 }
 
+double HingeShape::angle() const {
+  return std::atan2(sine + 0.0, cosine);  // + 0: a sine of -0 counts as positive, too
+}
+
 double hinge_angle(const Vector3& x1, const Vector3& x2, const Vector3& x3, const Vector3& x4) {
-  const Vector3 E = x4 - x3, N1 = (x1 - x3).cross(x1 - x4), N2 = (x2 - x4).cross(x2 - x3);
-  const double sine = N1.dot(x3 - x2) * E.norm();
-  return std::atan2(sine + 0.0, N1.dot(N2));  // + 0: a sine of -0 counts as positive, too
+  return hinge_shape(x1, x2, x3, x4).angle();
 }
 
 HingeShape checked_hinge_shape(const BendingHinge& hinge, const PerParticle3& x) {
@@ -113,11 +108,6 @@ HingeShape checked_hinge_shape(const BendingHinge& hinge, const PerParticle3& x)
   if (shape.degenerate)
     throw DegenerateElement("a triangle of a hinge has lost its area", {i1, i2, i3, i4});
   return shape;
-}
-
-double angle_of(const BendingHinge& hinge, const PerParticle3& x) {
-  const auto [i1, i2, i3, i4] = hinge.particles;
-  return hinge_angle(x.col(i1), x.col(i2), x.col(i3), x.col(i4));
 }
 
 double weight_of(const BendingHinge& hinge, const HingeShape& shape, Weighting weighting) {
@@ -134,108 +124,49 @@ Eigen::Matrix<double, 3, 4> bending_mode(const HingeShape& shape) {
   return u;
 }
 
-void Bending::use_threads(int threads, Eigen::Index particles) {
-  std::vector<std::array<int, 4>> corners;
-  for (const BendingHinge& hinge : hinges) corners.push_back(hinge.particles);
-  sharing = share_out(threads, particles, corners);
+double magnitude_of(const BendingLaw& law, const BendingHinge& hinge, const HingeShape& shape) {
+  return law.magnitude == sine_magnitude ? shape.sin_half - hinge.sin_half_rest
+                                         : law.magnitude(shape.angle(), hinge.rest_angle);
 }
 
-void Bending::add_elastic(const State& s, PerParticle3& f) const {
+HingeShapes Bending::shapes_at(const PerParticle3& x) const {
+  return hinges.map([&](const BendingHinge& hinge) { return checked_hinge_shape(hinge, x); });
+}
+
+void Bending::add_elastic(const State&, const HingeShapes& shapes, PerParticle3& f) const {
   const BendingLaw& law = bending_law(material.law);
-  const bool is_sine = law.magnitude == sine_magnitude;  // needs no angle, only its sine
-  for_each_run(sharing, hinges, [&](auto part, const auto& own) {
-    for (const BendingHinge& hinge : part) {
-      const HingeShape shape = checked_hinge_shape(hinge, s.x);
-      const double magnitude = is_sine ? shape.sin_half - hinge.sin_half_rest
-                                       : law.magnitude(angle_of(hinge, s.x), hinge.rest_angle);
-      add_forces(hinge.particles, shape,
-                 material.stiffness * weight_of(hinge, shape, material.weighting) * magnitude, own,
-                 f);
-    }
+  hinges.push(shapes, f, [&](const BendingHinge& hinge, const HingeShape& shape, const auto& to) {
+    const double size = material.stiffness * weight_of(hinge, shape, material.weighting) *
+                        magnitude_of(law, hinge, shape);
+    const Vector3 f1 = size * shape.u1, f2 = size * shape.u2;
+    const Vector3 f3 = -(shape.b1 * f1 + shape.b2 * f2);
+    const auto [i1, i2, i3, i4] = hinge.particles;
+    to.add(i1, f1);
+    to.add(i2, f2);
+    to.add(i3, f3);
+    to.add(i4, -(f1 + f2 + f3));
   });
 }
 
-double Bending::energy(const State& s) const {
+double Bending::energy(const State&, const HingeShapes& shapes) const {
   const BendingLaw& law = bending_law(material.law);
-  const double sum = sum_over(threads_of(sharing), hinges, [&](const BendingHinge& hinge) {
-    const HingeShape shape = checked_hinge_shape(hinge, s.x);
-    return weight_of(hinge, shape, material.weighting) *
-           law.potential(angle_of(hinge, s.x), hinge.rest_angle);
-  });
-  return material.stiffness * sum;
+  return material.stiffness *
+         hinges.sum(shapes, [&](const BendingHinge& hinge, const HingeShape& shape) {
+           return weight_of(hinge, shape, material.weighting) *
+                  law.potential(shape.angle(), hinge.rest_angle);
+         });
 }
 
-void Bending::prepare_damping(const State& s, DampingOperator& damping) const {
+void Bending::prepare_damping(const State&, const HingeShapes& shapes,
+                              DampingOperator& damping) const {
   if (material.damping == 0) return;
-  HingeDamper* const dampers = damping.add_hinges(hinges.size(), sharing);
-  for_each_range(threads_of(sharing), hinges, [&](auto part, size_t first) {
-    HingeDamper* to = dampers + first;
-    for (const BendingHinge& hinge : part) {
-      const HingeShape shape = checked_hinge_shape(hinge, s.x);
-      const double factor = material.damping_factor == DampingFactor::edge
-                                ? shape.edge
-                                : shape.edge * shape.edge / shape.area_sum;
-      const double root = std::sqrt(material.damping * factor);
-      *to++ = {hinge.particles, shape.b1, shape.b2, root * shape.u1, root * shape.u2};
-    }
-  });
-}
-
-namespace {
-
-/// Bounds on the rows of grad u, for each particle i the sum over j of |du_i/dx_j| [1/m^2]. With
-/// l_km the distance from x_k to x_m, e = |E|, and d(N/|N|^2) = dN/|N|^2 in size, u_k = |E|
-/// N_k/|N_k|^2 gives for k =
-/// 1, 2
-///   |du_k/dx_k| = |u_k|^2,   |du_k/dx_3| <= g_k4,   |du_k/dx_4| <= g_k3,
-///   g_km = |u_k|^2 l_km/e + |u_k|/e,
-/// the same for du_3/dx_k and du_4/dx_k since grad u is symmetric, and, with |db_k/dx_3| = l_k4/e^2
-/// and |db_k/dx_4| = l_k3/e^2, the rest from u_3 = -(b_1 u_1 + b_2 u_2) and u_4 = -((1 - b_1) u_1 +
-/// (1 - b_2) u_2).
-Eigen::Vector4d mode_gradient_rows(const HingeShape& shape, const std::array<int, 4>& particles,
-                                   const PerParticle3& x) {
-  const Vector3 x3 = x.col(particles[2]), x4 = x.col(particles[3]);
-  const double e = shape.edge, size[2] = {shape.u1.norm(), shape.u2.norm()},
-               b[2] = {shape.b1, shape.b2};
-  Eigen::Vector4d rows = Eigen::Vector4d::Zero();
-  for (int k = 0; k < 2; ++k) {
-    const double to3 = (x.col(particles[size_t(k)]) - x3).norm(),
-                 to4 = (x.col(particles[size_t(k)]) - x4).norm();
-    const double g3 = size[k] * (size[k] * to3 + 1) / e, g4 = size[k] * (size[k] * to4 + 1) / e;
-    const double shift = size[k] * (to3 + to4) / (e * e), share3 = std::abs(b[k]),
-                 share4 = std::abs(1 - b[k]);
-    rows[k] = size[k] * size[k] + g3 + g4;
-    rows[2] += g4 + share3 * (g3 + g4) + shift;
-    rows[3] += g3 + share4 * (g3 + g4) + shift;
-  }
-  return rows;
-}
-
-}  // namespace
-
-void Bending::add_stiffness_bound(const State& s, PerParticle& rows) const {
-  // One hinge's stiffness matrix is ke c (magnitude' u u^T - magnitude grad u). A row of the first
-  // sums to |u_i| sum |u_j|; the second counts where a hinge is far from its rest angle. With
-  // current weighting the change of c itself is left out.
-  const BendingLaw& law = bending_law(material.law);
-  const bool is_sine = law.magnitude == sine_magnitude;  // needs no angle, only its sine
-  for_each_run(sharing, hinges, [&](auto part, const auto& own) {
-    for (const BendingHinge& hinge : part) {
-      const HingeShape shape = checked_hinge_shape(hinge, s.x);
-      const double weight = material.stiffness * weight_of(hinge, shape, material.weighting);
-      const double theta = is_sine ? 0 : angle_of(hinge, s.x);
-      const double slope = is_sine
-                               ? 0.5 * std::sqrt(std::max(0.0, 1 - shape.sin_half * shape.sin_half))
-                               : std::abs(law.slope(theta, hinge.rest_angle));
-      const double magnitude = std::abs(is_sine ? shape.sin_half - hinge.sin_half_rest
-                                                : law.magnitude(theta, hinge.rest_angle));
-      const Eigen::Vector4d norms = bending_mode(shape).colwise().norm();
-      const Eigen::Vector4d sums =
-          slope * norms.sum() * norms + magnitude * mode_gradient_rows(shape, hinge.particles, s.x);
-      for (int k = 0; k < 4; ++k)
-        if (const int i = hinge.particles[size_t(k)]; own.has(i)) rows[i] += weight * sums[k];
-    }
-  });
+  const bool by_edge = material.damping_factor == DampingFactor::edge;
+  damping.hinges.append(
+      hinges.map(shapes, [&](const BendingHinge& hinge, const HingeShape& shape) -> HingeDamper {
+        const double factor = by_edge ? shape.edge : shape.edge * shape.edge / shape.area_sum;
+        const double root = std::sqrt(material.damping * factor);
+        return {hinge.particles, shape.b1, shape.b2, root * shape.u1, root * shape.u2};
+      }));
 }
 
 std::vector<double> hinge_angles(const TriangleMesh& mesh, const PerParticle3& x) {

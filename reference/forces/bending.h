@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "reference/fast/loops.h"
+#include "reference/fast/elements.h"
 #include "reference/forces/damping.h"
 #include "reference/forces/energies.h"
 #include "reference/forces/force_differential.h"
@@ -71,13 +71,22 @@ struct BendingHinge {
 
 /// Geometry of one hinge at its current positions. Throws nothing; callers check `degenerate`.
 struct HingeShape {
-  Vector3 u1, u2;   // the bending mode at the opposite vertices [1/m]
-  double b1, b2;    // their barycentric coordinates along the edge: 1 at x3, 0 at x4
-  double edge;      // |E| [m]
-  double area_sum;  // |N1| + |N2| [m^2]
-  double sin_half;  // sin(theta/2), to about one rounding of 1 for every theta in [-pi, pi]
-  bool degenerate;  // a triangle's height is below 1e-10 of the edge, or NaN
+  Vector3 u1, u2;       // the bending mode at the opposite vertices [1/m]
+  double b1, b2;        // their barycentric coordinates along the edge: 1 at x3, 0 at x4
+  double edge;          // |E| [m]
+  double area_sum;      // |N1| + |N2| [m^2]
+  double sin_half;      // sin(theta/2), to about one rounding of 1 for every theta in [-pi, pi]
+  double sine, cosine;  // of theta, times |N1| |N2| [m^4]
+  bool degenerate;      // a triangle's height is below 1e-10 of the edge, or NaN
+
+  /// theta in [-pi, pi] [rad]; 0 and pi count as positive. Near pi sin_half is too
+  /// insensitive to give it.
+  double angle() const;
 };
+
+/// The shapes of all hinges at one x: computed once, read by elastic forces, damping, step
+/// bound and energy.
+using HingeShapes = Elements<HingeShape>;
 
 HingeShape hinge_shape(const Vector3& x1, const Vector3& x2, const Vector3& x3, const Vector3& x4);
 
@@ -88,10 +97,10 @@ double hinge_angle(const Vector3& x1, const Vector3& x2, const Vector3& x3, cons
 /// triangle has lost its area.
 HingeShape checked_hinge_shape(const BendingHinge& hinge, const PerParticle3& x);
 
-/// theta of the hinge's particles at x (3 x N [m]) [rad]; near pi sin_half is too
-/// insensitive to give it.
-double angle_of(const BendingHinge& hinge, const PerParticle3& x);
 double weight_of(const BendingHinge& hinge, const HingeShape& shape, Weighting weighting);  // c [1]
+
+/// The law's magnitude; the paper's needs no angle.
+double magnitude_of(const BendingLaw& law, const BendingHinge& hinge, const HingeShape& shape);
 
 /// u1, u2, u3, u4 as columns [1/m].
 Eigen::Matrix<double, 3, 4> bending_mode(const HingeShape& shape);
@@ -110,21 +119,23 @@ Vector12 weight_gradient(const Vector3& x1, const Vector3& x2, const Vector3& x3
 struct Bending {
   static constexpr auto energy_term = &Energies::bending;
   BendingMaterial material;
-  std::vector<BendingHinge> hinges;
-  Sharing sharing = {};  // of the hinges among threads
+  Elements<BendingHinge> hinges;
 
-  /// Shares out the hinges, whose number must then stay.
-  void use_threads(int threads, Eigen::Index particles);
+  /// Its loops run on the team; the number of hinges must then stay.
+  void set_team(const Team& team, Eigen::Index particles) { hinges.divide(team, particles); }
 
-  /// Throws DegenerateElement naming the particles of a hinge one of whose triangles
-  /// has lost its area.
-  void add_elastic(const State& s, PerParticle3& f) const;
+  /// At x (3 x N [m]). Throws DegenerateElement naming the particles of a hinge one of whose
+  /// triangles has lost its area.
+  HingeShapes shapes_at(const PerParticle3& x) const;
+
+  // the shapes are those at s.x
+  void add_elastic(const State& s, const HingeShapes& shapes, PerParticle3& f) const;
 
   /// sum of ke c (potential of the law) [J]; with current weighting c is taken at s, and the force
   /// is not its gradient.
-  double energy(const State& s) const;
+  double energy(const State& s, const HingeShapes& shapes) const;
 
-  void prepare_damping(const State& s, DampingOperator& damping) const;
+  void prepare_damping(const State& s, const HingeShapes& shapes, DampingOperator& damping) const;
 
   /// A hinge's block is ke c (-magnitude' u u^T + magnitude grad u), made semidefinite by its
   /// eigenvalues. With current weighting the change of c is omitted: it would not be symmetric.
@@ -138,7 +149,7 @@ struct Bending {
 
   /// Adds to rows (N [N/m]) each particle's share of a bound on the elastic stiffness; see
   /// forces/force.h.
-  void add_stiffness_bound(const State& s, PerParticle& rows) const;
+  void add_stiffness_bound(const State& s, const HingeShapes& shapes, PerParticle& rows) const;
 };
 
 /// The angle of every hinge of the mesh at positions x (3 x N [m]); H values [rad].

@@ -18,7 +18,7 @@ HingeRates rates_of(const BendingHinge& hinge, const PerParticle3& x) {
   const HingeShape shape = checked_hinge_shape(hinge, x);
   const auto [i1, i2, i3, i4] = hinge.particles;
   const Eigen::Matrix<double, 3, 4> mode = bending_mode(shape);
-  return {shape, angle_of(hinge, x), Eigen::Map<const Vector12>(mode.data()),
+  return {shape, shape.angle(), Eigen::Map<const Vector12>(mode.data()),
           bending_mode_gradient(x.col(i1), x.col(i2), x.col(i3), x.col(i4))};
 }
 

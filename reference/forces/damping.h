@@ -1,5 +1,5 @@
-// The damping forces at one set of positions: F_damping = D v, linear in v, D symmetric negative
-// semi- definite.
+// The damping forces at one set of positions: F_damping = D v, linear in v, D symmetric
+// negative semidefinite.
 //
 // Every damper of cloth resists one mode: F = -w (w.v), a matrix of rank one that is never
 // assembled; sticking resists three. All dependence on positions is in w, computed once and used
@@ -10,7 +10,7 @@
 #include <functional>
 #include <vector>
 
-#include "reference/fast/loops.h"
+#include "reference/fast/elements.h"
 #include "reference/forces/triangle_frame.h"
 #include "reference/types.h"
 
@@ -42,16 +42,15 @@ struct TargetDamper {
 };
 
 struct DampingOperator {
-  std::vector<PairDamper, Unfilled<PairDamper>> pairs;
-  std::vector<HingeDamper, Unfilled<HingeDamper>> hinges;
-  Sharing pair_sharing = {}, hinge_sharing = {};  // among threads
+  Elements<PairDamper> pairs;
+  Elements<HingeDamper> hinges;
   std::vector<TargetDamper> targets;
   std::vector<std::function<void(const PerParticle3& v, PerParticle3& f)>> custom;
 
-  /// Appends so many, to be filled by the caller, and returns the first. They are shared out as
-  /// given if there are no others.
-  PairDamper* add_pairs(size_t count, const Sharing& sharing);
-  HingeDamper* add_hinges(size_t count, const Sharing& sharing);
+  /// Does nothing damp?
+  bool empty() const {
+    return pairs.empty() && hinges.empty() && targets.empty() && custom.empty();
+  }
 
   /// f += D v; both 3 x N, v in m/s, f in N.
   void add_product(const PerParticle3& v, PerParticle3& f) const;

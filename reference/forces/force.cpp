@@ -1,15 +1,11 @@
 #include "reference/forces/force.h"
 
-#include <cmath>
+#include <algorithm>
+#include <cstring>
+
+#include "reference/fast/kept_values.h"
 
 namespace foldproof {
-
-PerParticle3 elastic_forces(const std::vector<Force>& forces, const State& s, Work& work) {
-  PerParticle3 f = PerParticle3::Zero(3, s.x.cols());
-  for_each_force(forces, [&](const auto& force) { force.add_elastic(s, f); });
-  ++work.elastic_evaluations;
-  return f;
-}
 
 void CustomForce::prepare_damping(const State& s, DampingOperator& terms) const {
   if (!damping) return;
@@ -27,23 +23,153 @@ void CustomForce::add_force_differential(const State& s, ForceDifferential& sum)
   add_elastic_differential(s, Definiteness::exact, sum);
 }
 
-DampingOperator damping_at(const std::vector<Force>& forces, const State& s, Work& work) {
+namespace {
+
+/// The latest values of a run, and what they were computed from.
+struct LatestForces {
+  PerParticle3 x;  // m
+  std::shared_ptr<const Shapes> shapes = {};
+  double time = 0;  // s
+  std::vector<Bond> bonds = {};
+  Forces forces = {};  // each null until it is asked for
+  ForceCounts computed = {};
+};
+
+/// Equal to the last bit, NaN included.
+bool are_identical(const PerParticle3& a, const PerParticle3& b) {
+  return a.cols() == b.cols() &&
+         std::memcmp(a.data(), b.data(), sizeof(double) * size_t(a.size())) == 0;
+}
+
+bool are_identical(const Bond& a, const Bond& b) {
+  return a.patch == b.patch && a.triangle == b.triangle && a.particle == b.particle &&
+         a.place == b.place;
+}
+
+bool are_identical(const std::vector<Bond>& a, const std::vector<Bond>& b) {
+  return std::ranges::equal(
+      a, b, [](const Bond& one, const Bond& other) { return are_identical(one, other); });
+}
+
+/// Custom forces may depend on more than position, time and bonds.
+bool is_custom(const Force& force) { return std::holds_alternative<CustomForce>(force); }
+
+Shapes computed_shapes(const std::vector<Force>& forces, const PerParticle3& x) {
+  Shapes shapes(forces.size());
+  for (size_t k = 0; k < forces.size(); ++k)
+    std::visit(
+        [&](const auto& force) {
+          if constexpr (requires { force.shapes_at(x); }) shapes[k] = force.shapes_at(x);
+        },
+        forces[k]);
+  return shapes;
+}
+
+PerParticle3 computed_elastic(const std::vector<Force>& forces, const State& s,
+                              const Shapes& shapes) {
+  PerParticle3 f = PerParticle3::Zero(3, s.x.cols());
+  for_each_force(forces, s, shapes,
+                 [&](const auto& force, const auto&... at) { force.add_elastic(at..., f); });
+  return f;
+}
+
+DampingOperator computed_damping(const std::vector<Force>& forces, const State& s,
+                                 const Shapes& shapes) {
   DampingOperator damping;
-  for_each_force(forces, [&](const auto& force) {
-    if constexpr (requires { force.prepare_damping(s, damping); })
-      force.prepare_damping(s, damping);
+  for_each_force(forces, s, shapes, [&](const auto& force, const auto&... at) {
+    if constexpr (requires { force.prepare_damping(at..., damping); })
+      force.prepare_damping(at..., damping);
   });
-  ++work.damping_preparations;
   return damping;
+}
+
+/// Makes the shapes those at x.
+void update(const std::vector<Force>& forces, const PerParticle3& x, LatestForces& latest) {
+  if (latest.shapes && are_identical(latest.x, x)) return;
+  latest.shapes = nullptr;
+  latest.forces = {};
+  latest.shapes = std::make_shared<const Shapes>(computed_shapes(forces, x));
+  latest.x = x;
+  ++latest.computed.shapes;
+}
+
+/// Forgets the forces unless they are those at s.
+void update(const std::vector<Force>& forces, const State& s, LatestForces& latest) {
+  update(forces, s.x, latest);
+  if (latest.time != s.time || !are_identical(latest.bonds, s.bonds) ||
+      std::ranges::any_of(forces, is_custom))
+    latest.forces = {};
+  latest.time = s.time;
+  latest.bonds = s.bonds;
+}
+
+/// The values that the run keeps, or `unkept` if it keeps none, brought to s, a state or its x.
+template <class Where>
+LatestForces& latest_at(const std::vector<Force>& forces, const Where& s, const Work& work,
+                        LatestForces& unkept) {
+  LatestForces& latest = work.kept ? work.kept->of<LatestForces>(forces) : unkept;
+  update(forces, s, latest);
+  return latest;
+}
+
+const std::shared_ptr<const PerParticle3>& elastic(const std::vector<Force>& forces, const State& s,
+                                                   LatestForces& latest, Work& work) {
+  ++work.elastic_evaluations;
+  if (latest.forces.elastic) return latest.forces.elastic;
+  ++latest.computed.elastic;
+  return latest.forces.elastic =
+             std::make_shared<const PerParticle3>(computed_elastic(forces, s, *latest.shapes));
+}
+
+const std::shared_ptr<const DampingOperator>& damping(const std::vector<Force>& forces,
+                                                      const State& s, LatestForces& latest,
+                                                      Work& work) {
+  ++work.damping_preparations;
+  if (latest.forces.damping) return latest.forces.damping;
+  ++latest.computed.damping;
+  return latest.forces.damping =
+             std::make_shared<const DampingOperator>(computed_damping(forces, s, *latest.shapes));
+}
+
+}  // namespace
+
+std::shared_ptr<const Shapes> shapes_at(const std::vector<Force>& forces, const PerParticle3& x,
+                                        const Work& work) {
+  LatestForces unkept;
+  return latest_at(forces, x, work, unkept).shapes;
+}
+
+PerParticle3 elastic_forces(const std::vector<Force>& forces, const State& s, Work& work) {
+  LatestForces unkept;
+  return *elastic(forces, s, latest_at(forces, s, work, unkept), work);
+}
+
+std::shared_ptr<const DampingOperator> damping_at(const std::vector<Force>& forces, const State& s,
+                                                  Work& work) {
+  LatestForces unkept;
+  return damping(forces, s, latest_at(forces, s, work, unkept), work);
+}
+
+Forces forces_at(const std::vector<Force>& forces, const State& s, Work& work) {
+  LatestForces unkept;
+  LatestForces& latest = latest_at(forces, s, work, unkept);
+  return {elastic(forces, s, latest, work), damping(forces, s, latest, work)};
+}
+
+ForceCounts computed_in_run(const std::vector<Force>& forces, const Work& work) {
+  return work.kept ? work.kept->of<LatestForces>(forces).computed : ForceCounts{};
 }
 
 ForceDifferential elastic_differential_at(const std::vector<Force>& forces, const State& s,
                                           Definiteness definiteness, Work& work) {
   ForceDifferential differential;
-  for_each_force(forces, [&](const auto& force) {
-    if constexpr (requires { force.add_elastic_differential(s, definiteness, differential); })
-      force.add_elastic_differential(s, definiteness, differential);
-  });
+  for (const Force& force : forces)
+    std::visit(
+        [&](const auto& of) {
+          if constexpr (requires { of.add_elastic_differential(s, definiteness, differential); })
+            of.add_elastic_differential(s, definiteness, differential);
+        },
+        force);
   ++work.stiffness_preparations;
   return differential;
 }
@@ -51,63 +177,15 @@ ForceDifferential elastic_differential_at(const std::vector<Force>& forces, cons
 ForceDifferential force_differential_at(const std::vector<Force>& forces, const State& s,
                                         Work& work) {
   ForceDifferential differential;
-  for_each_force(forces, [&](const auto& force) {
-    if constexpr (requires { force.add_force_differential(s, differential); })
-      force.add_force_differential(s, differential);
-  });
+  for (const Force& force : forces)
+    std::visit(
+        [&](const auto& of) {
+          if constexpr (requires { of.add_force_differential(s, differential); })
+            of.add_force_differential(s, differential);
+        },
+        force);
   ++work.stiffness_preparations;
   return differential;
-}
-
-namespace {
-
-/// The largest row over its particle's mass; NaN if any is.
-double largest_over_mass(const PerParticle& rows, const PerParticle& inverse_mass) {
-  double largest = 0;
-  for (const double one : rows.cwiseProduct(inverse_mass).eval()) update_worst(largest, one);
-  return largest;
-}
-
-}  // namespace
-
-double damping_rate_bound(const DampingOperator& damping, const PerParticle& inverse_mass) {
-  PerParticle rows = PerParticle::Zero(inverse_mass.size());
-  for (const PairDamper& p : damping.pairs) {
-    rows[p.a] += 2 * p.along.squaredNorm();
-    rows[p.b] += 2 * p.along.squaredNorm();
-  }
-  for (const HingeDamper& h : damping.hinges) {
-    const Vector3 w3 = -(h.weight1 * h.w1 + h.weight2 * h.w2), w4 = -(h.w1 + h.w2 + w3);
-    const Eigen::Vector4d norms(h.w1.norm(), h.w2.norm(), w3.norm(), w4.norm());
-    for (int k = 0; k < 4; ++k) rows[h.particles[size_t(k)]] += norms[k] * norms.sum();
-  }
-  for (const TargetDamper& t : damping.targets)
-    add_row_sums(t.particle, t.frames, t.coefficient, rows);
-  return largest_over_mass(rows, inverse_mass);
-}
-
-PerParticle stiffness_row_bounds(const std::vector<Force>& forces, const State& s,
-                                 StickingPart part) {
-  PerParticle rows = PerParticle::Zero(s.x.cols());
-  for_each_force(forces, [&](const auto& force) {
-    if constexpr (requires { force.add_bound_without_springs(s, rows); })
-      if (part == StickingPart::without_springs) return force.add_bound_without_springs(s, rows);
-    if constexpr (requires { force.add_stiffness_bound(s, rows); })
-      force.add_stiffness_bound(s, rows);
-  });
-  return rows;
-}
-
-double frequency_bound(const std::vector<Force>& forces, const State& s,
-                       const PerParticle& inverse_mass) {
-  return std::sqrt(
-      largest_over_mass(stiffness_row_bounds(forces, s, StickingPart::all), inverse_mass));
-}
-
-double frequency_without_sticking_springs(const std::vector<Force>& forces, const State& s,
-                                          const PerParticle& inverse_mass) {
-  return std::sqrt(largest_over_mass(stiffness_row_bounds(forces, s, StickingPart::without_springs),
-                                     inverse_mass));
 }
 
 }  // namespace foldproof

@@ -3,6 +3,7 @@
 
 #include <concepts>
 #include <functional>
+#include <memory>
 #include <variant>
 #include <vector>
 
@@ -40,35 +41,73 @@ struct CustomForce {
 
 /// One force: an elastic or external part that depends on time and positions, and an energy. It may
 /// also offer these functions, which are looked up by name:
+///   shapes_at(x)                                              if it consists of elements
 ///   prepare_damping(s, damping)                               if it damps
 ///   add_elastic_differential(s, definiteness, differential),
 ///   add_force_differential(s, differential)                   for fully implicit methods
 ///   add_stiffness_bound(s, rows)                              to limit automatic steps
 ///   add_bound_without_springs(s, rows),
 ///   shortest_forecast(s)                                      if forecasts stabilise a part
-///   update_bonds(s)                                            if bonds form and break
+///   update_bonds(s)                                           if bonds form and break
+/// A force with shapes receives those at s.x behind s: add_elastic(s, shapes, f) and so on; not
+/// its differentials.
 template <class F>
-concept ForceModel = requires(const F force, const State s, PerParticle3 f, Energies energies) {
-  force.add_elastic(s, f);  // f += F_e(t, x); adds and clears nothing
-  { force.energy(s) } -> std::convertible_to<double>;
+concept HasShapes = requires(const F force, const PerParticle3 x) {
+  force.shapes_at(x);
+};
+
+template <class F, class... Shapes>
+concept ForceWith = requires(const F force, const State s, const Shapes... shapes, PerParticle3 f,
+                             Energies energies) {
+  force.add_elastic(s, shapes..., f);  // f += F_e(t, x); adds and clears nothing
+  { force.energy(s, shapes...) } -> std::convertible_to<double>;
   { energies.*F::energy_term } -> std::same_as<double&>;  // the term of its energy
 };
 
 using Force = std::variant<Gravity, StretchSprings, Bending, Sticking, CustomForce>;
-static_assert(ForceModel<Gravity> && ForceModel<StretchSprings> && ForceModel<Bending> &&
-              ForceModel<Sticking> && ForceModel<CustomForce>);
+static_assert(ForceWith<Gravity> && ForceWith<StretchSprings, SpringShapes> &&
+              ForceWith<Bending, HingeShapes> && ForceWith<Sticking> && ForceWith<CustomForce>);
 
-/// Calls act(force) for each force, with its own type, in order.
+/// The shapes of each force's elements at one x, in the order of the forces.
+using Shapes = std::vector<std::variant<std::monostate, SpringShapes, HingeShapes>>;
+
+/// Calls act(force, s), or act(force, s, shapes) with its own shapes, for each force, with its own
+/// type, in order.
 template <class Act>
-void for_each_force(const std::vector<Force>& forces, const Act& act) {
-  for (const Force& force : forces) std::visit(act, force);
+void for_each_force(const std::vector<Force>& forces, const State& s, const Shapes& shapes,
+                    const Act& act) {
+  for (size_t k = 0; k < forces.size(); ++k)
+    std::visit(
+        [&]<class F>(const F& force) {
+          if constexpr (HasShapes<F>)
+            act(force, s, std::get<decltype(force.shapes_at(s.x))>(shapes[k]));
+          else
+            act(force, s);
+        },
+        forces[k]);
 }
 
-/// All elastic and external forces [N], 3 x N.
+/// All that a step needs of the forces at one state.
+struct Forces {
+  std::shared_ptr<const PerParticle3> elastic;  // 3 x N [N], external forces included
+  std::shared_ptr<const DampingOperator> damping;
+};
+
+// All forces at a state. Where the run keeps values (Work::kept), those that it computed last are
+// returned again: shapes for the same x, forces for the same x, time and bonds and without custom
+// forces. `work` counts both alike.
+std::shared_ptr<const Shapes> shapes_at(const std::vector<Force>& forces, const PerParticle3& x,
+                                        const Work& work);
+std::shared_ptr<const DampingOperator> damping_at(const std::vector<Force>& forces, const State& s,
+                                                  Work& work);
+Forces forces_at(const std::vector<Force>& forces, const State& s, Work& work);
 PerParticle3 elastic_forces(const std::vector<Force>& forces, const State& s, Work& work);
 
-/// The position-dependent terms of all damping forces at s: computed once, used for every product.
-DampingOperator damping_at(const std::vector<Force>& forces, const State& s, Work& work);
+/// How often a run that keeps values has computed them.
+struct ForceCounts {
+  long shapes = 0, elastic = 0, damping = 0;
+};
+ForceCounts computed_in_run(const std::vector<Force>& forces, const Work& work);
 
 /// The derivative of all elastic forces with respect to the positions at s: computed once, used
 /// for every product.
@@ -84,7 +123,7 @@ enum class StickingPart { all, without_springs };
 
 /// Upper bounds on the row sums of the forces' stiffness matrix at s, for each particle [N/m].
 PerParticle stiffness_row_bounds(const std::vector<Force>& forces, const State& s,
-                                 StickingPart part);
+                                 StickingPart part, const Work& work = {});
 
 /// An upper bound on the largest elastic angular frequency [rad/s] at s, from springs, hinges and
 /// sticking bonds:
@@ -92,12 +131,12 @@ PerParticle stiffness_row_bounds(const std::vector<Force>& forces, const State& 
 /// the maximum row sum, by Gershgorin after scaling with the masses. inverse_mass: N [1/kg], 0 for
 /// prescribed particles.
 double frequency_bound(const std::vector<Force>& forces, const State& s,
-                       const PerParticle& inverse_mass);
+                       const PerParticle& inverse_mass, const Work& work = {});
 
 /// The same without the springs of sticking, which scheme C integrates stably thanks to their
 /// forecast: forces/sticking.h.
 double frequency_without_sticking_springs(const std::vector<Force>& forces, const State& s,
-                                          const PerParticle& inverse_mass);
+                                          const PerParticle& inverse_mass, const Work& work = {});
 
 /// An upper bound on the largest damping rate [1/s], the largest eigenvalue of -M^{-1} D, by
 /// the same row sums.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "reference/fast/team.h"
 #include "reference/forces/energies.h"
 #include "reference/types.h"
 
@@ -11,9 +12,9 @@ struct Gravity {
 
   Vector3 acceleration;  // g [m/s^2]
   PerParticle mass;      // N [kg]
-  int threads = 1;
+  Team team = {};
 
-  void use_threads(int count, Eigen::Index) { threads = count; }
+  void set_team(const Team& of, Eigen::Index) { team = of; }
   void add_elastic(const State& s, PerParticle3& f) const;
   double energy(const State& s) const;  // -sum m_i g.x_i [J], zero at the origin
 };

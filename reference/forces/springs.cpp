@@ -9,68 +9,57 @@ namespace foldproof {
 
 namespace {
 
-double checked_length(const Vector3& d, const Spring& spring) {
+SpringShape shape_of(const Spring& spring, const PerParticle3& x) {
+  const Vector3 d = x.col(spring.b) - x.col(spring.a);
   const double length = d.norm();
   if (!(length > 0)) throw DegenerateElement("a spring has no length", {spring.a, spring.b});
-  return length;
-}
-
-/// Writes the dampers of those springs that damp; returns the place after the last.
-PairDamper* add_dampers(std::span<const Spring> springs, const State& s, PairDamper* to) {
-  for (const Spring& spring : springs) {
-    if (spring.damping == 0) continue;
-    const Vector3 d = s.x.col(spring.b) - s.x.col(spring.a);
-    const double length = checked_length(d, spring);
-    *to++ = {spring.a, spring.b, std::sqrt(spring.damping) / length * d};
-  }
-  return to;
+  return {d, length};
 }
 
 }  // namespace
 
-void StretchSprings::use_threads(int threads, Eigen::Index particles) {
-  std::vector<std::array<int, 4>> ends;
-  for (const Spring& spring : springs) ends.push_back({spring.a, spring.b, spring.a, spring.b});
-  sharing = share_out(threads, particles, ends);
-  const auto damps = [](const Spring& spring) { return spring.damping != 0; };
-  damper_sharing = std::ranges::all_of(springs, damps) ? sharing : Sharing();
+SpringShapes StretchSprings::shapes_at(const PerParticle3& x) const {
+  return springs.map([&](const Spring& spring) { return shape_of(spring, x); });
 }
 
-void StretchSprings::add_elastic(const State& s, PerParticle3& f) const {
-  for_each_run(sharing, springs, [&](std::span<const Spring> part, const auto& own) {
-    for (const Spring& spring : part) {
-      const Vector3 d = s.x.col(spring.b) - s.x.col(spring.a);
-      const double length = checked_length(d, spring);
-      const Vector3 pull = spring.stiffness * (length - spring.rest_length) / length * d;
-      if (own.has(spring.a)) f.col(spring.a) += pull;
-      if (own.has(spring.b)) f.col(spring.b) -= pull;
-    }
+void StretchSprings::add_elastic(const State&, const SpringShapes& shapes, PerParticle3& f) const {
+  springs.push(shapes, f, [](const Spring& spring, const SpringShape& shape, const auto& to) {
+    const double extension = shape.length - spring.rest_length;
+    const Vector3 pull = spring.stiffness * extension / shape.length * shape.d;
+    to.add(spring.a, pull);
+    to.add(spring.b, -pull);
   });
 }
 
-double StretchSprings::energy(const State& s) const {
-  return sum_over(threads_of(sharing), springs, [&](const Spring& spring) {
-    const double extension = (s.x.col(spring.b) - s.x.col(spring.a)).norm() - spring.rest_length;
+double StretchSprings::fastest_strain_rate(const State& s, const SpringShapes& shapes) const {
+  return springs.largest(shapes, [&](const Spring& spring, const SpringShape& shape) {
+    const double rate = shape.d.dot(s.v.col(spring.b) - s.v.col(spring.a)) / shape.length;
+    return std::abs(rate) / spring.rest_length;
+  });
+}
+
+double StretchSprings::energy(const State&, const SpringShapes& shapes) const {
+  return springs.sum(shapes, [](const Spring& spring, const SpringShape& shape) {
+    const double extension = shape.length - spring.rest_length;
     return 0.5 * spring.stiffness * extension * extension;
   });
 }
 
-void StretchSprings::prepare_damping(const State& s, DampingOperator& damping) const {
-  PairDamper* to = damping.add_pairs(springs.size(), damper_sharing);
-  if (!damper_sharing)
-    damping.pairs.resize(size_t(add_dampers(springs, s, to) - damping.pairs.data()));
-  else
-    for_each_range(threads_of(sharing), springs, [&](std::span<const Spring> part, size_t first) {
-      add_dampers(part, s, to + first);
-    });
+void StretchSprings::prepare_damping(const State&, const SpringShapes& shapes,
+                                     DampingOperator& damping) const {
+  const auto damps = [](const Spring& spring) { return spring.damping != 0; };
+  if (std::ranges::none_of(springs, damps)) return;
+  damping.pairs.append(
+      springs.map(shapes, [](const Spring& spring, const SpringShape& shape) -> PairDamper {
+        return {spring.a, spring.b, std::sqrt(spring.damping) / shape.length * shape.d};
+      }));
 }
 
 void StretchSprings::add_elastic_differential(const State& s, Definiteness definiteness,
                                               ForceDifferential& differential) const {
   differential.pairs.reserve(differential.pairs.size() + springs.size());
   for (const Spring& spring : springs) {
-    const Vector3 d = s.x.col(spring.b) - s.x.col(spring.a);
-    const double length = checked_length(d, spring);
+    const auto [d, length] = shape_of(spring, s.x);
     const Vector3 along = d / length;
     // tension over length
     double across = spring.stiffness * (length - spring.rest_length) / length;
@@ -88,30 +77,14 @@ void StretchSprings::add_force_differential(const State& s, ForceDifferential& d
   for (size_t k = 0; k < springs.size(); ++k) {
     const Spring& spring = springs[k];
     if (spring.damping == 0) continue;
-    const Vector3 d = s.x.col(spring.b) - s.x.col(spring.a),
-                  dv = s.v.col(spring.b) - s.v.col(spring.a);
-    const double length = checked_length(d, spring);
-    const Vector3 n = d / length;
+    const auto [d, length] = shape_of(spring, s.x);
+    const Vector3 n = d / length, dv = s.v.col(spring.b) - s.v.col(spring.a);
     // dn = turn dd
     const Eigen::Matrix3d turn = (Eigen::Matrix3d::Identity() - n * n.transpose()) / length;
     differential.pairs[first + k].block -=
         spring.damping * (n * (dv.transpose() * turn) + n.dot(dv) * turn);
     differential.symmetric = false;
   }
-}
-
-void StretchSprings::add_stiffness_bound(const State& s, PerParticle& rows) const {
-  // One spring's stiffness matrix is k along d and tension/|d| across it; a row of it sums to at
-  // most twice the larger.
-  for_each_run(sharing, springs, [&](std::span<const Spring> part, const auto& own) {
-    for (const Spring& spring : part) {
-      const double length = checked_length(s.x.col(spring.b) - s.x.col(spring.a), spring);
-      const double across = spring.stiffness * std::abs(length - spring.rest_length) / length;
-      const double row = 2 * std::max(spring.stiffness, across);
-      if (own.has(spring.a)) rows[spring.a] += row;
-      if (own.has(spring.b)) rows[spring.b] += row;
-    }
-  });
 }
 
 StretchSprings make_springs(const TriangleMesh& mesh, const StretchMaterial& material) {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "reference/fast/loops.h"
+#include "reference/fast/elements.h"
 #include "reference/forces/damping.h"
 #include "reference/forces/energies.h"
 #include "reference/forces/force_differential.h"
@@ -26,6 +26,16 @@ struct Spring {
   double damping;      // kd_s A_e/L0^2 [N s/m]
 };
 
+/// One spring at its current positions.
+struct SpringShape {
+  Vector3 d;      // x_b - x_a [m]
+  double length;  // |d| [m]
+};
+
+/// The shapes of all springs at one x: computed once, read by elastic forces, damping, step
+/// bound and energy.
+using SpringShapes = Elements<SpringShape>;
+
 struct StretchMaterial {
   double stiffness = 0;          // Y, 2D Young's modulus [N/m]
   double damping = 0;            // kd_s [N s/m]
@@ -34,20 +44,25 @@ struct StretchMaterial {
 
 struct StretchSprings {
   static constexpr auto energy_term = &Energies::stretch;
-  std::vector<Spring> springs;
-  // of the springs among threads, and the same of their dampers if each spring has one
-  Sharing sharing = {}, damper_sharing = {};
+  Elements<Spring> springs;
 
-  /// Shares out the springs, whose number must then stay.
-  void use_threads(int threads, Eigen::Index particles);
+  /// Its loops run on the team; the number of springs must then stay.
+  void set_team(const Team& team, Eigen::Index particles) { springs.divide(team, particles); }
 
-  /// Throws DegenerateElement when the ends of a spring coincide: its direction is then undefined.
-  void add_elastic(const State& s, PerParticle3& f) const;
+  /// At x (3 x N [m]). Throws DegenerateElement when the ends of a spring coincide: its direction
+  /// is then undefined.
+  SpringShapes shapes_at(const PerParticle3& x) const;
+
+  // the shapes are those at s.x
+  void add_elastic(const State& s, const SpringShapes& shapes, PerParticle3& f) const;
+
+  /// The largest rate at which a spring changes its length, over its rest length [1/s].
+  double fastest_strain_rate(const State& s, const SpringShapes& shapes) const;
 
   /// sum of stiffness/2 (|d| - L0)^2 [J].
-  double energy(const State& s) const;
+  double energy(const State& s, const SpringShapes& shapes) const;
 
-  void prepare_damping(const State& s, DampingOperator& damping) const;
+  void prepare_damping(const State& s, const SpringShapes& shapes, DampingOperator& damping) const;
 
   /// A spring's block is k along d and tension/|d| across it; semidefinite drops the second
   /// where tension < 0.
@@ -61,7 +76,7 @@ struct StretchSprings {
 
   /// Adds to rows (N [N/m]) each particle's share of a bound on the elastic stiffness; see
   /// forces/force.h.
-  void add_stiffness_bound(const State& s, PerParticle& rows) const;
+  void add_stiffness_bound(const State& s, const SpringShapes& shapes, PerParticle& rows) const;
 };
 
 /// One spring per edge. Throws InputError unless stiffness >= 0, damping >= 0 and scale > 0.

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "reference/fast/team.h"
 #include "reference/level_set/octree.h"
 #include "reference/mesh/triangle_mesh.h"
 #include "reference/types.h"
@@ -68,9 +69,9 @@ struct DeformingBody {
 /// the previous frame where they are still close enough: there |phi| may be too large by half of a
 /// cell's allowed error, beyond (|phi| - band)/2, and the displacement is that of the reused point.
 /// Throws what make_octree throws, and InputError for a sequence without frames, with times that do
-/// not rise or numbers of vertices that differ. The same bits for every number of threads.
+/// not rise or numbers of vertices that differ. The same bits for every team.
 DeformingBody make_deforming_body(const MeshSequence& sequence, const OctreeSettings& settings,
-                                  BetweenFrames between, int threads = 1);
+                                  BetweenFrames between, const Team& team = {});
 
 /// phi and N at the point p and time t, and the velocity [m/s] of the body there.
 struct DeformingPoint {

@@ -121,34 +121,32 @@ class NodeValues {
 /// Displacements of the points of all nodes from the frame `from` to the frame `to`.
 std::vector<BranchNodes<Vector3>> node_displacements(const Octree& tree, NodeValues& values,
                                                      const MeshSequence& sequence, std::size_t from,
-                                                     std::size_t to, int threads) {
+                                                     std::size_t to, const Team& team) {
   const PerParticle3 moved = sequence.positions[to] - sequence.positions[from];
   const std::vector<OctreePlace> places = branch_places(tree);
   std::vector<BranchNodes<Vector3>> all(places.size());
-  for_each_range(threads, places, [&](std::span<const OctreePlace> part, std::size_t first) {
-    for (std::size_t b = 0; b < part.size(); ++b) {
-      BranchNodes<Vector3>& nodes = all[first + b];
-      for (int n = 0; n < 27; ++n) {
-        const NodeValue& node = values.at(node_position(tree.settings, part[b], n));
-        nodes[n] = at_point_of(sequence.triangles[node.triangle], node.weight, moved);
-      }
-      if (tree.settings.hanging == HangingNodes::constrained)
-        constrain(hanging_nodes(tree, part[b]), nodes);
+  for_each_item(team, places, [&](const OctreePlace& place, std::size_t b) {
+    BranchNodes<Vector3>& nodes = all[b];
+    for (int n = 0; n < 27; ++n) {
+      const NodeValue& node = values.at(node_position(tree.settings, place, n));
+      nodes[n] = at_point_of(sequence.triangles[node.triangle], node.weight, moved);
     }
+    if (tree.settings.hanging == HangingNodes::constrained)
+      constrain(hanging_nodes(tree, place), nodes);
   });
   return all;
 }
 
 DeformingFrame make_frame(const MeshSequence& sequence, std::size_t k, NodeValues& values,
-                          const OctreeSettings& settings, int threads) {
+                          const OctreeSettings& settings, const Team& team) {
   const DistanceFunction distance = [&](const Vector3& p) {
     return Distance{values.at(p).phi, Vector3::Zero()};  // the octree takes no directions
   };
-  DeformingFrame frame{sequence.times[k], make_octree({distance}, settings, threads), {}, {}, 0, 0};
+  DeformingFrame frame{sequence.times[k], make_octree({distance}, settings, team), {}, {}, 0, 0};
   if (k + 1 < sequence.times.size())
-    frame.to_next = node_displacements(frame.field, values, sequence, k, k + 1, threads);
+    frame.to_next = node_displacements(frame.field, values, sequence, k, k + 1, team);
   if (k > 0)
-    frame.from_previous = node_displacements(frame.field, values, sequence, k - 1, k, threads);
+    frame.from_previous = node_displacements(frame.field, values, sequence, k - 1, k, team);
   frame.nodes = values.nodes();
   frame.searches = values.searches();
   return frame;
@@ -220,7 +218,7 @@ MeshSequence read_obj_sequence(const std::string& folder, double interval, long 
 }
 
 DeformingBody make_deforming_body(const MeshSequence& sequence, const OctreeSettings& settings,
-                                  BetweenFrames between, int threads) {
+                                  BetweenFrames between, const Team& team) {
   require_usable(sequence);
   DeformingBody body{{}, between};
   std::unique_ptr<NodeValues> before;
@@ -229,7 +227,7 @@ DeformingBody make_deforming_body(const MeshSequence& sequence, const OctreeSett
     if (before)
       values->follow(*before,
                      largest_displacement(sequence.positions[k - 1], sequence.positions[k]));
-    body.frames.push_back(make_frame(sequence, k, *values, settings, threads));
+    body.frames.push_back(make_frame(sequence, k, *values, settings, team));
     before = std::move(values);
   }
   return body;

@@ -5,10 +5,10 @@
 namespace foldproof {
 
 std::shared_ptr<const Grid> make_grid(const MeshDistance& mesh, const GridMethod& method,
-                                      int threads) {
+                                      const Team& team) {
   const Lattice lattice = lattice_about(mesh.tree.nodes[0].bounds, method.cells, method.margin);
   return std::make_shared<const Grid>(
-      march(lattice, narrow_band(mesh, lattice, method.band, threads), method.order));
+      march(lattice, narrow_band(mesh, lattice, method.band, team), method.order));
 }
 
 }  // namespace foldproof

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "reference/fast/team.h"
 #include "reference/level_set/fast_marching.h"
 #include "reference/level_set/mesh_distance.h"
 
@@ -17,8 +18,8 @@ struct GridMethod {
 };
 
 /// Exact signed distance in the band, fast marching beyond it. The mesh must be closed, see
-/// MeshDistance. The same bits for every number of threads.
+/// MeshDistance. The same bits for every team.
 std::shared_ptr<const Grid> make_grid(const MeshDistance& mesh, const GridMethod& method,
-                                      int threads = 1);
+                                      const Team& team = {});
 
 }  // namespace foldproof

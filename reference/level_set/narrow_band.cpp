@@ -48,13 +48,13 @@ void add_block(const MeshDistance& mesh, const Lattice& lattice, const Node& fir
 }
 
 /// The first nodes of all blocks that may hold a node of the band, in order. They are found first
-/// because most blocks hold none: the others can then be shared out evenly.
+/// because most blocks hold none: the others are then divided evenly.
 std::vector<Node> near_blocks(const MeshDistance& mesh, const Lattice& lattice, double width,
-                              int threads) {
+                              const Team& team) {
   Node count;  // of blocks along each axis
   for (int axis = 0; axis < 3; ++axis) count[axis] = (lattice.nodes[axis] + block - 1) / block;
   return found_in_order<Node>(
-      threads, Eigen::Index(count[0]) * count[1] * count[2],
+      team, Eigen::Index(count[0]) * count[1] * count[2],
       [&](Eigen::Index begin, Eigen::Index blocks, std::vector<Node>& found) {
         for (Eigen::Index b = begin; b < begin + blocks; ++b) {
           const Node first = {block * int(b % count[0]), block * int(b / count[0] % count[1]),
@@ -66,19 +66,20 @@ std::vector<Node> near_blocks(const MeshDistance& mesh, const Lattice& lattice, 
 
 }  // namespace
 
-Seeds narrow_band(const MeshDistance& mesh, const Lattice& lattice, double cells, int threads) {
+Seeds narrow_band(const MeshDistance& mesh, const Lattice& lattice, double cells,
+                  const Team& team) {
   if (!(cells >= 1))
     throw InputError("narrow_band: " + std::to_string(cells) + " cells; give at least 1");
   // a little more than asked for, so that neighbours of a node on the surface are in a
   // band of one cell
   const double width = (1 + 1e-12) * cells * lattice.spacing;
-  const std::vector<Node> blocks = near_blocks(mesh, lattice, width, threads);
+  const std::vector<Node> blocks = near_blocks(mesh, lattice, width, team);
   const auto add_blocks = [&](Eigen::Index first, Eigen::Index count, std::vector<Seed>& found) {
     for (Eigen::Index b = first; b < first + count; ++b)
       add_block(mesh, lattice, blocks[size_t(b)], width, found);
   };
   Seeds seeds;
-  for (const Seed& seed : found_in_order<Seed>(threads, Eigen::Index(blocks.size()), add_blocks)) {
+  for (const Seed& seed : found_in_order<Seed>(team, Eigen::Index(blocks.size()), add_blocks)) {
     seeds.nodes.push_back(seed.node);
     seeds.phi.push_back(seed.phi);
   }

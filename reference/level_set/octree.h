@@ -10,6 +10,7 @@
 #include <memory>
 #include <vector>
 
+#include "reference/fast/team.h"
 #include "reference/level_set/signed_distance.h"
 #include "reference/types.h"
 
@@ -77,10 +78,10 @@ struct Octree {
 /// the cells there are the finest; beyond the band, `beyond` times the distance is added. A
 /// constrained node adds the error of its coarse neighbour. Neighbours, also across edges and
 /// corners, differ by one level at most. Throws InputError: no bodies, a setting out of range, a
-/// body that reaches the cube's boundary. The bodies are asked from that many threads at once; the
-/// bits are those of one.
+/// body that reaches the cube's boundary. The bodies are asked from several threads at once if the
+/// team has them, for the same bits.
 Octree make_octree(const std::vector<DistanceFunction>& bodies, const OctreeSettings& settings,
-                   int threads = 1);
+                   const Team& team = {});
 
 /// Prepares a complete tree for queries: tabulates the levels down to start_level, because a
 /// descent waits for memory at each level.

@@ -79,10 +79,10 @@ void require_free_boundary(const Octree& tree, int branch, const OctreePlace& pl
 }  // namespace
 
 Octree make_octree(const std::vector<DistanceFunction>& bodies, const OctreeSettings& settings,
-                   int threads) {
+                   const Team& team) {
   require(!bodies.empty() && bodies.size() < 256, "there must be 1 to 255 bodies");
   require_usable(settings);
-  OctreeGrowth growth = grow_octree(bodies, settings, threads);
+  OctreeGrowth growth = grow_octree(bodies, settings, team);
   balance(growth);
   Octree tree = laid_out(growth);
   const std::vector<OctreePlace> places = branch_places(tree);

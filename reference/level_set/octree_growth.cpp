@@ -11,7 +11,7 @@ namespace {
 
 constexpr int centre = 13;                      // of the nodes of a branch
 constexpr std::size_t most_branches = 1 << 24;  // about 5 GB while they grow
-constexpr std::size_t batch = 256;              // branches per thread in one batch
+constexpr std::size_t batch = 1024;             // branches whose children are found at once
 
 double cell_width(const OctreeSettings& settings, int level) {
   return std::ldexp(settings.width, -level);
@@ -149,12 +149,11 @@ void add_children(OctreeGrowth& growth, std::size_t b, const SplitChildren& spli
       growth.branches[b].child[c] = add_branch(growth, child_place(branch.place, c), split[c]);
 }
 
-/// Splits the children of `count` branches. Several threads find them; they are added in order.
-void split_children(OctreeGrowth& growth, std::size_t first, std::size_t count, int threads) {
+/// Splits the children of `count` branches. They are found at once and added in order.
+void split_children(OctreeGrowth& growth, std::size_t first, std::size_t count, const Team& team) {
   std::vector<SplitChildren> split(count);
-  for_each_range(threads, Eigen::Index(count), [&](Eigen::Index begin, Eigen::Index share) {
-    for (Eigen::Index k = begin; k < begin + share; ++k)
-      split[size_t(k)] = split_children(growth, growth.branches[first + size_t(k)]);
+  for_each_index(team, Eigen::Index(count), [&](Eigen::Index k) {
+    split[size_t(k)] = split_children(growth, growth.branches[first + size_t(k)]);
   });
   for (std::size_t k = 0; k < count; ++k) add_children(growth, first + k, split[k]);
 }
@@ -214,16 +213,15 @@ bool needs_channel(const std::vector<BranchNodes<double>>& phi, std::size_t part
 }
 
 OctreeGrowth grow_octree(const std::vector<DistanceFunction>& bodies,
-                         const OctreeSettings& settings, int threads) {
+                         const OctreeSettings& settings, const Team& team) {
   OctreeGrowth growth{bodies, settings, {}, {}, {}, 0};
   std::vector<int> all(bodies.size());
   for (std::size_t k = 0; k < all.size(); ++k) all[k] = int(k);
   const OctreePlace cube{0, {0, 0, 0}};
   add_branch(growth, cube, near_parts(take_samples(growth, all, cube), settings, 0));
   for (std::size_t first = 0; first < growth.branches.size();) {
-    const std::size_t count =
-        std::min(batch * std::size_t(std::max(1, threads)), growth.branches.size() - first);
-    split_children(growth, first, count, threads);
+    const std::size_t count = std::min(batch, growth.branches.size() - first);
+    split_children(growth, first, count, team);
     first += count;
   }
   return growth;

@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "reference/fast/team.h"
 #include "reference/level_set/octree.h"
 #include "reference/level_set/octree_nodes.h"
 
@@ -25,10 +26,10 @@ struct OctreeGrowth {
   long evaluations = 0;
 };
 
-/// Splits cells, from the whole cube down, until the settings are met; asks the bodies from that
-/// many threads at once.
+/// Splits cells, from the whole cube down, until the settings are met; asks the bodies from all
+/// threads of the team at once.
 OctreeGrowth grow_octree(const std::vector<DistanceFunction>& bodies,
-                         const OctreeSettings& settings, int threads);
+                         const OctreeSettings& settings, const Team& team);
 
 /// Splits leaves that touch, be it at a corner, cells more than one level finer.
 void balance(OctreeGrowth& growth);

@@ -113,7 +113,7 @@ BuiltCase built_with_notice(Case input_case, const Options& options) {
   const InterruptionNotice notice("no step is made yet", typed_again(options.words));
   BuiltCase of =
       built_case(std::move(input_case), provider_for(options.cache, threads_of(options.running)));
-  use_threads(of.built.system, threads_of_run(of.input_case.scene, options));
+  set_team(of.built.system, threads_of_run(of.input_case.scene, options));
   return of;
 }
 

@@ -25,10 +25,19 @@ Eigen::MatrixXd dense_damping(const DampingOperator& damping, Eigen::Index parti
 
 }  // namespace
 
+System system_of(const PerParticle& mass, const PerParticle& inverse_mass,
+                 const SolverSettings& settings) {
+  System system;
+  system.mass = mass;
+  system.inverse_mass = inverse_mass;
+  system.solver = settings;
+  return system;
+}
+
 Problem make_problem(const Scene& scene, unsigned seed) {
   Problem problem{build_system(scene), start_state(scene), {}, {}};
   Work work;
-  problem.damping = damping_at(problem.system.forces, problem.s, work);
+  problem.damping = *damping_at(problem.system.forces, problem.s, work);
   problem.guess = Random(seed).vectors(problem.s.x.cols(), 0.9);
   return problem;
 }

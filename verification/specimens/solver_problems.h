@@ -19,6 +19,10 @@ struct Problem {
 
 Problem make_problem(const Scene& scene, unsigned seed);
 
+/// The masses of a system, to be solved with these settings.
+System system_of(const PerParticle& mass, const PerParticle& inverse_mass,
+                 const SolverSettings& settings);
+
 /// (M - s D) and M w0 of a problem, with the rows and columns of known velocities kept apart.
 struct DenseProblem {
   Eigen::MatrixXd A;               // of the free coordinates [kg]

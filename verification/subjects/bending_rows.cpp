@@ -89,9 +89,10 @@ std::string evaluate_row(const Row& row, const PerParticle3& rest, Weighting wei
   try {
     const Bending bending = make_bending(mesh, material, {row.values[26]});
     PerParticle3 elastic = PerParticle3::Zero(3, 4), damping = PerParticle3::Zero(3, 4);
-    bending.add_elastic(s, elastic);
+    const HingeShapes shapes = bending.shapes_at(s.x);
+    bending.add_elastic(s, shapes, elastic);
     DampingOperator terms;
-    bending.prepare_damping(s, terms);
+    bending.prepare_damping(s, shapes, terms);
     terms.add_product(s.v, damping);
     return row_text(elastic, damping);
   } catch (const DegenerateElement& error) {

@@ -63,7 +63,7 @@ Subject reference_subject() {
   subject.damping_forces = [](PreparedScene& prepared, const State& s, const PerParticle3& v) {
     Work uncounted;
     PerParticle3 force = PerParticle3::Zero(3, s.x.cols());
-    damping_at(own(prepared).system.forces, s, uncounted).add_product(v, force);
+    damping_at(own(prepared).system.forces, s, uncounted)->add_product(v, force);
     return force;
   };
   subject.potential_energy = [](PreparedScene& prepared, const State& s) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "reference/fast/kept_values.h"
 #include "reference/dynamics/integrator.h"
 #include "reference/filters/filter.h"
 #include "scripts/program/bench/bench_load.h"
@@ -56,8 +57,9 @@ double seconds_of_layers(const Scene& scene) {
   const Integrator& scheme = integrator_named("C");
   State start = start_state(scene);
   const double h = 0.5 * elastic_limit(system, start);
-  begin_step(system, start);
   Work work;
+  work.kept = std::make_shared<KeptValues>();
+  begin_step(system, start, work);
   return least_processor_seconds([&] { scheme.step(system, {&start, 1}, h, work); });
 }
 

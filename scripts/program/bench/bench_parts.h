@@ -40,6 +40,11 @@ Record contact_rate(const Scene& scene, double step, double step_seconds);
 /// bench_strain.cpp: a sweep of strain limits over the scene's springs, likewise.
 Record strain_rate(const Scene& scene, double step, double step_seconds);
 
+/// bench_simulate.cpp: a step of a run of the scene as `simulate` makes it, automatic, with files
+/// [s].
+///   step   about as long as the automatic one [s]
+double seconds_per_simulated_step(const Scene& scene, double step);
+
 /// Eight sheets of columns + 1 by columns + 1 particles in contact (bench_self.cpp).
 Scene stacked_sheets(int columns);
 

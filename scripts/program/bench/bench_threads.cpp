@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "reference/fast/kept_values.h"
 #include "reference/dynamics/integrator.h"
 #include "scripts/program/bench/bench_load.h"
 #include "scripts/program/bench/bench_parts.h"
@@ -48,11 +49,12 @@ void measure_steps(const System& system, const State& start, double h, ThreadSca
   measure_on_threads(
       [&](int threads) -> std::function<void()> {
         const auto shared = std::make_shared<System>(system);
-        use_threads(*shared, threads);
-        return [&, shared] {
-          Work work;
-          scheme.step(*shared, {&start, 1}, h, work);
-        };
+        set_team(*shared, threads);
+        Work work;
+        work.kept = std::make_shared<KeptValues>();
+        State begun = start;
+        begin_step(*shared, begun, work);
+        return [&, shared, begun, work]() mutable { scheme.step(*shared, {&begun, 1}, h, work); };
       },
       scaling);
 }
@@ -108,8 +110,7 @@ std::vector<ThreadScaling> thread_scalings() {
       .on_two = "self-collision-step-on-two-threads",
       .target_on_two = {0.07, "s", "lower",
                         "half of what one thread is to take, and a tenth for impulses in order"}};
-  State start = start_state(layers);
-  begin_step(system, start);
+  const State start = start_state(layers);
   measure_steps(system, start, 0.5 * elastic_limit(system, start), stack);
   return {sheet, stack};
 }
@@ -154,10 +155,10 @@ double computed_twice(int threads) {
   const TriangleMesh mesh = make_load(315).scene.mesh;
   std::vector<std::array<int, 4>> corners;
   for (const Hinge& hinge : mesh.hinges) corners.push_back(hinge.particles);
-  const Sharing sharing = share_out(threads, mesh.particles(), corners);
+  const Division division = divide(threads, mesh.particles(), corners);
   double visits = 0;
-  for (const Share& share : sharing->shares)
-    for (const ElementRun& run : share.runs) visits += double(run.end - run.first);
+  for (const OwnedParticles& owned : division->owners)
+    for (const ElementRun& run : owned.runs) visits += double(run.end - run.first);
   return visits / double(corners.size()) - 1;
 }
 

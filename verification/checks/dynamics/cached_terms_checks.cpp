@@ -74,10 +74,10 @@ Finding time_finding(const Subject&) {
     const State s = start_state(scene);
     Work work;
     PerParticle3 f = PerParticle3::Zero(3, s.x.cols());
-    const DampingOperator damping = damping_at(system.forces, s, work);
+    const DampingOperator damping = *damping_at(system.forces, s, work);
     const TimedRatio ratio =
         timed_ratio([&] { damping.add_product(s.v, f); },
-                    [&] { damping_at(system.forces, s, work).add_product(s.v, f); });
+                    [&] { damping_at(system.forces, s, work)->add_product(s.v, f); });
     times.row(s.x.cols(), ratio.seconds[0], ratio.seconds[1], ratio.least, ratio.most);
     least.observe(ratio.least);
     most.observe(ratio.most);
@@ -113,10 +113,10 @@ Finding memory_finding(const Subject&) {
     const Scene scene = waved_sheet(cells);
     const System system = build_system(scene);
     Work work;
-    const DampingOperator damping = damping_at(system.forces, start_state(scene), work);
+    const DampingOperator damping = *damping_at(system.forces, start_state(scene), work);
     const double particles = double(scene.x.cols());
-    const double cache = double(damping.pairs.capacity() * sizeof(PairDamper) +
-                                damping.hinges.capacity() * sizeof(HingeDamper)) /
+    const double cache = double(damping.pairs.size() * sizeof(PairDamper) +
+                                damping.hinges.size() * sizeof(HingeDamper)) /
                          particles;
     const double matrix = blocks_of(scene.mesh) * block_bytes / particles;
     sizes.row(particles, cache, matrix);

@@ -19,6 +19,7 @@ std::vector<Check> symmetry_checks();      // units, frames of reference, repeti
 std::vector<Check> run_checks();           // frames, automatic steps, stops
 std::vector<Check> resume_checks();        // runs that go on from a checkpoint
 std::vector<Check> thread_checks();        // runs on several threads
+std::vector<Check> reuse_checks();         // what a run keeps for its next steps
 std::vector<Check> event_checks();         // motions that start and stop
 std::vector<Check> method_checks();        // the methods for comparison with the paper's schemes
 std::vector<Check> other_method_checks();  // methods of other papers, as models

@@ -62,7 +62,7 @@ TurningPair turning_pair() {
   turning.length = oracles::steady_rotation_length(pair, turning.omega).value;
   turning.system = make_system(Eigen::Vector2d(pair.mass_a, pair.mass_b));
   const double stiffness = pair.young * pair.area / (pair.rest_length * pair.rest_length);
-  const std::vector<Spring> springs = {{0, 1, pair.rest_length, stiffness, 0}};
+  const Elements<Spring> springs = {{0, 1, pair.rest_length, stiffness, 0}};
   turning.system.forces.push_back(StretchSprings{springs});
 
   const Vector3 direction = Vector3(0.3, -0.7, 0.5).normalized();
@@ -132,7 +132,7 @@ struct DrivenSpring {
 
   System system() const {
     System system = make_system(Eigen::Vector2d(mass, mass));
-    const std::vector<Spring> springs = {{0, 1, rest_length, stiffness, 0}};
+    const Elements<Spring> springs = {{0, 1, rest_length, stiffness, 0}};
     system.forces.push_back(StretchSprings{springs});
     Motion motion;
     motion.amplitude = Vector3(amplitude, 0, 0);

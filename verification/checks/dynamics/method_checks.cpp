@@ -251,8 +251,8 @@ double rate_over_bound(const Subject& subject, const Specimen& specimen) {
   const Eigen::VectorXd rates =
       oracles::symmetric_eigenvalues(roots.asDiagonal() * D * roots.asDiagonal());
   Work uncounted;
-  const double bound =
-      damping_rate_bound(damping_at(system.forces, specimen.state, uncounted), system.inverse_mass);
+  const double bound = damping_rate_bound(*damping_at(system.forces, specimen.state, uncounted),
+                                          system.inverse_mass);
   return -rates.minCoeff() / bound;
 }
 
@@ -296,7 +296,7 @@ Finding explicit_steps_respect_damping(const Subject&) {
   const State s = start_state(scene);
   Work uncounted;
   const double rate =
-      damping_rate_bound(damping_at(system.forces, s, uncounted), system.inverse_mass);
+      damping_rate_bound(*damping_at(system.forces, s, uncounted), system.inverse_mass);
   const StepRule rule{0, 0.7, 1e9};
   Table measured{{"case", ""}, {"step over 0.7 of the limit, less 1", "1"}};
   for (const Integrator& integrator : integrators()) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reference/dynamics/conjugate_gradient.h"
 #include "reference/dynamics/system.h"
 #include "verification/checks/dynamics/dynamics_checks.h"
 #include "verification/evidence.h"
@@ -133,9 +134,9 @@ std::pair<double, double> truncate(const Truncation& how, double h, unsigned see
   s.x.colwise() += Vector3(0.31, -0.17, 0.23);
   PerParticle3 v = random.vectors(s.x.cols(), 0.7);
   Work work;
-  const DampingOperator damping = damping_at(system.forces, s, work);
+  const DampingOperator damping = *damping_at(system.forces, s, work);
   const Momenta before = momenta(system.mass, s.x, v);
-  solve_velocity(damping, h / 2, system.mass, system.inverse_mass, system.solver, v, work);
+  solve_velocity(system, damping, h / 2, v, work);
   const Momenta after = momenta(system.mass, s.x, v);
   return {drift(after, before, Momentum::linear, before.linear_size),
           drift(after, before, Momentum::angular, before.angular_size)};

@@ -1,4 +1,5 @@
 // The conjugate gradients of the reference against dense linear algebra, and what they promise.
+#include "reference/dynamics/conjugate_gradient.h"
 #include "reference/dynamics/system.h"
 #include "reference/mesh/shapes.h"
 #include "verification/checks/dynamics/dynamics_checks.h"
@@ -40,9 +41,9 @@ Table residual_table() {
       for (double tolerance : {1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12}) {
         PerParticle3 w = problem.guess;
         Work work;
-        const SolveResult solve =
-            solve_velocity(problem.damping, s, problem.system.mass, problem.system.inverse_mass,
-                           {tolerance, 1000, scale}, w, work);
+        const SolveResult solve = solve_velocity(
+            system_of(problem.system.mass, problem.system.inverse_mass, {tolerance, 1000, scale}),
+            problem.damping, s, w, work);
         const Eigen::VectorXd r = dense.b - dense.A * Eigen::VectorXd(w.reshaped()(dense.free));
         const Eigen::VectorXd momentum =
             dense.mass.cwiseProduct(Eigen::VectorXd(w.reshaped()(dense.free)));
@@ -93,8 +94,9 @@ Finding cholesky_finding(const Subject&) {
       const DenseProblem dense = make_dense(problem, s);
       PerParticle3 w = problem.guess;
       Work work;
-      solve_velocity(problem.damping, s, problem.system.mass, problem.system.inverse_mass,
-                     {tolerance, 1000, ResidualScale::momentum}, w, work);
+      solve_velocity(system_of(problem.system.mass, problem.system.inverse_mass,
+                               {tolerance, 1000, ResidualScale::momentum}),
+                     problem.damping, s, w, work);
       const Eigen::VectorXd exact = oracles::solve_symmetric(dense.A, dense.b);
       const Eigen::VectorXd error =
           dense.mass.cwiseProduct(Eigen::VectorXd(w.reshaped()(dense.free)) - exact);
@@ -129,9 +131,10 @@ SolveResult solve_with_rates(int k, unsigned seed) {
   PerParticle3 v = random.vectors(particles, 0.8);
   Work work;
   const State s{0, PerParticle3::Zero(3, particles), v};
-  const DampingOperator damping = damping_at(system.forces, s, work);
-  return solve_velocity(damping, 0.19, system.mass, system.inverse_mass,
-                        {1e-12, 100, ResidualScale::momentum}, v, work);
+  const DampingOperator damping = *damping_at(system.forces, s, work);
+  return solve_velocity(
+      system_of(system.mass, system.inverse_mass, {1e-12, 100, ResidualScale::momentum}), damping,
+      0.19, v, work);
 }
 
 Finding eigenvalue_finding(const Subject&) {
@@ -154,8 +157,8 @@ Finding eigenvalue_finding(const Subject&) {
 Finding cap_finding(const Subject&) {
   const Problem problem = make_problem(free_sheet(), 3);
   const auto solve = [&](const SolverSettings& settings, PerParticle3 w, Work& work) {
-    return solve_velocity(problem.damping, 0.047, problem.system.mass, problem.system.inverse_mass,
-                          settings, w, work);
+    return solve_velocity(system_of(problem.system.mass, problem.system.inverse_mass, settings),
+                          problem.damping, 0.047, w, work);
   };
   PerParticle3 spoiled = problem.guess;
   spoiled(1, 6) = std::numeric_limits<double>::quiet_NaN();
@@ -220,8 +223,9 @@ Finding rigid_finding(const Subject&) {
   const PerParticle3 before = v;
   Work work;
   const SolveResult solve =
-      solve_velocity(problem.damping, 0.047, problem.system.mass, problem.system.inverse_mass,
-                     {1e-12, 100, ResidualScale::momentum}, v, work);
+      solve_velocity(system_of(problem.system.mass, problem.system.inverse_mass,
+                               {1e-12, 100, ResidualScale::momentum}),
+                     problem.damping, 0.047, v, work);
   Worst worst;
   worst.observe(solve.iterations);
   worst.observe(double((v.array() != before.array()).count()));
@@ -259,8 +263,9 @@ Finding large_finding(const Subject&) {
     PerParticle3 w = problem.guess;
     Work work;
     const SolverSettings settings{tolerance, 200, ResidualScale::momentum};
-    const SolveResult solve = solve_velocity(problem.damping, 3.1e-3, problem.system.mass,
-                                             problem.system.inverse_mass, settings, w, work);
+    const SolveResult solve =
+        solve_velocity(system_of(problem.system.mass, problem.system.inverse_mass, settings),
+                       problem.damping, 3.1e-3, w, work);
     measured.row(std::to_string(w.cols()) + " particles",
                  residual_left(problem, 3.1e-3, w) / tolerance);
     measured.row(std::to_string(w.cols()) + " particles, as returned",

@@ -18,7 +18,7 @@ namespace {
 /// All numbers of the run; none if it is not what it is meant to be.
 Numbers numbers_on(int threads, const NamedRun& of) {
   System system = build_system(of.scene);
-  use_threads(system, threads);
+  set_team(system, threads);
   Followed run;
   run.result = simulate(system, integrator_named(of.integrator), start_state(of.scene),
                         of.scene.schedule, follower(run));

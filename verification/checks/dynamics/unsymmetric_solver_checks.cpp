@@ -59,7 +59,7 @@ NewtonProblem make_newton_problem(Scene scene, double s, unsigned seed) {
   System system = build_system(scene);
   const State state = start_state(scene);
   Work uncounted;
-  const DampingOperator damping = damping_at(system.forces, state, uncounted);
+  const DampingOperator damping = *damping_at(system.forces, state, uncounted);
   const ForceDifferential derivative = force_differential_at(system.forces, state, uncounted);
   NewtonProblem problem{std::move(system), damping, derivative, s, {}, {}, {}, {}, {}};
   problem.r = Random(seed).vectors(state.x.cols(), 0.013);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <thread>
 
+#include "reference/fast/kept_values.h"
 #include "reference/filters/cloth_pairs.h"
 #include "reference/filters/impact_zones.h"
 #include "reference/forces/degenerate.h"
@@ -242,13 +243,13 @@ double differences(const std::vector<FeaturePair>& a, const std::vector<FeatureP
   return count;
 }
 
-/// Pairs cached with 3 mm to spare, after random motions within and beyond them; with some
+/// Pairs searched with 3 mm to spare, after random motions within and beyond them; with some
 /// particles marked, too.
 void see_choices(Table& measured) {
   const double margin = 0.004, spare = 0.003;
   const Scene scene = layered_scene({4, 0.003, 0.001, 0, {0.004, 0, 0, 8, true}, 17});
   const ClothTree cloth = make_cloth_tree(scene.mesh);
-  const PairCache cache = make_pair_cache(cloth, scene.x, margin + spare);
+  const PairsAhead ahead = pairs_ahead(cloth, scene.x, margin + spare);
   Random random(17);
   for (const double share : {0.0, 0.4, 0.97, 1.3}) {
     const PerParticle3 x = scene.x + random.vectors(scene.x.cols(), share * spare / 2);
@@ -256,7 +257,7 @@ void see_choices(Table& measured) {
     std::vector<char> marked(size_t(x.cols()));
     for (char& one : marked) one = random.uniform(0, 1) < 0.2;
     for (const std::vector<char>& moved : {std::vector<char>{}, marked}) {
-      const auto chosen = pairs_from_cache(cache, x, end, margin, moved);
+      const auto chosen = pairs_among(ahead, x, end, margin, moved);
       const std::vector<FeaturePair> searched = near_pairs(cloth, x, end, margin, moved);
       const std::string name = fmt::format("moved by {} of half of what is to spare, {}", share,
                                            moved.empty() ? "all asked" : "some asked");
@@ -267,36 +268,36 @@ void see_choices(Table& measured) {
   }
 }
 
-/// Numbers of a run's end that depend on whether pairs come from the cache; NaN if it is
-/// hardly ever reused.
-double numbers_that_the_cache_changes() {
+/// Numbers of a run's end that depend on whether it keeps the pairs that it found; NaN if it hardly
+/// ever uses them again.
+double numbers_that_kept_pairs_change() {
   Scene scene = layered_scene({3, 0.003, 0.001, 0.2, {0.004, 3, 0.2, 8, true}, 18});
   scene.stretch = StretchMaterial{20, 0.02, 1};
-  const System caching = build_system(scene), searching = build_system(scene);
-  const auto cache_of = [](const System& system) {
-    return std::get<SelfCollision>(system.filters.back()).cache->load();
-  };
-  State cached = start_state(scene), searched = cached;
+  const System system = build_system(scene);
+  const auto& filter = std::get<SelfCollision>(system.filters.back());
+  Work keeping, forgetting;
+  keeping.kept = std::make_shared<KeptValues>();
+  State kept = start_state(scene), searched = kept;
   double reused = 0;
   for (int n = 0; n < 60; ++n) {
-    const auto before = cache_of(caching);
-    begin_step(caching, cached);
-    reused += before && cache_of(caching) == before;
-    Work uncounted;
-    cached = integrator_named("C").step(caching, {&cached, 1}, 5e-4, uncounted);
-    searched = integrator_named("C").step(searching, {&searched, 1}, 5e-4, uncounted);
+    const std::vector<Bounds> before = keeping.kept->of<PairsAhead>(filter).boxes;
+    begin_step(system, kept, keeping);
+    const std::vector<Bounds>& after = keeping.kept->of<PairsAhead>(filter).boxes;
+    reused += !before.empty() && after.front().min() == before.front().min();
+    kept = integrator_named("C").step(system, {&kept, 1}, 5e-4, keeping);
+    searched = integrator_named("C").step(system, {&searched, 1}, 5e-4, forgetting);
   }
-  return reused > 10 && !cache_of(searching) ? count_differing_entries(cached.x, searched.x) +
-                                                   count_differing_entries(cached.v, searched.v)
-                                             : NAN;
+  return reused > 10 ? count_differing_entries(kept.x, searched.x) +
+                           count_differing_entries(kept.v, searched.v)
+                     : NAN;
 }
 
 Finding kept_pairs_finding(const Subject&) {
   Table measured{{"case", ""}, {"pairs or numbers that differ", "1"}};
   see_choices(measured);
-  measured.row("a run of 60 steps, and one that forgets", numbers_that_the_cache_changes());
+  measured.row("a run of 60 steps, and one that forgets", numbers_that_kept_pairs_change());
   return judge_worst(measured, 0,
-                     "the cached pairs are candidates: the pairs chosen from them are those of a "
+                     "the kept pairs are candidates: the pairs chosen from them are those of a "
                      "search, in the same order");
 }
 

@@ -178,9 +178,9 @@ PerParticle row_bounds(const Specimen& specimen) {
   PerParticle rows = PerParticle::Zero(specimen.state.x.cols());
   for (const Force& force : system.forces) {
     if (const auto* springs = std::get_if<StretchSprings>(&force))
-      springs->add_stiffness_bound(specimen.state, rows);
+      springs->add_stiffness_bound(specimen.state, springs->shapes_at(specimen.state.x), rows);
     if (const auto* bending = std::get_if<Bending>(&force))
-      bending->add_stiffness_bound(specimen.state, rows);
+      bending->add_stiffness_bound(specimen.state, bending->shapes_at(specimen.state.x), rows);
   }
   return rows;
 }

@@ -146,7 +146,7 @@ Finding matches_differences(const Subject& subject) {
 /// Damping force and derivative of these springs at s, side by side: 3N x (3N + 1).
 Matrix damped_answers(const StretchSprings& springs, const State& s) {
   DampingOperator damping;
-  springs.prepare_damping(s, damping);
+  springs.prepare_damping(s, springs.shapes_at(s.x), damping);
   PerParticle3 force = PerParticle3::Zero(3, s.x.cols());
   damping.add_product(s.v, force);
   ForceDifferential differential;

@@ -258,7 +258,7 @@ Finding bound_finding(const Subject& subject) {
       return oracles::symmetric_eigenvalues(scaled).maxCoeff();
     };
     Work uncounted;
-    const DampingOperator damping = damping_at(system.forces, specimen.state, uncounted);
+    const DampingOperator damping = *damping_at(system.forces, specimen.state, uncounted);
     measured.row(specimen.name + ", damping", largest(damping_matrix(probe, specimen.state)) /
                                                   damping_rate_bound(damping, system.inverse_mass));
     specimen.scene.sticky[0].forecast_time = 0;

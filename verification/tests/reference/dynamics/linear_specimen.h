@@ -91,6 +91,15 @@ inline Iterate stabilised_gradients(const Eigen::MatrixXd& B, const Eigen::Vecto
   return {y, (b - B * y).norm()};
 }
 
+inline System system_of(const PerParticle& mass, const PerParticle& inverse_mass,
+                        const SolverSettings& settings) {
+  System system;
+  system.mass = mass;
+  system.inverse_mass = inverse_mass;
+  system.solver = settings;
+  return system;
+}
+
 inline SolverSettings settings_of(double tolerance, int iterations) {
   SolverSettings settings;
   settings.tolerance = tolerance;

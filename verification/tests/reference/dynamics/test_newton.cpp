@@ -260,7 +260,8 @@ struct PushedSpring {
     State there = start;
     there.x.col(1) = x;
     PerParticle3 f = PerParticle3::Zero(3, 2);
-    for_each_force(system.forces, [&](const auto& force) { force.add_elastic(there, f); });
+    Work uncounted;
+    f += elastic_forces(system.forces, there, uncounted);
     const Vector3 d = (x - start.x.col(0)).normalized();
     f.col(1) -= spring.damping * d.dot(w) * d;
     return (system.mass[1] * (w - start.v.col(1)) - step * f.col(1)).norm();

@@ -1,6 +1,7 @@
 // Solvers of a Newton step, iterate by iterate, against the textbooks' in dense matrices.
 #include <catch2/catch.hpp>
 
+#include "reference/dynamics/conjugate_gradient.h"
 #include "reference/dynamics/biconjugate_gradient.h"
 #include "verification/tests/reference/dynamics/linear_specimen.h"
 
@@ -39,8 +40,7 @@ TEST_CASE("each iterate of a symmetric Newton step is that of plain conjugate gr
   const VectorXd b = of.free(flat(r)).cwiseQuotient(of.roots());
   for (int iterations = 0; iterations < 4; ++iterations) {
     const Iterate expected = conjugate_gradients(of.scaled(of.newton(s)), b, iterations);
-    SolverSettings settings = settings_of(1e-6, iterations);
-    settings.threads = 1 + iterations;
+    const SolverSettings settings = settings_of(1e-6, iterations);
     PerParticle3 dw = PerParticle3::Constant(3, 4, 77);
     Work work;
     const SolveResult solve = solve_newton_step(A, settings, r, dw, work);

@@ -13,13 +13,11 @@ constexpr double s = 0.07;
 
 }  // namespace
 
-TEST_CASE(
-    "a solver's settings are 1e-10, a thousand iterations and one thread unless they are set") {
+TEST_CASE("a solver's settings are 1e-10 and a thousand iterations unless they are set") {
   const SolverSettings settings;
   CHECK(settings.tolerance == 1e-10);
   CHECK(settings.max_iterations == 1000);
   CHECK(settings.scale == ResidualScale::momentum);
-  CHECK(settings.threads == 1);
 }
 
 TEST_CASE("each iterate of the implicit velocity is that of plain conjugate gradients") {
@@ -33,12 +31,12 @@ TEST_CASE("each iterate of the implicit velocity is that of plain conjugate grad
       const Iterate expected = conjugate_gradients(B, b, iterations);
       SolverSettings settings = settings_of(1e-7, iterations);
       settings.scale = scale;
-      settings.threads = 1 + iterations;
+      System system = system_of(of.mass, of.inverse_mass, settings);
+      system.team = 1 + iterations;
       PerParticle3 w = of.v;
       Work work;
       work.worst_residual = 1e-9;
-      const SolveResult solve =
-          solve_velocity(of.damping(), s, of.mass, of.inverse_mass, settings, w, work);
+      const SolveResult solve = solve_velocity(system, of.damping(), s, w, work);
       const PerParticle3 change = of.spread(expected.y, Vector3::Zero());
       CHECK(difference(w, of.v + change) < 1e-12);
       CHECK(w.col(2) == of.v.col(2));
@@ -59,8 +57,8 @@ TEST_CASE("a solve ends as soon as its residual is no larger than the tolerance"
   const LinearSystem of;
   const auto solved = [&](double tolerance, int most, Work& work) {
     PerParticle3 w = of.v;
-    return solve_velocity(of.damping(), s, of.mass, of.inverse_mass, settings_of(tolerance, most),
-                          w, work);
+    return solve_velocity(system_of(of.mass, of.inverse_mass, settings_of(tolerance, most)),
+                          of.damping(), s, w, work);
   };
   Work work;
   const double reached = solved(1e-12, 2, work).residual;
@@ -94,18 +92,17 @@ TEST_CASE("the implicit velocity of many particles on several threads is that of
     if (inverse_mass[i] > 0) momentum += mass[i] * v.col(i).squaredNorm();
   }
   for (const int threads : {1, 3}) {
-    SolverSettings settings = settings_of(1e-12, 0);
-    settings.threads = threads;
+    System system = system_of(mass, inverse_mass, settings_of(1e-12, 0));
+    system.team = threads;
     PerParticle3 w = v;
     Work work;
-    const SolveResult none = solve_velocity(damping, s, mass, inverse_mass, settings, w, work);
+    const SolveResult none = solve_velocity(system, damping, s, w, work);
     CHECK(none.residual == Approx(std::sqrt(residual / momentum)).epsilon(1e-11));
     CHECK(w == v);
-    settings.scale = ResidualScale::initial_residual;
-    CHECK(solve_velocity(damping, s, mass, inverse_mass, settings, w, work).residual ==
-          Approx(1).epsilon(1e-11));
-    settings.max_iterations = 9;
-    const SolveResult solve = solve_velocity(damping, s, mass, inverse_mass, settings, w, work);
+    system.solver.scale = ResidualScale::initial_residual;
+    CHECK(solve_velocity(system, damping, s, w, work).residual == Approx(1).epsilon(1e-11));
+    system.solver.max_iterations = 9;
+    const SolveResult solve = solve_velocity(system, damping, s, w, work);
     CHECK(solve.iterations == 2);
     CHECK(solve.converged);
     double worst = 0;
@@ -128,7 +125,7 @@ TEST_CASE(
     PerParticle3 w = v;
     Work work;
     const SolveResult solve =
-        solve_velocity(damping, 0.25, mass, inverse, settings_of(1e-9, 9), w, work);
+        solve_velocity(system_of(mass, inverse, settings_of(1e-9, 9)), damping, 0.25, w, work);
     CHECK(w == v);
     CHECK(solve.iterations == 0);
     CHECK(solve.indefinite == (factor > 0));
@@ -143,7 +140,7 @@ TEST_CASE(
     settings.scale = scale;
     PerParticle3 w = PerParticle3::Zero(3, 2);
     Work work;
-    const SolveResult solve = solve_velocity({}, 0.25, mass, inverse, settings, w, work);
+    const SolveResult solve = solve_velocity(system_of(mass, inverse, settings), {}, 0.25, w, work);
     CHECK(solve.residual == 0);
     CHECK(solve.converged);
   }
@@ -157,7 +154,8 @@ TEST_CASE("a particle of 1 kg is as free as any other") {
   const VectorXd b = of.free(s * of.D * flat(of.v)).cwiseQuotient(of.roots());
   PerParticle3 w = of.v, q;
   Work work;
-  solve_velocity(of.damping(), s, of.mass, of.inverse_mass, settings_of(1e-14, 99), w, work);
+  solve_velocity(system_of(of.mass, of.inverse_mass, settings_of(1e-14, 99)), of.damping(), s, w,
+                 work);
   CHECK(difference(w, of.v + of.spread(B.partialPivLu().solve(b), Vector3::Zero())) < 1e-11);
   const DampingOperator damping = of.damping();
   const ForceDifferential stiffness = of.stiffness();
@@ -173,8 +171,8 @@ TEST_CASE("a solve of numbers that are none says so") {
   damping.custom.push_back([](const PerParticle3&, PerParticle3& f) { f(1, 3) = NAN; });
   PerParticle3 w = of.v;
   Work work;
-  const SolveResult solve =
-      solve_velocity(damping, s, of.mass, of.inverse_mass, settings_of(1e-9, 9), w, work);
+  const SolveResult solve = solve_velocity(
+      system_of(of.mass, of.inverse_mass, settings_of(1e-9, 9)), damping, s, w, work);
   CHECK(std::isnan(solve.residual));
   CHECK_FALSE(solve.converged);
   CHECK(work.unfinished_solves == 1);

@@ -82,8 +82,8 @@ TEST_CASE("an automatic step is a part of the limit, and less where lengths chan
   CHECK(step_of(system, integrator, s, rule, infinite) == infinite);
 
   // of each list of springs another one changes fastest, relative to its rest length
-  const std::vector<Spring> springs{{0, 1, 3, 1, 0}, {1, 2, 0.7, 1, 0}, {2, 0, 2, 1, 0}};
-  const std::vector<std::vector<Spring>> lists{
+  const Elements<Spring> springs{{0, 1, 3, 1, 0}, {1, 2, 0.7, 1, 0}, {2, 0, 2, 1, 0}};
+  const std::vector<Elements<Spring>> lists{
       {springs[0], springs[1]}, {springs[1], springs[0]}, {springs[2]}};
   for (const auto& list : lists) {
     double fastest = 0;
@@ -108,16 +108,16 @@ TEST_CASE("an automatic step is a part of the limit, and less where lengths chan
 TEST_CASE("threads find the fastest spring, wherever it is in the list") {
   System system = masses();
   const State s = start_state();
-  const std::vector<Spring> springs{
+  const Elements<Spring> springs{
       {0, 1, 3, 1, 0}, {1, 2, 0.7, 1, 0}, {2, 0, 2, 1, 0}, {0, 2, 5, 1, 0}};
   double fastest = 0;
   for (const Spring& spring : springs) fastest = std::max(fastest, strain_rate(s, spring));
   for (int turn = 0; turn < 4; ++turn) {
-    std::vector<Spring> turned = springs;
+    Elements<Spring> turned = springs;
     std::rotate(turned.begin(), turned.begin() + turn, turned.end());
     for (const int threads : {1, 2, 3}) {
       system.forces = {StretchSprings{turned}};
-      use_threads(system, threads);
+      set_team(system, threads);
       StepRule rule;
       CHECK(step_of(system, drifting(Family::mixed), s, rule, infinite) ==
             Approx(0.1 / fastest).epsilon(1e-8));

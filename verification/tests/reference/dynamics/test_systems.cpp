@@ -46,26 +46,20 @@ TEST_CASE("a system's masses are positive and finite, or the first other one is 
   CHECK(make_system((PerParticle(1) << 1e-300).finished()).mass[0] == 1e-300);
 }
 
-TEST_CASE("threads are given to solver, forces and filters; at least one") {
+TEST_CASE("a team is given to the system, its forces and filters; it has at least one thread") {
   System system = make_system(three_masses());
   system.forces.emplace_back(CustomForce{});
   system.forces.emplace_back(Gravity{{0, -9, 0}, three_masses()});
   system.filters.emplace_back(CustomFilter{});
   system.filters.emplace_back(ObjectCollision{});
   for (const int threads : {4, 1}) {
-    use_threads(system, threads);
-    CHECK(system.solver.threads == threads);
-    CHECK(std::get<Gravity>(system.forces[1]).threads == threads);
-    CHECK(std::get<ObjectCollision>(system.filters[1]).threads == threads);
+    set_team(system, threads);
+    CHECK(system.team.threads() == threads);
+    CHECK(std::get<Gravity>(system.forces[1]).team.threads() == threads);
+    CHECK(std::get<ObjectCollision>(system.filters[1]).team.threads() == threads);
   }
   for (const int threads : {0, -3})
-    CHECK_THROWS_WITH(use_threads(system, threads), Contains("at least one thread"));
-  System springs = make_system((PerParticle(4) << 1, 2, 3, 4).finished());
-  springs.forces.emplace_back(StretchSprings{{{0, 1, 1, 1, 0}, {2, 3, 1, 1, 0}}});
-  use_threads(springs, 2);
-  const Sharing& sharing = std::get<StretchSprings>(springs.forces[0]).sharing;
-  REQUIRE(sharing);
-  CHECK(sharing->shares[1].end == 4);
+    CHECK_THROWS_WITH(set_team(system, threads), Contains("at least one thread"));
 }
 
 TEST_CASE("a particle's motion is prescribed once, and only if there is the particle") {

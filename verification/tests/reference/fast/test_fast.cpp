@@ -10,7 +10,8 @@
 #include <thread>
 
 #include "reference/fast/out_of_reach.h"
-#include "reference/fast/loops.h"
+#include "reference/fast/elements.h"
+#include "reference/fast/vectors.h"
 
 using namespace foldproof;
 
@@ -41,8 +42,16 @@ std::vector<Range> blocks_of(int threads, long n, long block) {
   return blocks;
 }
 
-using Elements = std::vector<std::array<int, 4>>;
-const Elements chain{{0, 1, 0, 1}, {1, 2, 1, 2}, {2, 3, 2, 3}, {3, 4, 3, 4}, {4, 5, 4, 5}};
+struct Link {
+  int a, b;
+};
+
+/// Five links of six particles, divided among a team.
+Elements<Link> chain(const Team& team) {
+  Elements<Link> links{{0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 5}};
+  links.divide(team, 6);
+  return links;
+}
 
 /// The half-space z < 0, moving at `velocity` [m/s] and raised by `height` [m].
 Object half_space(const Vector3& velocity, double height) {
@@ -140,18 +149,54 @@ TEST_CASE("threads: ranges follow each other and make up the whole") {
   CHECK(ranges_of(3, 17) == std::vector<Range>{{0, 5}, {5, 6}, {11, 6}});
   CHECK(ranges_of(2, 7) == std::vector<Range>{{0, 3}, {3, 4}});
   CHECK(ranges_of(1, 7) == std::vector<Range>{{0, 7}});
-  CHECK(ranges_of(0, 7) == std::vector<Range>{{0, 7}});
   CHECK(ranges_of(3, 0) == std::vector<Range>{{0, 0}, {0, 0}, {0, 0}});
 }
 
-TEST_CASE("threads: parts of a vector come with the index of their first element") {
-  const std::vector<int> elements{10, 11, 12, 13, 14, 15, 16};
+TEST_CASE("threads: a team has at least one") {
+  CHECK_THROWS_AS(Team(0), InputError);
+  CHECK(Team().threads() == 1);
+  CHECK(Team(3).threads() == 3);
+}
+
+TEST_CASE("threads: each item comes with its index") {
+  const std::vector<int> items{10, 11, 12, 13, 14, 15, 16};
   for (const int threads : {1, 2, 3}) {
-    std::vector<std::atomic<int>> seen(elements.size());
-    for_each_range(threads, elements, [&](std::span<const int> part, size_t first) {
-      for (size_t i = 0; i < part.size(); ++i) seen[first + i] += part[i];
-    });
-    for (size_t i = 0; i < elements.size(); ++i) CHECK(seen[i] == elements[i]);
+    std::vector<std::atomic<int>> seen(items.size()), indices(items.size());
+    for_each_item(threads, items, [&](int item, size_t k) { seen[k] += item; });
+    for_each_index(threads, 7, [&](Eigen::Index i) { indices[size_t(i)] += int(i) + 1; });
+    for (size_t k = 0; k < items.size(); ++k) {
+      CHECK(seen[k] == items[k]);
+      CHECK(indices[k] == int(k) + 1);
+    }
+  }
+}
+
+TEST_CASE("threads: batches of 8192 start from the same value, in order") {
+  const std::vector<int> items(8192 + 3, 1);
+  for (const int threads : {1, 2})
+    CHECK(for_each_with(threads, items, 100, [](int item, int& own) { own += item; }) ==
+          std::vector<int>{8292, 103});
+}
+
+TEST_CASE("threads: acts in order, and asks anew what an act has changed") {
+  // each act takes from its right neighbour, which may then have nothing left
+  for (const int threads : {1, 2, 3}) {
+    std::vector<int> left{1, 0, 2, 1, 1, 0, 1};
+    std::vector<char> changed(left.size(), 0);
+    const std::vector<int> items{0, 1, 2, 3, 4, 5, 6};
+    std::vector<int> acted;
+    const long count = act_in_order(
+        threads, items,
+        [&](int k) { return left[size_t(k)] > 0 ? std::optional(left[size_t(k)]) : std::nullopt; },
+        [&](int k) { return changed[size_t(k)] != 0; },
+        [&](int k, int amount) {
+          acted.push_back(10 * k + amount);
+          if (k == 6) return;
+          left[size_t(k) + 1] = k == 4 ? 5 : 0;
+          changed[size_t(k) + 1] = 1;
+        });
+    CHECK(count == 4);
+    CHECK(acted == std::vector<int>{1, 22, 41, 55});
   }
 }
 
@@ -159,13 +204,14 @@ TEST_CASE("threads: columns are assigned and evaluated whole") {
   PerParticle3 x(3, 7);
   for (int i = 0; i < 21; ++i) x(i % 3, i / 3) = 0.3 + 0.7 * i;
   for (const int threads : {1, 2, 3}) {
-    const PerParticle3 doubled = evaluated(threads, 2 * x);
+    PerParticle3 doubled;
+    set(threads, doubled, 2 * x);
     REQUIRE(doubled.cols() == 7);
     for (int i = 0; i < 21; ++i) CHECK(doubled(i % 3, i / 3) == 2 * (0.3 + 0.7 * i));
     PerParticle3 y = PerParticle3::Constant(3, 2, -0.4);
-    assign(threads, y, x);
+    set(threads, y, x);
     CHECK(y == x);
-    assign(threads, y, 3 * y);
+    set(threads, y, 3 * y);
     CHECK(y == PerParticle3(3 * x));
   }
 }
@@ -175,7 +221,7 @@ TEST_CASE("threads: findings come in the order of the items") {
     for (Eigen::Index i = first; i < first + count; ++i)
       if (i % 2 == 1) found.push_back(i);
   };
-  for (const int threads : {0, 1, 2, 3, 4})
+  for (const int threads : {1, 2, 3, 4})
     CHECK(found_in_order<long>(threads, 13, odd_ones) == std::vector<long>{1, 3, 5, 7, 9, 11});
 }
 
@@ -216,105 +262,118 @@ TEST_CASE("threads: a sum has one part for each block") {
 TEST_CASE("threads: long sums are taken in blocks of 8192, whose sums are added in order") {
   // 2^53 swallows each 1 that is added to it: that of its own block, not the 2 of the next
   const double huge = std::ldexp(1, 53);
-  std::vector<double> terms(3 * 8192 + 5, 0);
-  terms[0] = huge, terms[8191] = terms[8192] = terms[8193] = 1;
-  for (const int threads : {1, 2, 3})
-    CHECK(sum_over(threads, terms, [](double term) { return term; }) == huge + 2);
+  Elements<double> terms;
+  for (int k = 0; k < 3 * 8192 + 5; ++k)
+    terms.push_back(k == 0 ? huge : k == 8191 || k == 8192 || k == 8193);
+  CHECK(terms.sum(terms, [](double term, double) { return term; }) == huge + 2);
 }
 
-TEST_CASE("threads: a sum over elements adds up all their terms") {
-  const std::vector<int> elements{3, 5, 11, 17};
-  for (const int threads : {1, 2})
-    CHECK(sum_over(threads, elements, [](int one) { return 0.5 * one; }) == 18);
-  CHECK(sum_over(2, std::vector<int>{}, [](int) { return 0.5; }) == 0);
+TEST_CASE("elements: sums, largest terms and lists made of two lists") {
+  for (const int threads : {1, 2, 3}) {
+    const Elements<Link> links = chain(threads);
+    const Elements<int> sums = links.map([](const Link& link) { return link.a + link.b; });
+    CHECK(std::vector<int>(sums.begin(), sums.end()) == std::vector<int>{1, 3, 5, 7, 9});
+    const auto product = [](const Link& link, int sum) { return double(link.a * sum); };
+    CHECK(links.sum(sums, product) == 3 + 10 + 21 + 36);
+    CHECK(links.largest(sums, product) == 36);
+    CHECK(links.map(sums, product)[3] == 21);
+  }
+  CHECK(Elements<double>().largest(Elements<double>(), [](double, double) { return 1.; }) == 0);
 }
 
-TEST_CASE("threads: a share has its particles from its first to the one before its end") {
-  const Share share{3, 6, {}};
-  for (const int own : {3, 4, 5}) CHECK(share.has(own));
-  for (const int other : {0, 2, 6, 7}) CHECK_FALSE(share.has(other));
+TEST_CASE("elements: a list behind another is not divided any more") {
+  Elements<Link> links = chain(2);
+  links.append({{5, 0}});
+  CHECK(links.size() == 6);
+  PerParticle touched = PerParticle::Zero(6);
+  links.push(touched, [](const Link& link, const auto& to) { to.add(link.b, 1.0); });
+  CHECK(touched == PerParticle::Ones(6));
+}
+
+TEST_CASE("elements: a thread has its particles from its first to the one before its end") {
+  const OwnedParticles three{3, 6, {}};
+  for (const int own : {3, 4, 5}) CHECK(three.has(own));
+  for (const int other : {0, 2, 6, 7}) CHECK_FALSE(three.has(other));
   CHECK(AllParticles::has(7));
 }
 
-TEST_CASE("threads: particles are shared out evenly, for more than one thread only") {
-  const Sharing sharing = share_out(3, 17, {});
-  REQUIRE(threads_of(sharing) == 3);
-  CHECK(sharing->elements == 0);
-  CHECK(sharing->shares[0].first == 0);
-  CHECK(sharing->shares[0].end == 5);
-  CHECK(sharing->shares[1].first == 5);
-  CHECK(sharing->shares[1].end == 11);
-  CHECK(sharing->shares[2].first == 11);
-  CHECK(sharing->shares[2].end == 17);
-  CHECK(threads_of(share_out(2, 17, {})) == 2);
-  CHECK_FALSE(share_out(1, 17, {}));
-  CHECK_FALSE(share_out(0, 17, {}));
-  CHECK(threads_of(nullptr) == 1);
-  CHECK(SharedOut().elements == 0);
+TEST_CASE("elements: particles are divided evenly, for more than one thread only") {
+  const Division division = divide(3, 17, {});
+  REQUIRE(division->owners.size() == 3);
+  CHECK(division->elements == 0);
+  CHECK(division->owners[0].first == 0);
+  CHECK(division->owners[0].end == 5);
+  CHECK(division->owners[1].first == 5);
+  CHECK(division->owners[1].end == 11);
+  CHECK(division->owners[2].first == 11);
+  CHECK(division->owners[2].end == 17);
+  CHECK_FALSE(divide(1, 17, {}));
 }
 
-TEST_CASE("threads: an element with one particle in a share belongs to its runs") {
-  const Sharing sharing = share_out(2, 6, {{0, 1, 2, 3}, {3, 4, 5, 2}, {5, 4, 3, 5}, {0, 1, 2, 1}});
-  const auto runs_of = [&](size_t share) {
+TEST_CASE(
+    "elements: one that touches a thread's particle is in its runs, and they are of one kind") {
+  const auto runs_of = [](const Division& division, size_t thread) {
     std::vector<std::array<size_t, 3>> runs;
-    for (const ElementRun& run : sharing->shares.at(share).runs)
+    for (const ElementRun& run : division->owners.at(thread).runs)
       runs.push_back({run.first, run.end, size_t(run.is_inside)});
     return runs;
   };
-  CHECK(runs_of(0) == std::vector<std::array<size_t, 3>>{{0, 2, 0}, {3, 4, 1}});
-  CHECK(runs_of(1) == std::vector<std::array<size_t, 3>>{{0, 2, 0}, {2, 3, 1}});
+  using Runs = std::vector<std::array<size_t, 3>>;
+  const Division hinges = divide(2, 6, {{0, 1, 2, 3}, {3, 4, 5, 2}, {5, 4, 3, 5}, {0, 1, 2, 1}});
+  CHECK(runs_of(hinges, 0) == Runs{{0, 2, 0}, {3, 4, 1}});
+  CHECK(runs_of(hinges, 1) == Runs{{0, 2, 0}, {2, 3, 1}});
+  const Division mixed =
+      divide(2, 6, {{0, 1, 0, 1}, {1, 2, 1, 2}, {4, 5, 4, 5}, {0, 2, 3, 4}, {2, 5, 2, 5}});
+  CHECK(mixed->elements == 5);
+  CHECK(runs_of(mixed, 0) == Runs{{0, 2, 1}, {3, 5, 0}});
+  CHECK(runs_of(mixed, 1) == Runs{{2, 3, 1}, {3, 5, 0}});
 }
 
-TEST_CASE("threads: every particle adds up its elements in ascending order") {
+TEST_CASE("elements: every particle adds up its elements in ascending order") {
   for (const int threads : {1, 2, 3}) {
-    const Sharing sharing = share_out(threads, 6, chain);
-    std::vector<std::vector<int>> met(6);
-    for_each_run(sharing, chain, [&](std::span<const std::array<int, 4>> part, const auto& own) {
-      for (const auto& [a, b, c, d] : part)
-        for (const int i : {a, b})
-          if (own.has(i)) met[size_t(i)].push_back(a);
+    PerParticle3 met = PerParticle3::Zero(3, 6);
+    PerParticle digits = PerParticle::Zero(6);
+    chain(threads).push(digits, [&](const Link& link, const auto& to) {
+      // shifts the digits that are there, so that the order counts
+      for (const int i : {link.a, link.b}) to.add(i, 9 * digits[i] + link.a + 1);
     });
-    CHECK(met == std::vector<std::vector<int>>{{0}, {0, 1}, {1, 2}, {2, 3}, {3, 4}, {4}});
+    CHECK(digits == (PerParticle(6) << 1, 12, 23, 34, 45, 5).finished());
+    chain(threads).push(met, [](const Link& link, const auto& to) {
+      to.add(link.a, Vector3(1, 0, 0));
+      to.add(link.b, Vector3(0, 0, 2));
+    });
+    CHECK(met.col(0) == Vector3(1, 0, 0));
+    CHECK(met.col(3) == Vector3(1, 0, 2));
   }
 }
 
-TEST_CASE("threads: runs inside a share own all their particles, and others only the share's") {
-  std::atomic<int> inside = 0, across = 0;
-  for_each_run(share_out(2, 6, chain), chain,
-               [&](std::span<const std::array<int, 4>> part, const auto& own) {
-                 (own.has(-1) ? inside : across) += int(part.size());
-               });
-  CHECK(inside == 4);
-  CHECK(across == 2);  // once for each owner
+TEST_CASE("elements: a list that was changed since it was divided is refused") {
+  Elements<Link> more = chain(2);
+  more.push_back({5, 0});
+  PerParticle f = PerParticle::Zero(6);
+  CHECK_THROWS_WITH(more.push(f, [](const Link&, const auto&) {}),
+                    "elements were added or removed");
 }
 
-TEST_CASE("threads: elements that were not shared out are refused") {
-  const Elements fewer(chain.begin(), chain.begin() + 3);
-  const auto nothing = [](std::span<const std::array<int, 4>>, const auto&) {};
-  CHECK_THROWS_WITH(for_each_run(share_out(2, 6, chain), fewer, nothing),
-                    "elements of another sharing");
-  CHECK_NOTHROW(for_each_run(share_out(2, 6, chain), chain, nothing));
-  CHECK_NOTHROW(for_each_run(nullptr, fewer, nothing));
+TEST_CASE("elements: an error is that of the first element that one thread would meet") {
+  PerParticle f = PerParticle::Zero(6);
+  const auto fail = [](const Link& link, const auto&) {
+    if (link.a >= 1) throw std::runtime_error("element " + std::to_string(link.a));
+  };
+  CHECK_THROWS_WITH(chain(3).push(f, fail), "element 1");
+  CHECK_THROWS_WITH(chain(3).map([](const Link& link) -> int {
+    throw std::runtime_error("element " + std::to_string(link.a));
+  }),
+                    "element 0");
 }
 
-TEST_CASE("threads: an error is that of the first element that one thread would meet") {
-  const auto fail = [](std::span<const std::array<int, 4>> part, const auto& own) {
-    for (const auto& element : part)
-      if (element[0] >= 1 && own.has(element[0]))
-        throw std::runtime_error("element " + std::to_string(element[0]));
+TEST_CASE("elements: an error that does not come again is thrown all the same") {
+  PerParticle f = PerParticle::Zero(6);
+  std::atomic<int> calls = 0;
+  const auto fail_once = [&](const Link&, const auto&) {
+    if (++calls == 1) throw std::runtime_error("once");
   };
-  CHECK_THROWS_WITH(for_each_run(share_out(3, 6, chain), chain, fail), "element 1");
-  const auto fail_backwards = [](std::span<const std::array<int, 4>> part, const auto&) {
-    throw std::runtime_error(std::to_string(part.size()) + " elements");
-  };
-  CHECK_THROWS_WITH(for_each_run(share_out(2, 6, chain), chain, fail_backwards), "5 elements");
-}
-
-TEST_CASE("threads: an error that does not come again is thrown all the same") {
-  const auto fail_in_parts = [](std::span<const std::array<int, 4>> part, const auto&) {
-    if (part.size() < 5) throw std::runtime_error("in a part");
-  };
-  CHECK_THROWS_WITH(for_each_run(share_out(2, 6, chain), chain, fail_in_parts), "in a part");
+  CHECK_THROWS_WITH(chain(2).push(f, fail_once), "once");
 }
 
 TEST_CASE("a point is out of reach if its clearance is more than the way it may go") {

@@ -1,4 +1,5 @@
-// The broad phase: which pairs it finds, in which order, at which cost, and what a cache keeps.
+// The broad phase: which pairs it finds, in which order, at which cost, and what a
+// search ahead finds.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <random>
@@ -185,7 +186,7 @@ std::vector<char> some_moved(int particles, int every) {
 TEST_CASE("each vertex and each edge is owned by the first of its triangles") {
   const TriangleMesh mesh = sheet(4, 3, 5);
   const ClothTree cloth = make_cloth_tree(mesh);
-  CHECK(cloth.threads == 1);
+  CHECK(cloth.team.threads() == 1);
   CHECK(cloth.triangles == mesh.triangles);
   CHECK(cloth.mean_edge == Approx(rest_lengths(mesh).mean()).epsilon(1e-14));
   std::vector<int> first_of(size_t(mesh.particles()), -1);
@@ -227,23 +228,23 @@ TEST_CASE("a search finds the pairs whose boxes overlap, each once, in the tree'
         const std::vector<Key> in_order = pairs_in_order(traversal, wanted);
         CHECK(in_order.size() == wanted.size());
         for (const int threads : {1, 3}) {
-          cloth.threads = threads;
+          cloth.team = threads;
           const PairSearch found = counted_near_pairs(cloth, x, end, margin, moved);
           CHECK(keys_of(found.pairs) == in_order);
-          if (threads == 1) CHECK(found.box_tests == traversal.box_tests);
+          CHECK(found.box_tests == traversal.box_tests);
           CHECK(keys_of(near_pairs(cloth, x, end, margin, moved)) == in_order);
         }
-        cloth.threads = 1;
+        cloth.team = 1;
       }
   }
 }
 
-TEST_CASE("a search of several threads is cut seven levels down and compares the same boxes") {
+TEST_CASE("a search of several threads compares the same boxes") {
   const TriangleMesh mesh = sheet(9, 8, 4);
   ClothTree cloth = make_cloth_tree(mesh);
   const PerParticle3 x = crumpled(mesh.rest, 0.2, 3);
   const PairSearch alone = counted_near_pairs(cloth, x, x, 0.02);
-  cloth.threads = 2;
+  cloth.team = 2;
   const PairSearch together = counted_near_pairs(cloth, x, x, 0.02);
   CHECK(keys_of(together.pairs) == keys_of(alone.pairs));
   CHECK(together.box_tests == alone.box_tests);
@@ -255,7 +256,7 @@ TEST_CASE("a tree that is one leaf is searched by several threads as by one") {
   const PairSearch alone = counted_near_pairs(cloth, mesh.rest, mesh.rest, 0.7);
   CHECK(alone.box_tests == 6);
   CHECK(alone.pairs.size() > 3);
-  cloth.threads = 3;
+  cloth.team = 3;
   const PairSearch together = counted_near_pairs(cloth, mesh.rest, mesh.rest, 0.7);
   CHECK(keys_of(together.pairs) == keys_of(alone.pairs));
   CHECK(together.box_tests == 6);
@@ -303,51 +304,51 @@ TEST_CASE("a pair has moved if any of its particles has, or if nothing says what
   CHECK_FALSE(has_moved_particle(pair, {0, 0, 0, 1, 0}));
 }
 
-TEST_CASE("a cache is valid until a particle's box leaves the one that it was made with") {
+TEST_CASE("a search ahead holds until a particle's box leaves the one that it was made with") {
   const TriangleMesh mesh = sheet(3, 2, 5);
   ClothTree cloth = make_cloth_tree(mesh);
   PerParticle3 rest = (mesh.rest * 64).array().round() / 64;  // sums below are exact
   for (const int threads : {1, 2}) {
-    cloth.threads = threads;
-    const PairCache cache = make_pair_cache(cloth, rest, 0.5);
-    CHECK(cache.threads == threads);
-    CHECK(int(cache.boxes.size()) == mesh.particles());
-    CHECK(cache.boxes[3].min() == rest.col(3) - Vector3::Constant(0.25));
-    CHECK(cache.boxes[3].max() == rest.col(3) + Vector3::Constant(0.25));
-    CHECK(keys_of(cache.pairs) == keys_of(near_pairs(cloth, rest, rest, 0.5)));
-    CHECK(cache_is_valid(cache, rest, 0.5));
-    CHECK_FALSE(cache_is_valid(cache, rest, 0.53125));
+    cloth.team = threads;
+    const PairsAhead ahead = pairs_ahead(cloth, rest, 0.5);
+    CHECK(ahead.team.threads() == threads);
+    CHECK(int(ahead.boxes.size()) == mesh.particles());
+    CHECK(ahead.boxes[3].min() == rest.col(3) - Vector3::Constant(0.25));
+    CHECK(ahead.boxes[3].max() == rest.col(3) + Vector3::Constant(0.25));
+    CHECK(keys_of(ahead.pairs) == keys_of(near_pairs(cloth, rest, rest, 0.5)));
+    CHECK(is_inside(ahead, rest, 0.5));
+    CHECK_FALSE(is_inside(ahead, rest, 0.53125));
     for (const Eigen::Index particle : {Eigen::Index(0), rest.cols() - 1})
       for (int axis = 0; axis < 3; ++axis)
         for (const double side : {-1.0, 1.0}) {
           PerParticle3 x = rest;
           x(axis, particle) += side * 0.125;
-          CHECK(cache_is_valid(cache, x, 0.25));
-          CHECK(pairs_from_cache(cache, x, rest, 0.25));
-          CHECK(pairs_from_cache(cache, rest, x, 0.25));
+          CHECK(is_inside(ahead, x, 0.25));
+          CHECK(pairs_among(ahead, x, rest, 0.25));
+          CHECK(pairs_among(ahead, rest, x, 0.25));
           x(axis, particle) += side * 0.015625;
-          CHECK_FALSE(cache_is_valid(cache, x, 0.25));
-          CHECK_FALSE(pairs_from_cache(cache, x, rest, 0.25));
-          CHECK_FALSE(pairs_from_cache(cache, rest, x, 0.25));
+          CHECK_FALSE(is_inside(ahead, x, 0.25));
+          CHECK_FALSE(pairs_among(ahead, x, rest, 0.25));
+          CHECK_FALSE(pairs_among(ahead, rest, x, 0.25));
         }
   }
 }
 
-TEST_CASE("a valid cache answers as a search does, in its order") {
+TEST_CASE("a search ahead answers as a new search does, in its order") {
   const TriangleMesh mesh = sheet(5, 4, 5);
   ClothTree cloth = make_cloth_tree(mesh);
   const PerParticle3 x = crumpled(mesh.rest, 0.3, 3),
                      now = x + 0.02 * crumpled(mesh.rest, 1, 9).array().sin().matrix(),
                      end = x - 0.03 * crumpled(mesh.rest, 1, 4).array().sin().matrix();
   for (const int threads : {1, 3}) {
-    cloth.threads = threads;
-    const PairCache cache = make_pair_cache(cloth, x, 0.2);
+    cloth.team = threads;
+    const PairsAhead ahead = pairs_ahead(cloth, x, 0.2);
     for (const std::vector<char>& moved : {std::vector<char>{}, some_moved(mesh.particles(), 7)}) {
-      const auto pairs = pairs_from_cache(cache, now, end, 0.05, moved);
+      const auto pairs = pairs_among(ahead, now, end, 0.05, moved);
       REQUIRE(pairs);
       const std::vector<Key> wanted = keys_of(near_pairs(cloth, now, end, 0.05, moved));
       CHECK(keys_of(*pairs) == wanted);
-      CHECK(wanted.size() < cache.pairs.size());
+      CHECK(wanted.size() < ahead.pairs.size());
       CHECK(wanted.size() > 5);
     }
   }

@@ -281,15 +281,15 @@ TEST_CASE("points that share no particles are corrected on several threads, othe
   const TriangleMesh mesh = make_triangle_mesh(rest, {{0, 1, 2}, {0, 2, 3}});
   const PerParticle w = PerParticle::Constant(4, 0.3);
   ObjectCollision filter;
-  CHECK(filter.threads == 1);
+  CHECK(filter.team.threads() == 1);
   CHECK(filter.forecast_time == 0);
   CHECK(filter.response.name == "forecast");
   filter.points = collision_points(mesh, w, PointKind::particles);
-  filter.use_threads(3, 4);
-  CHECK(filter.threads == 3);
+  filter.set_team(3, 4);
+  CHECK(filter.team.threads() == 3);
   filter.points = collision_points(mesh, w, PointKind::edges);
-  filter.use_threads(3, 4);
-  CHECK(filter.threads == 1);
+  filter.set_team(3, 4);
+  CHECK(filter.team.threads() == 1);
 }
 
 TEST_CASE("many points are corrected in blocks, each once, on any number of threads") {
@@ -305,7 +305,7 @@ TEST_CASE("many points are corrected in blocks, each once, on any number of thre
     s.x.col(i) << 0.3, 0.1, 0.25;
   }
   for (const int threads : {1, 3}) {
-    filter.threads = threads;
+    filter.team = threads;
     PerParticle3 v(3, n);
     v.colwise() = Vector3(0.5, 0.3, -1);
     Work work;

@@ -1,7 +1,9 @@
-// The self-collision filter: its cache, its rounds of impulses, its zones, and tangled cloth.
+// The self-collision filter: the pairs that it keeps, its rounds of impulses, its zones,
+// and tangled cloth.
 #include <catch2/catch.hpp>
 #include <random>
 
+#include "reference/fast/kept_values.h"
 #include "reference/mesh/shapes.h"
 #include "reference/filters/approach.h"
 #include "reference/filters/impact_zones.h"
@@ -102,28 +104,29 @@ Rounds resolved(const SelfCollision& filter, const PerParticle3& x, const PerPar
 
 }  // namespace
 
-TEST_CASE("a cache is made with 0.12 edges to spare, and made anew when half of them is used up") {
+TEST_CASE("pairs are kept with 0.12 edges to spare, and looked for when half of them is used up") {
   const TriangleMesh mesh = three_sheets();
   const SelfCollision filter =
       filter_of(mesh, {0.01, 3, 0.2, 8, true}, PerParticle::Constant(48, 0.7));
   CHECK(filter.at_start.empty());
-  CHECK(filter.cache->load() == nullptr);
   State s = at_rest(mesh.rest);
-  filter.update_pair_cache(s);
-  const auto first = filter.cache->load();
-  REQUIRE(first);
+  filter.look_ahead(s, {});  // of no run that keeps anything
+  Work work;
+  work.kept = std::make_shared<KeptValues>();
+  const PairsAhead& kept = work.kept->of<PairsAhead>(filter);
+  CHECK(kept.boxes.empty());
+  const auto middle = [&] { return kept.boxes.at(31).center(); };
+  filter.look_ahead(s, work);
   const double spare = 0.12 * rest_lengths(mesh).mean();
-  CHECK((first->boxes[5].max() - s.x.col(5) - Vector3::Constant((0.01 + spare) / 2)).norm() <
+  CHECK((kept.boxes.at(5).max() - s.x.col(5) - Vector3::Constant((0.01 + spare) / 2)).norm() <
         1e-15);
-  filter.update_pair_cache(s);
-  CHECK(filter.cache->load() == first);
+  const Vector3 first = middle();
   s.x(1, 31) += 0.99 * spare / 4;
-  filter.update_pair_cache(s);
-  CHECK(filter.cache->load() == first);
+  filter.look_ahead(s, work);
+  CHECK(middle() == first);
   s.x(1, 31) += 0.02 * spare / 4;
-  filter.update_pair_cache(s);
-  CHECK(filter.cache->load() != first);
-  CHECK((filter.cache->load()->boxes[31].center() - s.x.col(31)).norm() < 1e-15);
+  filter.look_ahead(s, work);
+  CHECK((middle() - s.x.col(31)).norm() < 1e-15);
 }
 
 TEST_CASE("a velocity that ends a step is kept from approaching within the thickness only") {
@@ -170,7 +173,7 @@ TEST_CASE("the first impulse lets a vertex come as near as the thickness, with f
 }
 
 TEST_CASE(
-    "three sheets are kept apart pair by pair, the same with a cache and on several threads") {
+    "three sheets are kept apart pair by pair, the same with kept pairs and on several threads") {
   const TriangleMesh mesh = three_sheets();
   std::mt19937 random(5);
   std::uniform_real_distribution<double> speed(-0.7, 0.7);
@@ -184,12 +187,13 @@ TEST_CASE(
   CAPTURE(expected.last, expected.crossings);
   REQUIRE(expected.last > 1);
   REQUIRE(expected.crossings > 5);
-  for (const bool has_cache : {false, true})
+  for (const auto& kept : {std::shared_ptr<KeptValues>(), std::make_shared<KeptValues>()})
     for (const int threads : {1, 3}) {
-      filter.use_threads(threads, 48);
-      if (has_cache) filter.update_pair_cache(s);
+      filter.set_team(threads, 48);
       PerParticle3 v = start;
       Work work;
+      work.kept = kept;
+      filter.look_ahead(s, work);
       filter.correct(step, s, v, work);
       CHECK(work.close_pairs == 0);
       if (expected.last < 8) {

@@ -6,6 +6,7 @@
 #include "reference/forces/bending.h"
 #include "verification/oracles/definitions.h"
 #include "verification/tests/reference/forces/force_differences.h"
+#include "verification/tests/reference/forces/at_state.h"
 
 namespace foldproof {
 
@@ -72,7 +73,7 @@ inline std::array<BendingMaterial, 4> bending_materials() {
 
 inline PerParticle3 bending_damping_forces(const Bending& bending, const State& s) {
   DampingOperator damping;
-  bending.prepare_damping(s, damping);
+  prepare_damping(bending, s, damping);
   PerParticle3 f = PerParticle3::Zero(3, s.x.cols());
   damping.add_product(s.v, f);
   return f;

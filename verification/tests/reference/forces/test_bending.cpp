@@ -7,6 +7,7 @@
 #include "reference/mesh/shapes.h"
 #include "verification/tests/hinge_specimens.h"
 #include "verification/tests/reference/forces/bending_specimen.h"
+#include "verification/tests/reference/forces/at_state.h"
 
 using namespace foldproof;
 
@@ -145,7 +146,7 @@ TEST_CASE("a hinge that has lost a triangle is refused with its four particles i
   x.col(2) = x.col(4);
   CHECK_THROWS_WITH(checked_hinge_shape(hinge, x),
                     "a triangle of a hinge has lost its area (particles 6 2 1 4)");
-  CHECK_THROWS_AS(five_hinges(bending_materials()[0]).energy({0, x, x}), DegenerateElement);
+  CHECK_THROWS_AS(five_hinges(bending_materials()[0]).shapes_at(x), DegenerateElement);
 }
 
 TEST_CASE("bending forces are ke c times the law's magnitude along the mode, for every setting") {
@@ -160,7 +161,7 @@ TEST_CASE("bending forces are ke c times the law's magnitude along the mode, for
                           magnitude_of(material, hinge, s.x);
       for (size_t i = 0; i < 4; ++i) expected.col(hinge.particles[i]) += size * u[i];
     }
-    bending.add_elastic(s, f);
+    add_elastic(bending, s, f);
     CHECK(agree(f, expected, 1e-12));
   }
 }
@@ -177,7 +178,7 @@ TEST_CASE("the energy of bending is ke c times the law's potential, for every se
               : std::pow(theta - rest, 2) / 4 + std::pow(theta - rest, 4) / 8;
       expected += 0.37 * elastic_factor(material, hinge, s.x) * potential;
     }
-    CHECK(five_hinges(material).energy(s) == Approx(expected).epsilon(1e-13));
+    CHECK(energy_of(five_hinges(material), s) == Approx(expected).epsilon(1e-13));
   }
 }
 
@@ -188,7 +189,7 @@ TEST_CASE("dampers of hinges resist the mode with kd times either factor") {
       material.damping = kd;
       const Bending bending = five_hinges(material);
       DampingOperator damping;
-      bending.prepare_damping(s, damping);
+      prepare_damping(bending, s, damping);
       REQUIRE(damping.hinges.size() == 5);
       PerParticle3 expected = PerParticle3::Zero(3, hinge_particles);
       for (size_t h = 0; h < 5; ++h) {
@@ -219,14 +220,14 @@ TEST_CASE("hinges without damping have no dampers, and further ones join those t
   const State s = hinge_state();
   BendingMaterial material = bending_materials()[0];
   DampingOperator damping;
-  five_hinges(material).prepare_damping(s, damping);
-  five_hinges(material).prepare_damping(s, damping);
+  prepare_damping(five_hinges(material), s, damping);
+  prepare_damping(five_hinges(material), s, damping);
   CHECK(damping.hinges.size() == 10);
   CHECK(damping.hinges[7].particles == damping.hinges[2].particles);
   CHECK(damping.hinges[7].w1 == damping.hinges[2].w1);
   DampingOperator none;
   material.damping = 0;
-  five_hinges(material).prepare_damping(s, none);
+  prepare_damping(five_hinges(material), s, none);
   CHECK(none.hinges.empty());
 }
 
@@ -234,7 +235,7 @@ TEST_CASE("hinges do the same on any number of threads, to the bit") {
   // so many that forces on a particle come from the same and from another thread in turn
   constexpr int particles = 12;
   const State s{0, scattered(particles, 0.4), scattered(particles, 2.9)};
-  std::vector<BendingHinge> many;
+  Elements<BendingHinge> many;
   for (int k = 0; k < 60; ++k) {
     const auto at = [&](int shift) { return (5 * k + 1 + shift) % particles; };
     const double angle = 3 * std::sin(k + 0.3);
@@ -246,17 +247,15 @@ TEST_CASE("hinges do the same on any number of threads, to the bit") {
   const PerParticle3 start = scattered(particles, 5.1);
   const auto results = [&](const BendingMaterial& material, int threads) {
     Bending bending{material, many};
-    bending.use_threads(threads, particles);
-    CHECK(bool(bending.sharing) == (threads > 1));
+    bending.set_team(threads, particles);
     PerParticle3 f = start, damped = start;
     PerParticle rows = start.row(0).transpose();
-    bending.add_elastic(s, f);
-    bending.add_stiffness_bound(s, rows);
+    add_elastic(bending, s, f);
+    add_stiffness_bound(bending, s, rows);
     DampingOperator damping;
-    bending.prepare_damping(s, damping);
-    CHECK(damping.hinge_sharing == bending.sharing);
+    prepare_damping(bending, s, damping);
     damping.add_product(s.v, damped);
-    return std::tuple(f, damped, rows, bending.energy(s));
+    return std::tuple(f, damped, rows, energy_of(bending, s));
   };
   for (const BendingMaterial& material : bending_materials())
     for (const int threads : {2, 3, 7}) CHECK(results(material, threads) == results(material, 1));
@@ -269,7 +268,7 @@ TEST_CASE("the rows of a hinge's stiffness are bounded by the page's sums") {
     const Bending bending = five_hinges(material);
     const PerParticle start = scattered(hinge_particles, 5.1).row(0).transpose();
     PerParticle rows = start, expected = start;
-    bending.add_stiffness_bound(s, rows);
+    add_stiffness_bound(bending, s, rows);
     for (const BendingHinge& hinge : bending.hinges) {
       const std::array<Vector3, 4> x = corners_of(hinge, s.x);
       const HingeNumbers numbers = numbers_of(x);
@@ -310,7 +309,7 @@ TEST_CASE("no row of a hinge's stiffness exceeds its bound, whichever way it is 
       bending.hinges[0].rest_angle = rest_angle;
       bending.hinges[0].sin_half_rest = std::sin(rest_angle / 2);
       PerParticle rows = PerParticle::Zero(hinge_particles);
-      bending.add_stiffness_bound(hinge_state(), rows);
+      add_stiffness_bound(bending, hinge_state(), rows);
       ForceDifferential K;
       bending.add_elastic_differential(hinge_state(), Definiteness::exact, K);
       for (int i = 0; i < 4; ++i) {
@@ -331,7 +330,7 @@ TEST_CASE("a hinge folded flat onto itself has a bound, though its sine may roun
     const Vector3 x3 = s.x.col(2), x4 = s.x.col(3), E = x4 - x3;
     s.x.col(1) = Vector3(x3 + 0.3 * E + 0.7 * (Vector3(s.x.col(0)) - x3));
     PerParticle rows = PerParticle::Zero(4);
-    bending.add_stiffness_bound(s, rows);
+    add_stiffness_bound(bending, s, rows);
     CHECK(rows.minCoeff() > 0);
   }
 }
@@ -344,7 +343,7 @@ TEST_CASE("the angles of a mesh's hinges are those of its drawing, one a hinge")
   for (size_t h = 0; h < angles.size(); ++h) {
     const BendingHinge hinge{mesh.hinges[h].particles, 0, 0, 0};
     CHECK(angles[h] == Approx(angle_at(hinge, x)).epsilon(1e-12));
-    CHECK(angle_of(hinge, x) == angles[h]);
+    CHECK(checked_hinge_shape(hinge, x).angle() == angles[h]);
   }
 }
 

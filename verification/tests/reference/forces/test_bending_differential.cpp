@@ -4,6 +4,7 @@
 
 #include "verification/tests/hinge_specimens.h"
 #include "verification/tests/reference/forces/bending_specimen.h"
+#include "verification/tests/reference/forces/at_state.h"
 
 using namespace foldproof;
 
@@ -69,7 +70,7 @@ TEST_CASE("the elastic derivative of bending is that of its forces with the fact
         hinge.rest_weight = numbers_of(corners_of(hinge, s.x)).weight();
     const Eigen::MatrixXd expected = differences(s.x, 1e-4, [&](const PerParticle3& x) {
       PerParticle3 f = PerParticle3::Zero(3, hinge_particles);
-      frozen.add_elastic({0, x, {}}, f);
+      add_elastic(frozen, {0, x, {}}, f);
       return f;
     });
     ForceDifferential K;
@@ -112,7 +113,7 @@ TEST_CASE("the whole derivative of bending is that of elastic and damping forces
         bending.material.damping = kd;
         const Eigen::MatrixXd expected = differences(s.x, 1e-4, [&](const PerParticle3& x) {
           PerParticle3 f = bending_damping_forces(bending, {0, x, s.v});
-          bending.add_elastic({0, x, s.v}, f);
+          add_elastic(bending, {0, x, s.v}, f);
           return f;
         });
         ForceDifferential K;

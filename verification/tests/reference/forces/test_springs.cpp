@@ -7,6 +7,7 @@
 #include "reference/forces/springs.h"
 #include "reference/mesh/shapes.h"
 #include "verification/tests/reference/forces/force_differences.h"
+#include "verification/tests/reference/forces/at_state.h"
 
 using namespace foldproof;
 
@@ -38,7 +39,7 @@ Arm arm_of(const Spring& spring, const State& s) {
 
 PerParticle3 damping_forces(const StretchSprings& springs, const State& s) {
   DampingOperator damping;
-  springs.prepare_damping(s, damping);
+  prepare_damping(springs, s, damping);
   PerParticle3 f = PerParticle3::Zero(3, s.x.cols());
   damping.add_product(s.v, f);
   return f;
@@ -69,23 +70,27 @@ TEST_CASE("springs add stiffness times extension along themselves, and its energ
   }
   CHECK(has_pulled);
   CHECK(has_compressed);
-  springs().add_elastic(s, f);
+  add_elastic(springs(), s, f);
   CHECK(agree(f, expected, 1e-14));
-  CHECK(springs().energy(s) == Approx(energy).epsilon(1e-14));
+  CHECK(energy_of(springs(), s) == Approx(energy).epsilon(1e-14));
 }
 
-TEST_CASE("springs damp their lengthening, and those without damping have no damper") {
+TEST_CASE("springs damp their lengthening; where none damps there are no dampers") {
   const State s = state();
   DampingOperator damping;
-  springs().prepare_damping(s, damping);
-  CHECK(damping.pairs.size() == 4);
+  prepare_damping(springs(), s, damping);
+  REQUIRE(damping.pairs.size() == 5);
+  StretchSprings undamped = springs();
+  for (Spring& spring : undamped.springs) spring.damping = 0;
+  DampingOperator none;
+  prepare_damping(undamped, s, none);
+  CHECK(none.empty());
   PerParticle3 expected = PerParticle3::Zero(3, n);
   size_t at = 0;
   for (const Spring& spring : springs().springs) {
-    if (spring.damping == 0) continue;
     const Arm arm = arm_of(spring, s);
     const Vector3 direction = arm.d / arm.length;
-    const PairDamper& damper = damping.pairs.at(at++);
+    const PairDamper& damper = damping.pairs[at++];
     CHECK(damper.a == spring.a);
     CHECK(damper.b == spring.b);
     CHECK((damper.along - std::sqrt(spring.damping) * direction).norm() < 1e-15);
@@ -95,8 +100,8 @@ TEST_CASE("springs damp their lengthening, and those without damping have no dam
   }
   CHECK(agree(damping_forces(springs(), s), expected, 1e-14));
   // further springs join those that are there
-  springs().prepare_damping(s, damping);
-  CHECK(damping.pairs.size() == 8);
+  prepare_damping(springs(), s, damping);
+  CHECK(damping.pairs.size() == 10);
   const PerParticle3 start = scattered(n, 5.1);
   PerParticle3 f = start;
   damping.add_product(s.v, f);
@@ -116,54 +121,19 @@ TEST_CASE("springs do the same on any number of threads, to the bit") {
   one_does_not.springs[7].damping = 0;
   const PerParticle3 start = scattered(particles, 5.1);
   const auto results = [&](StretchSprings springs, int threads) {
-    springs.use_threads(threads, particles);
-    CHECK(bool(springs.sharing) == (threads > 1));
+    springs.set_team(threads, particles);
     PerParticle3 f = start, damped = start;
     PerParticle rows = start.row(0).transpose();
-    springs.add_elastic(s, f);
-    springs.add_stiffness_bound(s, rows);
+    add_elastic(springs, s, f);
+    add_stiffness_bound(springs, s, rows);
     DampingOperator damping;
-    springs.prepare_damping(s, damping);
+    prepare_damping(springs, s, damping);
     damping.add_product(s.v, damped);
-    return std::tuple(f, damped, rows, springs.energy(s));
+    return std::tuple(f, damped, rows, energy_of(springs, s));
   };
   for (const int threads : {2, 3, 6})
     for (const StretchSprings& list : {one_does_not, all_damp})
       CHECK(results(list, threads) == results(list, 1));
-}
-
-TEST_CASE("springs whose damping is 1 share their dampers out as well") {
-  StretchSprings list{{{0, 1, 1, 1, 1}, {1, 2, 1, 1, 1}}};
-  list.use_threads(2, 3);
-  CHECK(list.damper_sharing == list.sharing);
-  DampingOperator damping;
-  list.prepare_damping({0, scattered(3, 0.4), {}}, damping);
-  CHECK(damping.pair_sharing == list.sharing);
-}
-
-TEST_CASE("dampers keep their sharing only while they are alone") {
-  const Sharing sharing = share_out(2, 4, {{0, 1, 2, 3}, {2, 1, 0, 3}});
-  DampingOperator damping;
-  PairDamper* const first_pair = damping.add_pairs(2, sharing);
-  HingeDamper* const first_hinge = damping.add_hinges(2, sharing);
-  CHECK(damping.pair_sharing == sharing);
-  CHECK(damping.hinge_sharing == sharing);
-  CHECK(first_pair == damping.pairs.data());
-  CHECK(first_hinge == damping.hinges.data());
-  const PairDamper* const third_pair = damping.add_pairs(1, sharing);
-  const HingeDamper* const third_hinge = damping.add_hinges(3, sharing);
-  CHECK(third_pair == damping.pairs.data() + 2);
-  CHECK(third_hinge == damping.hinges.data() + 2);
-  CHECK(damping.pairs.size() == 3);
-  CHECK(damping.hinges.size() == 5);
-  CHECK_FALSE(damping.pair_sharing);
-  CHECK_FALSE(damping.hinge_sharing);
-
-  // one is enough to be not alone
-  DampingOperator one;
-  one.add_pairs(1, {});
-  one.add_pairs(1, sharing);
-  CHECK_FALSE(one.pair_sharing);
 }
 
 TEST_CASE("a spring without length is refused with both of its ends, wherever it is asked") {
@@ -175,14 +145,14 @@ TEST_CASE("a spring without length is refused with both of its ends, wherever it
   DampingOperator damping;
   ForceDifferential differential;
   const auto refusal = Catch::Message("a spring has no length (particles 1 4)");
-  CHECK_THROWS_MATCHES(list.add_elastic(s, f), DegenerateElement, refusal);
-  CHECK_THROWS_MATCHES(list.prepare_damping(s, damping), DegenerateElement, refusal);
+  CHECK_THROWS_MATCHES(add_elastic(list, s, f), DegenerateElement, refusal);
+  CHECK_THROWS_MATCHES(prepare_damping(list, s, damping), DegenerateElement, refusal);
   CHECK_THROWS_MATCHES(list.add_elastic_differential(s, Definiteness::exact, differential),
                        DegenerateElement, refusal);
   CHECK_THROWS_MATCHES(list.add_force_differential(s, differential), DegenerateElement, refusal);
-  CHECK_THROWS_MATCHES(list.add_stiffness_bound(s, rows), DegenerateElement, refusal);
+  CHECK_THROWS_MATCHES(add_stiffness_bound(list, s, rows), DegenerateElement, refusal);
   s.x(2, 4) = std::nan("");
-  CHECK_THROWS_WITH(list.add_elastic(s, f), "a spring has no length (particles 0 4)");
+  CHECK_THROWS_WITH(add_elastic(list, s, f), "a spring has no length (particles 0 4)");
 }
 
 TEST_CASE("the derivative of springs is that of their forces, added to what is there") {
@@ -196,7 +166,7 @@ TEST_CASE("the derivative of springs is that of their forces, added to what is t
   const auto product = [&](const auto& dx, auto& df) { K.add_product(dx, df); };
   const Eigen::MatrixXd elastic = differences(s.x, 1e-3, [&](const PerParticle3& x) {
     PerParticle3 f = PerParticle3::Zero(3, n);
-    springs().add_elastic({0, x, {}}, f);
+    add_elastic(springs(), {0, x, {}}, f);
     return f;
   });
   CHECK(agree(matrix_of(n, product), elastic, 1e-9));
@@ -258,7 +228,7 @@ TEST_CASE("a spring's rows sum to twice the larger of its stiffnesses along and 
   }
   CHECK(steeper_across > 0);
   CHECK(steeper_across < 5);
-  springs().add_stiffness_bound(s, rows);
+  add_stiffness_bound(springs(), s, rows);
   CHECK(agree(rows, expected, 1e-14));
 }
 
@@ -304,14 +274,4 @@ TEST_CASE("springs refuse constants that are negative or no number, and lengths 
   for (const double good : {0.0, 1e-300, 0.3})
     CHECK(make_springs(mesh, {good, good, 0.3}).springs.size() == 5);
   CHECK(make_springs(mesh, {2, 2, 1e-9}).springs.size() == 5);
-}
-
-TEST_CASE("dampers are shared out as springs are if each spring has one") {
-  StretchSprings springs{{{0, 1, 1, 1, 0.1}, {1, 2, 1, 1, 0.1}}};
-  springs.use_threads(2, 3);
-  CHECK(springs.sharing);
-  CHECK(springs.damper_sharing == springs.sharing);
-  springs.springs[1].damping = 0;
-  springs.use_threads(2, 3);
-  CHECK_FALSE(springs.damper_sharing);
 }

@@ -7,6 +7,7 @@
 #include "reference/forces/force.h"
 #include "reference/forces/symmetric_modes.h"
 #include "verification/tests/reference/forces/force_differences.h"
+#include "verification/tests/reference/forces/at_state.h"
 
 using namespace foldproof;
 
@@ -112,30 +113,29 @@ TEST_CASE("an element that degenerates is reported with its particles") {
 TEST_CASE("gravity adds a particle's weight to its force, on any number of threads") {
   const Vector3 g(0.3, -9.1, 1.7);
   Gravity gravity{g, masses()};
-  CHECK(gravity.threads == 1);
   const State s = state();
   const PerParticle3 start = scattered(n, 5.1);
   double energy = 0;
   for (const int threads : {1, 2, 3}) {
-    gravity.use_threads(threads, n);
-    CHECK(gravity.threads == threads);
+    gravity.set_team(threads, n);
+    CHECK(gravity.team.threads() == threads);
     PerParticle3 f = start;
-    gravity.add_elastic(s, f);
+    add_elastic(gravity, s, f);
     for (int i = 0; i < n; ++i) CHECK((f.col(i) - start.col(i) - masses()[i] * g).norm() < 1e-14);
   }
   for (int i = 0; i < n; ++i) energy -= masses()[i] * g.dot(s.x.col(i));
-  CHECK(gravity.energy(s) == Approx(energy).epsilon(1e-14));
+  CHECK(energy_of(gravity, s) == Approx(energy).epsilon(1e-14));
 }
 
 TEST_CASE("a custom force without functions adds nothing") {
   const CustomForce nothing;
   const State s = state();
   PerParticle3 f = scattered(n, 5.1);
-  nothing.add_elastic(s, f);
+  add_elastic(nothing, s, f);
   CHECK(f == scattered(n, 5.1));
-  CHECK(nothing.energy(s) == 0);
+  CHECK(energy_of(nothing, s) == 0);
   DampingOperator damping;
-  nothing.prepare_damping(s, damping);
+  prepare_damping(nothing, s, damping);
   CHECK(damping.custom.empty());
   ForceDifferential differential;
   nothing.add_elastic_differential(s, Definiteness::exact, differential);
@@ -149,12 +149,12 @@ TEST_CASE("a custom force is asked at the state for which it was prepared") {
   const State s = state();
   const PerParticle3 start = scattered(n, 5.1), moved = scattered(n, 6.2);
   PerParticle3 f = start;
-  force.add_elastic(s, f);
+  add_elastic(force, s, f);
   CHECK(agree(f, start - 2.3 * 0.37 * s.x, 1e-15));
-  CHECK(force.energy(s) == Approx(1.15 * 0.37 * s.x.squaredNorm()));
+  CHECK(energy_of(force, s) == Approx(1.15 * 0.37 * s.x.squaredNorm()));
 
   DampingOperator damping;
-  force.prepare_damping(s, damping);
+  prepare_damping(force, s, damping);
   f = start;
   damping.add_product(moved, f);
   CHECK(agree(f, start - 0.7 * 0.37 * moved, 1e-15));
@@ -194,7 +194,7 @@ TEST_CASE("damping is that of all forces that damp, and counts as one preparatio
   const auto matrix = [&](const std::vector<Force>& forces) {
     Work work;
     work.damping_preparations = 3;
-    const DampingOperator damping = damping_at(forces, s, work);
+    const DampingOperator damping = *damping_at(forces, s, work);
     CHECK(work.damping_preparations == 4);
     work.damping_preparations = 0;
     CHECK(counted(work) == counted(Work{}));
@@ -247,7 +247,7 @@ TEST_CASE("derivatives are those of all forces that have one, and count as one p
       Work work;
       PerParticle3 f = elastic_forces(forces, moved, work);
       // custom forces contribute their elastic part only
-      DampingOperator damping = damping_at(forces, moved, work);
+      DampingOperator damping = *damping_at(forces, moved, work);
       damping.custom.clear();
       damping.add_product(s.v, f);
       return f;
@@ -314,11 +314,9 @@ TEST_CASE("the negative part of a matrix keeps its modes of negative eigenvalue,
 TEST_CASE("the bound of damping rates is the largest row sum over its mass") {
   DampingOperator damping;
   const Vector3 along(0.3, -0.2, 0.5), other(0.1, 0.6, -0.4), third(-0.5, 0.2, 0.7);
-  *damping.add_pairs(1, {}) = {3, 1, along};
-  *damping.add_pairs(1, {}) = {1, 4, other};
-  *damping.add_pairs(1, {}) = {3, 4, third};
+  damping.pairs = {{3, 1, along}, {1, 4, other}, {3, 4, third}};
   const Vector3 w1(0.12, -0.31, 0.07), w2(-0.22, 0.05, 0.41);
-  *damping.add_hinges(1, {}) = {{2, 0, 4, 1}, 0.37, -0.24, w1, w2};
+  damping.hinges = {{{2, 0, 4, 1}, 0.37, -0.24, w1, w2}};
   const Vector3 w3 = -0.37 * w1 + 0.24 * w2, w4 = -0.63 * w1 - 1.24 * w2;
   const double sum = w1.norm() + w2.norm() + w3.norm() + w4.norm();
   PerParticle rows(n);
@@ -347,10 +345,10 @@ TEST_CASE("the bound of frequencies is the root of the largest row sum over its 
   s.v = {};
   const std::vector<Force> forces = all_forces();
   PerParticle all = PerParticle::Zero(n), without = PerParticle::Zero(n);
-  springs().add_stiffness_bound(s, all);
-  bending().add_stiffness_bound(s, all);
+  add_stiffness_bound(springs(), s, all);
+  add_stiffness_bound(bending(), s, all);
   without = all;
-  sticking().add_stiffness_bound(s, all);
+  add_stiffness_bound(sticking(), s, all);
   sticking().add_bound_without_springs(s, without);
   CHECK(all.minCoeff() > 0);
   CHECK((all - without).minCoeff() >= 0);

@@ -62,7 +62,7 @@ TEST_CASE("forces and filters come in their order, with the masses and settings 
   CHECK(std::get<Gravity>(system.forces[0]).acceleration == Vector3(0, -9.80665, 0));
   CHECK(std::get<Gravity>(system.forces[0]).mass == system.mass);
   CHECK(std::get<StretchSprings>(system.forces[1]).springs.size() == 5);
-  CHECK(std::get<Bending>(system.forces[2]).hinges.at(0).rest_angle == scene.rest_angles[0]);
+  CHECK(std::get<Bending>(system.forces[2]).hinges[0].rest_angle == scene.rest_angles[0]);
   CHECK(std::get<Bending>(system.forces[2]).material.stiffness == 0.003);
   CHECK(std::get<Sticking>(system.forces[3]).patches.at(0).name == "cloth 1");
   REQUIRE(system.filters.size() == 3);

@@ -1,0 +1,31 @@
+// Several runs of one system at once: what a run keeps belongs to it alone.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <thread>
+
+#include "verification/specimens/followed_runs.h"
+
+using namespace foldproof;
+
+TEST_CASE("two runs of one system at once have the bits of a run alone") {
+  const std::vector<NamedRun> runs = runs_of_all_parts();
+  for (const char* name : {"layers", "sticking"}) {
+    const NamedRun& of = *std::ranges::find(runs, std::string(name), &NamedRun::name);
+    System system = build_system(of.scene);
+    set_team(system, 2);
+    const auto run = [&] {
+      Followed followed;
+      followed.result = simulate(system, integrator_named(of.integrator), start_state(of.scene),
+                                 of.scene.schedule, follower(followed));
+      return numbers_after(followed, 0, 0, 0);
+    };
+    const Numbers alone = run();
+    REQUIRE(alone.size() > 100);
+    Numbers first, second;
+    {
+      const std::jthread one([&] { first = run(); }), other([&] { second = run(); });
+    }
+    CHECK(bits_that_differ(alone, first) == 0);
+    CHECK(bits_that_differ(alone, second) == 0);
+  }
+}
