@@ -19,40 +19,45 @@ namespace foldproof {
 
 namespace {
 
-/// Makes a run happen before an observer.
-using Runner = std::function<RunResult(const Observer&)>;
+/// All that watch one run, in the order in which they are told.
+using Observers = std::vector<Observer>;
 
-Runner from_the_start(const BuiltCase& of) {
-  return [&of](const Observer& observer) {
-    const Scene& scene = of.input_case.scene;
-    return simulate(of.built.system, integrator_named(scene.integrator), of.built.start,
-                    scene.schedule, observer);
-  };
-}
-
-/// Watches as `observer` does and writes a checkpoint at every frame.
-Observer writing_checkpoints(const Observer& observer, const CheckpointFolder& checkpoints,
-                             std::vector<Diagnostics>& rows) {
-  return {observer.frame,
-          [&](const Diagnostics& row) {
-            rows.push_back(row);
-            observer.step(row);
+Observer all_of(Observers list) {
+  return {[list](const State& s) {
+            for (const Observer& one : list)
+              if (one.frame) one.frame(s);
           },
-          [&](const Checkpoint& now) {
-            observer.checkpoint(now);
-            checkpoints.write({now, rows});
-            rows.clear();
+          [list](const Diagnostics& row) {
+            for (const Observer& one : list)
+              if (one.step) one.step(row);
+          },
+          [list](const Checkpoint& now) {
+            for (const Observer& one : list)
+              if (one.checkpoint) one.checkpoint(now);
           }};
 }
 
-/// Replays all callbacks up to the last checkpoint, then continues the run.
+/// Makes a run happen before observers.
+using Runner = std::function<RunResult(const Observers&)>;
+
+Runner from_the_start(const BuiltCase& of) {
+  return [&of](const Observers& observers) {
+    const Scene& scene = of.input_case.scene;
+    return simulate(of.built.system, integrator_named(scene.integrator), of.built.start,
+                    scene.schedule, all_of(observers));
+  };
+}
+
+/// Replays all callbacks up to the last checkpoint, then continues the run, with a checkpoint
+/// at every frame.
 Runner from_checkpoints(const BuiltCase& of, const CheckpointFolder& checkpoints, Start start) {
-  return [&of, &checkpoints, start](const Observer& observer) {
+  return [&of, &checkpoints, start](Observers observers) {
     std::optional<Checkpoint> last;
+    const Observer before = all_of(observers);
     const auto replay = [&](const CheckpointRecord& record) {
-      for (const Diagnostics& row : record.rows) observer.step(row);
-      observer.frame(record.at.past.back());
-      observer.checkpoint(record.at);
+      for (const Diagnostics& row : record.rows) before.step(row);
+      before.frame(record.at.past.back());
+      before.checkpoint(record.at);
     };
     if (start == Start::fresh)
       checkpoints.remove_from(0);
@@ -62,57 +67,46 @@ Runner from_checkpoints(const BuiltCase& of, const CheckpointFolder& checkpoints
       log_line(last ? fmt::format("resumed from frame {}, t = {:.6g} s, after {} steps",
                                   last->frame, last->past.back().time, last->steps)
                     : "there is no checkpoint to resume from: started anew");
-    std::vector<Diagnostics> rows;
-    const Observer all = writing_checkpoints(observer, checkpoints, rows);
-    if (!last) return from_the_start(of)(all);
+    std::vector<Diagnostics> rows;  // since the latest checkpoint
+    observers.push_back(Observer{{},
+                                 [&](const Diagnostics& row) { rows.push_back(row); },
+                                 [&](const Checkpoint& now) {
+                                   checkpoints.write({now, rows});
+                                   rows.clear();
+                                 }});
+    if (!last) return from_the_start(of)(observers);
     const Scene& scene = of.input_case.scene;
-    return resume(of.built.system, integrator_named(scene.integrator), *last, scene.schedule, all);
+    return resume(of.built.system, integrator_named(scene.integrator), *last, scene.schedule,
+                  all_of(observers));
   };
 }
 
-/// Runs the case; `also` watches beside the judge.
-std::vector<Record> judged_run(const BuiltCase& of, const Runner& run, const Observer& also,
+/// Runs the case before its judge and the others.
+std::vector<Record> judged_run(const BuiltCase& of, const Runner& run, Observers others,
                                const Progress& progress, RunResult& result) {
   CaseJudge judge(of.input_case, of.built.objects, of.level_sets);
-  result = run({[&](const State& s) {
-                  judge.record(s);
-                  if (also.frame) also.frame(s);
-                },
-                [&](const Diagnostics& row) {
-                  judge.record(row);
-                  if (also.step) also.step(row);
-                  progress(row.time / of.input_case.scene.schedule.end);
-                },
-                [&](const Checkpoint& now) {
-                  judge.record(now);
-                  if (also.checkpoint) also.checkpoint(now);
-                }});
+  const Observer judging{[&](const State& s) { judge.record(s); },
+                         [&](const Diagnostics& row) { judge.record(row); },
+                         [&](const Checkpoint& now) { judge.record(now); }};
+  others.insert(others.begin(), judging);
+  const double end = of.input_case.scene.schedule.end;
+  others.push_back(Observer{{}, [&](const Diagnostics& row) { progress(row.time / end); }});
+  result = run(others);
   return judge.records(result);
 }
 
-Observer joined(const Observer& a, const Observer& b) {
-  return {[=](const State& s) {
-            for (const Observer* one : {&a, &b})
-              if (one->frame) one->frame(s);
-          },
-          [=](const Diagnostics& row) {
-            for (const Observer* one : {&a, &b})
-              if (one->step) one->step(row);
-          }};
-}
-
 /// Runs the case, judges it and measures its quantities.
-CaseRun measured_run(const BuiltCase& of, const Runner& run, const Observer& also,
+CaseRun measured_run(const BuiltCase& of, const Runner& run, Observers others,
                      const Progress& progress) {
   const Scene& scene = of.input_case.scene;
   const std::vector<Measurement> measurements =
       of.input_case.quantities.empty() ? usual_measurements(scene, {}) : of.input_case.quantities;
   Measurer measurer(scene, of.built, measurements);
-  const Observer measuring{[&](const State& s) { measurer.record(s); },
-                           [&](const Diagnostics& row) { measurer.record(row); }};
+  others.push_back(Observer{[&](const State& s) { measurer.record(s); },
+                            [&](const Diagnostics& row) { measurer.record(row); }});
   const auto start = std::chrono::steady_clock::now();
   CaseRun done;
-  done.findings = judged_run(of, run, joined(also, measuring), progress, done.result);
+  done.findings = judged_run(of, run, others, progress, done.result);
   const std::vector<double> values = measurer.values(done.result);
   for (size_t k = 0; k < values.size(); ++k)
     done.quantities.push_back({measurements[k].name, values[k], unit_of(measurements[k])});
@@ -125,10 +119,9 @@ CaseRun measured_run(const BuiltCase& of, const Runner& run, const Observer& als
 
 CaseRun recorded_run(const BuiltCase& of, const Runner& run, TrajectoryFile& trajectory,
                      const Progress& progress) {
-  CaseRun done = measured_run(of, run,
-                              {[&](const State& s) { trajectory.add_frame(s); },
-                               [&](const Diagnostics& row) { trajectory.add_diagnostics(row); }},
-                              progress);
+  const Observer writing{[&](const State& s) { trajectory.add_frame(s); },
+                         [&](const Diagnostics& row) { trajectory.add_diagnostics(row); }};
+  CaseRun done = measured_run(of, run, {writing}, progress);
   done.record.file = done.record.name + ".h5";
   trajectory.finish(done.record.stopped, done.record.seconds, done.findings);
   return done;
