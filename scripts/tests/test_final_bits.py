@@ -19,8 +19,13 @@ from program_case import ProgramCase
 
 LIBRARY = ("glibc", "2.36")  # with which the constant was made, on x86-64 with fused operations
 EXPECTED = "3d46a39b94f4c4d8b3c6aeec50bd2d9d07d2bf57e22a6ffcf51c37d37bc765d5"
-CASES = [("hanging_sheet", 0.04), ("flag_drop", 0.03), ("pinch", 0.05), ("hard/biphasic_pull", 0.02),
-         ("hard/reef_fold", 0.01)]  # case, end [s]
+CASES = [  # case, end [s]
+    ("hanging_sheet", 0.04),
+    ("flag_drop", 0.03),
+    ("pinch", 0.05),
+    ("hard/biphasic_pull", 0.02),
+    ("hard/reef_fold", 0.01),
+]
 
 
 def is_the_same_machine() -> bool:
