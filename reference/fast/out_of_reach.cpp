@@ -1,5 +1,6 @@
 #include "reference/fast/out_of_reach.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace foldproof {
@@ -14,12 +15,27 @@ constexpr double steepest = 2;
 
 }  // namespace
 
-bool out_of_reach(const ObjectsOverSpan& objects, const Vector3& p, const Vector3& v, double time) {
-  const double moved = steepest * (p - objects.queried_point()).norm();  // NaN before any query
-  for (const ObjectPoint& answer : objects.answers()) {
-    const double clearance = answer.phi - moved;  // m, at least
-    if (!(clearance > 0) || std::isinf(clearance)) return false;
-    const double squared_speed = objects.squared_relative_speed(answer.part, p, v);
+RememberedQuery::RememberedQuery(std::span<const Object> objects, const Span& span)
+    : objects_(objects, span), phi_(objects.size(), std::numeric_limits<double>::infinity()) {
+  for (const Object& object : objects) {
+    const auto* rigid = std::get_if<RigidObject>(&object.body);
+    rigid_.push_back(rigid ? std::optional(rigid->over(span)) : std::nullopt);
+  }
+}
+
+std::span<ObjectPoint> RememberedQuery::at(const Vector3& p) {
+  const std::span<ObjectPoint> answers = objects_.at(p);
+  std::ranges::transform(answers, phi_.begin(), &ObjectPoint::phi);
+  point_ = p;
+  return answers;
+}
+
+bool RememberedQuery::out_of_reach(const Vector3& p, const Vector3& v, double time) const {
+  const double moved = steepest * (p - point_).norm();
+  for (std::size_t i = 0; i < phi_.size(); ++i) {
+    const double clearance = phi_[i] - moved;  // m, at least
+    if (!(clearance > 0) || std::isinf(clearance) || !rigid_[i]) return false;
+    const double squared_speed = (v - rigid_[i]->velocity_at(p)).squaredNorm();
     if (!(clearance * clearance > time * time * squared_speed)) return false;
   }
   return true;

@@ -20,9 +20,9 @@ void set_velocity(const CollisionPoint& point, const Vector3& before, const Vect
     v.col(point.particles[size_t(k)]) += point.shares[k] * (after - before);
 }
 
-/// What a point needs to know of the one before it.
+/// The previous point in the loop: a point out of reach of its answers is not queried.
 struct Neighbour {
-  ObjectsOverSpan around;  // and its latest query
+  RememberedQuery around;
   Work work = {};
 };
 
@@ -40,14 +40,14 @@ void ObjectCollision::correct(const Span& span, const State& s, PerParticle3& v,
   const auto correct_point = [&](const CollisionPoint& point, Neighbour& last) {
     const Vector3 p = point.mean(s.x), before = point.mean(v);
     const Vector3 place = ahead ? Vector3(p + (span.end - span.start) * before) : p;
-    if (out_of_reach(last.around, place, before, std::max(tau, span.step))) return;
+    if (last.around.out_of_reach(place, before, std::max(tau, span.step))) return;
     const Vector3 after = response.velocity(last.around.at(place), {p, before, span, tau});
     ++last.work.object_queries;
     if (after == before) return;
     if (moves) ++last.work.object_contacts;
     set_velocity(point, before, after, v);
   };
-  const ObjectsOverSpan around(objects, ahead ? Span{span.end, span.end, span.step} : span);
+  const RememberedQuery around(objects, ahead ? Span{span.end, span.end, span.step} : span);
   for (const Neighbour& last : for_each_with(team, points, Neighbour{around}, correct_point))
     add(work, last.work);
 }

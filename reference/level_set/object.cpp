@@ -73,13 +73,7 @@ std::span<ObjectPoint> ObjectsOverSpan::at(const Vector3& p) {
     answers_[i].part = int(i);
     answers_[i].friction = friction_[i];
   }
-  queried_point_ = p;
   return answers_;
-}
-
-double ObjectsOverSpan::squared_relative_speed(int part, const Vector3& p, const Vector3& v) const {
-  return std::visit([&](const auto& over) { return over.squared_relative_speed(p, v); },
-                    bodies_[std::size_t(part)]);
 }
 
 Nearest nearest_objects(std::span<const Object> objects, const Vector3& p, const Span& span) {

@@ -36,17 +36,14 @@ struct ObjectPoint {
 /// A rigid object during a span: its poses and velocity, shared by all points and computed once.
 struct RigidOverSpan {
   const Solid* solid;
-  Eigen::Matrix3d rotation;  // the solid's point X is at x = turned X + moved at the span's start
-  Eigen::Matrix3d inverse_rotation;  // turned's inverse
-  Vector3 translation;               // m
+  Eigen::Matrix3d rotation;  // at the span's start x = rotation X + translation; X in the solid
+  Eigen::Matrix3d inverse_rotation;
+  Vector3 translation;   // m
   Eigen::Matrix3d spin;  // the object's point at p has the velocity drift + spin (p - pivot) [1/s]
   Vector3 drift, pivot;  // m/s, m
 
   ObjectPoint at(const Vector3& p) const;
   Vector3 velocity_at(const Vector3& p) const { return drift + spin * (p - pivot); }  // m/s
-  double squared_relative_speed(const Vector3& p, const Vector3& v) const {
-    return (v - velocity_at(p)).squaredNorm();  // m^2/s^2
-  }
 };
 
 /// A solid in rigid motion: first placed, then moved.
@@ -64,10 +61,6 @@ struct DeformingOverSpan {
   Span span;
 
   ObjectPoint at(const Vector3& p) const;
-  /// Unknown without a query.
-  double squared_relative_speed(const Vector3&, const Vector3&) const {
-    return std::numeric_limits<double>::infinity();
-  }
 };
 
 /// A body deformed by its animation; copies share it.
@@ -106,18 +99,10 @@ class ObjectsOverSpan {
   /// Each object's answer at p, in order; overwritten by the next call.
   std::span<ObjectPoint> at(const Vector3& p);
 
-  /// The last answers, in the order that a caller left them in, and their point: NaN before any.
-  std::span<const ObjectPoint> answers() const { return answers_; }
-  const Vector3& queried_point() const { return queried_point_; }
-
-  /// Of object `part` at p against velocity v [m^2/s^2]; infinite if unknown without a query.
-  double squared_relative_speed(int part, const Vector3& p, const Vector3& v) const;
-
  private:
   std::vector<std::variant<RigidOverSpan, DeformingOverSpan>> bodies_;
   std::vector<double> friction_;
   std::vector<ObjectPoint> answers_;
-  Vector3 queried_point_ = Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
 };
 
 Nearest nearest_objects(std::span<const Object> objects, const Vector3& p, const Span& span);

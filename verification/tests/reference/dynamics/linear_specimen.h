@@ -3,6 +3,7 @@
 
 #include "reference/dynamics/newton_matrix.h"
 #include "verification/tests/reference/dynamics/dynamics_specimen.h"
+#include "verification/specimens/solver_problems.h"
 
 namespace foldproof {
 
@@ -89,15 +90,6 @@ inline Iterate stabilised_gradients(const Eigen::MatrixXd& B, const Eigen::Vecto
     r = left - omega * t;
   }
   return {y, (b - B * y).norm()};
-}
-
-inline System system_of(const PerParticle& mass, const PerParticle& inverse_mass,
-                        const SolverSettings& settings) {
-  System system;
-  system.mass = mass;
-  system.inverse_mass = inverse_mass;
-  system.solver = settings;
-  return system;
 }
 
 inline SolverSettings settings_of(double tolerance, int iterations) {

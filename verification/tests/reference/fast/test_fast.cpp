@@ -82,51 +82,18 @@ TEST_CASE("threads: a loop waits for its last part") {
   }
 }
 
-TEST_CASE("threads: parts are on threads of their own, again and again") {
-  for (int round = 0; round < 5; ++round) {
-    std::barrier all_have_begun(3);
-    std::mutex guard;
-    std::set<std::thread::id> threads;
-    in_parallel(3, [&](int) {
-      all_have_begun.arrive_and_wait();
-      const std::lock_guard lock(guard);
-      threads.insert(std::this_thread::get_id());
-    });
-    CHECK(threads.size() == 3);
-    CHECK(threads.contains(std::this_thread::get_id()));  // the caller works too
-  }
-}
-
-TEST_CASE("threads: a caller that has done its part sleeps until the others have ended") {
-  std::barrier all_have_begun(2);
-  const std::thread::id caller = std::this_thread::get_id();
-  std::atomic<bool> other_ended = false;
+TEST_CASE("threads: the parts of a loop are under way at once") {
+  if (std::thread::hardware_concurrency() < 2) return;
+  std::barrier both_have_begun(2);
+  std::set<std::thread::id> threads;
+  std::mutex guard;
   in_parallel(2, [&](int) {
-    all_have_begun.arrive_and_wait();
-    if (std::this_thread::get_id() == caller) return;
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    other_ended = true;
+    both_have_begun.arrive_and_wait();
+    const std::lock_guard lock(guard);
+    threads.insert(std::this_thread::get_id());
   });
-  CHECK(other_ended);
-}
-
-TEST_CASE("threads: helpers are kept for the next loop, and loops of one thread do without") {
-  static thread_local int rounds_here = 0;
-  const auto rounds_of_each = [] {
-    std::barrier all_have_begun(3);
-    std::array<int, 3> rounds{};
-    in_parallel(3, [&](int k) {
-      all_have_begun.arrive_and_wait();
-      rounds[size_t(k)] = ++rounds_here;
-    });
-    return rounds;
-  };
-  CHECK(rounds_of_each() == std::array{1, 1, 1});
-  CHECK(rounds_of_each() == std::array{2, 2, 2});
-  CHECK(ranges_of(1, 7).size() == 1);
-  CHECK(rounds_of_each() == std::array{3, 3, 3});
-  found_in_order<int>(1, 7, [](Eigen::Index, Eigen::Index, std::vector<int>&) {});
-  CHECK(rounds_of_each() == std::array{4, 4, 4});
+  CHECK(threads.size() == 2);
+  CHECK(threads.contains(std::this_thread::get_id()));  // the caller works too
 }
 
 TEST_CASE("threads: what the lowest part threw is thrown, after all parts have ended") {
@@ -378,70 +345,70 @@ TEST_CASE("elements: an error that does not come again is thrown all the same") 
 
 TEST_CASE("a point is out of reach if its clearance is more than the way it may go") {
   const std::vector<Object> objects{half_space(Vector3::Zero(), 0)};
-  ObjectsOverSpan over(objects, {0, 0, 0.1});
+  RememberedQuery over(objects, {0, 0, 0.1});
   over.at({0.3, -0.7, 0.5});
   // 0.125 m beside the query: clearance 0.5 - 2 * 0.125 = 0.25 m
   const Vector3 p(0.3, -0.575, 0.5);
-  CHECK(out_of_reach(over, p, {0, 0.4, 0.3}, 0.49));        // 0.245 m
-  CHECK_FALSE(out_of_reach(over, p, {0, 0.4, 0.3}, 0.51));  // 0.255 m
-  CHECK(out_of_reach(over, p, {0, 1.6, 1.2}, 0.12));        // 0.24 m
-  CHECK_FALSE(out_of_reach(over, p, {0, 1.6, 1.2}, 0.13));  // 0.26 m
-  CHECK(out_of_reach(over, p, Vector3::Zero(), 30));
+  CHECK(over.out_of_reach(p, {0, 0.4, 0.3}, 0.49));        // 0.245 m
+  CHECK_FALSE(over.out_of_reach(p, {0, 0.4, 0.3}, 0.51));  // 0.255 m
+  CHECK(over.out_of_reach(p, {0, 1.6, 1.2}, 0.12));        // 0.24 m
+  CHECK_FALSE(over.out_of_reach(p, {0, 1.6, 1.2}, 0.13));  // 0.26 m
+  CHECK(over.out_of_reach(p, Vector3::Zero(), 30));
 }
 
 TEST_CASE("clearance shrinks by twice the distance from the query, and none is not enough") {
   const std::vector<Object> objects{half_space(Vector3::Zero(), 0)};
-  ObjectsOverSpan over(objects, {0, 0, 0.1});
+  RememberedQuery over(objects, {0, 0, 0.1});
   over.at({0.3, -0.7, 0.5});
-  CHECK(out_of_reach(over, {0.54, -0.7, 0.5}, Vector3::Zero(), 0.2));
-  CHECK_FALSE(out_of_reach(over, {0.56, -0.7, 0.5}, Vector3::Zero(), 0.2));
-  CHECK_FALSE(out_of_reach(over, {1.3, -0.7, 0.5}, {0.1, 0, 0}, 0.2));
+  CHECK(over.out_of_reach({0.54, -0.7, 0.5}, Vector3::Zero(), 0.2));
+  CHECK_FALSE(over.out_of_reach({0.56, -0.7, 0.5}, Vector3::Zero(), 0.2));
+  CHECK_FALSE(over.out_of_reach({1.3, -0.7, 0.5}, {0.1, 0, 0}, 0.2));
   over.at({0.3, -0.7, -0.5});  // inside: not out of reach, though far from the surface
-  CHECK_FALSE(out_of_reach(over, {0.3, -0.7, -0.5}, {0.1, 0, 0}, 0.2));
+  CHECK_FALSE(over.out_of_reach({0.3, -0.7, -0.5}, {0.1, 0, 0}, 0.2));
 }
 
 TEST_CASE("clearances of more than a metre count as well as small ones") {
   const std::vector<Object> objects{half_space(Vector3::Zero(), 0)};
-  ObjectsOverSpan over(objects, {0, 0, 0.1});
+  RememberedQuery over(objects, {0, 0, 0.1});
   over.at({0.3, -0.7, 7.5});
-  CHECK(out_of_reach(over, {0.3, -0.7, 7.5}, {3, 0, 0}, 2.4));        // 7.2 m
-  CHECK_FALSE(out_of_reach(over, {0.3, -0.7, 7.5}, {3, 0, 0}, 2.6));  // 7.8 m
+  CHECK(over.out_of_reach({0.3, -0.7, 7.5}, {3, 0, 0}, 2.4));        // 7.2 m
+  CHECK_FALSE(over.out_of_reach({0.3, -0.7, 7.5}, {3, 0, 0}, 2.6));  // 7.8 m
 }
 
 TEST_CASE("it is the velocity against the object that brings a point within reach") {
   const Vector3 fast(0, 3, 4);
   const std::vector<Object> objects{half_space(fast, 0)};
-  ObjectsOverSpan over(objects, {0, 0, 0.1});
+  RememberedQuery over(objects, {0, 0, 0.1});
   const Vector3 p(0.3, -0.7, 0.5);
   over.at(p);
-  CHECK(out_of_reach(over, p, fast, 10));
-  CHECK(out_of_reach(over, p, Vector3::Zero(), 0.09));        // 5 m/s: 0.45 m
-  CHECK_FALSE(out_of_reach(over, p, Vector3::Zero(), 0.11));  // 0.55 m
+  CHECK(over.out_of_reach(p, fast, 10));
+  CHECK(over.out_of_reach(p, Vector3::Zero(), 0.09));        // 5 m/s: 0.45 m
+  CHECK_FALSE(over.out_of_reach(p, Vector3::Zero(), 0.11));  // 0.55 m
 }
 
-TEST_CASE("a point is out of reach of every object or of none, in any order of answers") {
+TEST_CASE("a point is out of reach of every object or of none, whoever sorts the answers") {
   const std::vector<Object> objects{half_space(Vector3::Zero(), -0.9), half_space({0, 3, 4}, -0.2)};
-  ObjectsOverSpan over(objects, {0, 0, 0.1});
+  RememberedQuery over(objects, {0, 0, 0.1});
   const Vector3 p(0.3, -0.7, 0.5), v(0, 0.3, 0.4);  // clearances 1.4 m and 0.7 m
   for (const bool reversed : {false, true}) {
     const auto answers = over.at(p);
     if (reversed) std::swap(answers[0], answers[1]);
     // against the second object 4.5 m/s: 0.63 m and 0.72 m
-    CHECK(out_of_reach(over, p, v, 0.14));
-    CHECK_FALSE(out_of_reach(over, p, v, 0.16));
+    CHECK(over.out_of_reach(p, v, 0.14));
+    CHECK_FALSE(over.out_of_reach(p, v, 0.16));
     // along with the second object 5 m/s against the first: 1.35 m and 1.45 m
-    CHECK(out_of_reach(over, p, {0, 3, 4}, 0.27));
-    CHECK_FALSE(out_of_reach(over, p, {0, 3, 4}, 0.29));
+    CHECK(over.out_of_reach(p, {0, 3, 4}, 0.27));
+    CHECK_FALSE(over.out_of_reach(p, {0, 3, 4}, 0.29));
   }
 }
 
 TEST_CASE("without a query, or with an answer that knows no distance, nothing is out of reach") {
   const std::vector<Object> objects{half_space(Vector3::Zero(), 0)};
-  ObjectsOverSpan over(objects, {0, 0, 0.1});
+  RememberedQuery over(objects, {0, 0, 0.1});
   const Vector3 p(0.3, -0.7, 0.5);
-  CHECK_FALSE(out_of_reach(over, p, Vector3::Zero(), 0.2));
-  over.at(p)[0].phi = std::numeric_limits<double>::infinity();
-  CHECK_FALSE(out_of_reach(over, p, Vector3::Zero(), 0.2));
-  const ObjectsOverSpan nothing(std::span<const Object>(), {0, 0, 0.1});
-  CHECK(out_of_reach(nothing, p, {0.3, 0.2, 0.1}, 0.2));
+  CHECK_FALSE(over.out_of_reach(p, Vector3::Zero(), 0.2));
+  over.at({0.3, -0.7, std::numeric_limits<double>::infinity()});
+  CHECK_FALSE(over.out_of_reach(p, Vector3::Zero(), 0.2));
+  const RememberedQuery nothing(std::span<const Object>(), {0, 0, 0.1});
+  CHECK(nothing.out_of_reach(p, {0.3, 0.2, 0.1}, 0.2));
 }

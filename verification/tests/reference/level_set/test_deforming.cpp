@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 
+#include "reference/fast/out_of_reach.h"
 #include "reference/level_set/object.h"
 #include "reference/level_set/octree_nodes.h"
 
@@ -220,19 +221,21 @@ TEST_CASE("a deforming object answers as at a span's start, with the mean veloci
   check_point({of_span.phi, of_span.normal, of_span.velocity}, {now.phi, now.normal, moved / 1.2});
 }
 
-TEST_CASE("how fast a deforming object moves is not known without a query") {
+TEST_CASE("a deforming object answers beside a rigid one") {
   const std::vector<Object> objects{
       {"floor", RigidObject{HalfSpace{}, {}, Motion{}}, 0.3},
       {"body",
        DeformingObject{std::make_shared<const DeformingBody>(body_of(BetweenFrames::carried))},
        0.6}};
   ObjectsOverSpan over(objects, {0.5, 1.7, 0.2});
-  CHECK(over.squared_relative_speed(0, places[0], {0.2, 0.3, 0.6}) == Approx(0.49));
-  CHECK(std::isinf(over.squared_relative_speed(1, places[0], {0.2, 0.3, 0.6})));
   const auto answers = over.at(places[0]);
   CHECK(answers[1].part == 1);
   CHECK(answers[1].friction == 0.6);
   CHECK(answers[1].phi == deforming_at(body_of(BetweenFrames::carried), places[0], 0.5).phi);
+  RememberedQuery remembered(objects, {0.5, 1.7, 0.2});
+  const Vector3 away = places[0] + Vector3(0, 0, 3);
+  for (const ObjectPoint& answer : remembered.at(away)) CHECK(answer.phi > 0);
+  CHECK_FALSE(remembered.out_of_reach(away, Vector3::Zero(), 0));  // its speed is not known
 }
 
 TEST_CASE("a frame that was not made from a mesh has counted no nodes") {
