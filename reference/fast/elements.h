@@ -18,6 +18,23 @@
 
 namespace foldproof {
 
+/// An allocator that leaves new elements of a vector unfilled, for threads to fill.
+template <class T>
+struct Unfilled : std::allocator<T> {
+  template <class U>
+  struct rebind {
+    using other = Unfilled<U>;
+  };
+  template <class U>
+  void construct(U* place) {
+    ::new (static_cast<void*>(place)) U;
+  }
+  template <class U, class... Arguments>
+  void construct(U* place, Arguments&&... arguments) {
+    ::new (static_cast<void*>(place)) U{std::forward<Arguments>(arguments)...};
+  }
+};
+
 /// Consecutive elements; is_inside: all their particles belong to the thread.
 struct ElementRun {
   size_t first, end;
@@ -140,7 +157,7 @@ class Elements {
     });
   }
 
-  /// The largest term(element, other); 0 if none is larger, and a NaN is none.
+  /// The largest term(element, other) above 0; else 0. Skips NaN.
   template <class Other, class Term>
   double largest(const Elements<Other>& others, const Term& term) const {
     const auto find = [&](Eigen::Index first, Eigen::Index count, std::vector<double>& found) {

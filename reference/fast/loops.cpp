@@ -1,8 +1,15 @@
 #include "reference/fast/loops.h"
 
-#include <atomic>
+#include <algorithm>
 #include <exception>
+#include <memory>
+#ifdef FOLDPROOF_HAS_TBB
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+#else
 #include <thread>
+#endif
 
 #include "reference/fast/elements.h"
 
@@ -10,73 +17,31 @@ namespace foldproof {
 
 namespace {
 
-// A thread that waits looks so often before it sleeps: some tens of microseconds, the time between
-// two loops of a step. Where other programs need the core, it goes to them at once.
-constexpr int looks_before_sleep = 100;
-
-/// Waits until the value is no longer `old`; returns it.
-int next_value(const std::atomic<int>& value, int old) {
-  for (int k = 0; k < looks_before_sleep && value == old; ++k) std::this_thread::yield();
-  value.wait(old);
-  return value;
+#ifdef FOLDPROOF_HAS_TBB
+/// At most so many threads, and at most one a core. The calling one is among them, and keeps it
+/// for its next loop.
+tbb::task_arena& arena_of(int parts) {
+  const int threads = std::min(parts, tbb::info::default_concurrency());
+  thread_local std::unique_ptr<tbb::task_arena> arena;
+  if (!arena || arena->max_concurrency() != threads)
+    arena = std::make_unique<tbb::task_arena>(threads);
+  return *arena;
 }
 
-/// The calling thread and its helpers. Whoever is free takes the next part: where other programs
-/// need the cores, the caller waits for nobody who has not begun. The last part comes first, so
-/// that results that depend on the order differ from those of one thread even on one core.
-class Helpers {
- public:
-  explicit Helpers(int threads) : threads_(threads) {
-    for (int k = 1; k < threads; ++k) others_.emplace_back([this] { work(); });
-  }
-  ~Helpers() {
-    ends_ = true;
-    start_round();
-  }
-  int threads() const { return threads_; }
-
-  /// As many parts as threads; act must not throw.
-  void run(const std::function<void(int)>& act) {
-    act_ = &act;
-    unfinished_ = threads_;
-    next_part_ = threads_;
-    start_round();
-    take_parts();
-    for (int left = unfinished_; left > 0;) left = next_value(unfinished_, left);
-  }
-
- private:
-  void start_round() {
-    ++round_;
-    round_.notify_all();
-  }
-  void take_parts() {
-    for (int k = --next_part_; k >= 0; k = --next_part_) {
-      (*act_)(k);
-      if (--unfinished_ == 0) unfinished_.notify_one();
-    }
-  }
-  void work() {
-    for (int seen = 0;;) {
-      seen = next_value(round_, seen);
-      if (ends_) return;
-      take_parts();
-    }
-  }
-
-  const int threads_;
-  const std::function<void(int)>* act_ = nullptr;  // of the round, while a part is unfinished
-  std::atomic<bool> ends_ = false;
-  std::atomic<int> round_ = 0, unfinished_ = 0, next_part_ = 0;
-  std::vector<std::jthread> others_;  // the last member: it ends first
-};
-
-/// Of the calling thread, which keeps it for its next loop.
-Helpers& helpers_of(int threads) {
-  thread_local std::unique_ptr<Helpers> helpers;
-  if (!helpers || helpers->threads() != threads) helpers = std::make_unique<Helpers>(threads);
-  return *helpers;
+template <class Act>
+void run_parts(int parts, const Act& act) {
+  arena_of(parts).execute([&] { tbb::parallel_for(0, parts, act, tbb::simple_partitioner()); });
 }
+#else
+/// For builds without oneTBB, and for the thread sanitizer, which does not see into it. Slow: each
+/// loop starts its threads anew.
+template <class Act>
+void run_parts(int parts, const Act& act) {
+  std::vector<std::jthread> others;
+  for (int k = 1; k < parts; ++k) others.emplace_back([&act, k] { act(k); });
+  act(0);
+}
+#endif
 
 }  // namespace
 
@@ -86,7 +51,9 @@ Team::Team(int threads) : threads_(threads) {
 
 void in_parallel(int parts, const std::function<void(int)>& act) {
   std::vector<std::exception_ptr> thrown(static_cast<size_t>(parts));
-  helpers_of(parts).run([&](int k) {
+  run_parts(parts, [&](int from_last) {
+    // The last part comes first: results that depend on the order differ even on one core.
+    const int k = parts - 1 - from_last;
     try {
       act(k);
     } catch (...) {

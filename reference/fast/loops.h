@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <functional>
 #include <optional>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -16,12 +15,12 @@
 
 namespace foldproof {
 
-/// Calls act(k) for k from 0 to parts - 1, each on a thread of its own. If some throw, rethrows
-/// what the lowest k threw, after all have ended.
+/// Calls act(k) for k from 0 to parts - 1, at the same time as far as there are cores: no part may
+/// wait for another. Waits for all; then rethrows the exception of the lowest k, if any.
 void in_parallel(int parts, const std::function<void(int)>& act);
 
-/// act(arguments...), flattened: its loop holds all that it calls, whose results would else pass
-/// through memory.
+/// Calls act(arguments...) with every function inlined into its loop, so that results
+/// stay in registers.
 template <class Act, class... Arguments>
 [[gnu::flatten, gnu::noinline]] void call(const Act& act, const Arguments&... arguments) {
   act(arguments...);
@@ -54,7 +53,8 @@ void for_each_index(const Team& team, Eigen::Index n, const Act& act) {
   });
 }
 
-/// What find(first, count, found) appends to `found` for consecutive ranges of n items, in order.
+/// Calls find(first, count, found) for consecutive ranges of n items; each call appends to its own
+/// `found`. Returns these lists joined, in order.
 template <class Found, class Find>
 std::vector<Found> found_in_order(const Team& team, Eigen::Index n, const Find& find) {
   const int threads = team.threads();
@@ -83,9 +83,9 @@ std::vector<Found> found_among(const Team& team, const Items& items, const Find&
       });
 }
 
-/// For items of which each may change what later ones find: calls act(item, answer) in order where
-/// ask(item) has a value. Several threads ask about all items beforehand; where has_changed(item)
-/// says that the answer may be another by then, it is asked anew. Returns how often it acted.
+/// Calls act(item, answer) in order for each item whose ask(item) has a value. An act may change
+/// the answers of later items: has_changed(item) marks these. Several threads ask in advance; a
+/// marked item is asked again. Returns the number of acts.
 template <class Items, class Ask, class HasChanged, class Act>
 long act_in_order(const Team& team, const Items& items, const Ask& ask,
                   const HasChanged& has_changed, const Act& act) {
@@ -141,22 +141,5 @@ double sum_of_blocks(const Team& team, Eigen::Index n, Eigen::Index block, const
   for (const double one : sums) sum += one;
   return sum;
 }
-
-/// An allocator that leaves new elements of a vector unfilled, for threads to fill.
-template <class T>
-struct Unfilled : std::allocator<T> {
-  template <class U>
-  struct rebind {
-    using other = Unfilled<U>;
-  };
-  template <class U>
-  void construct(U* place) {
-    ::new (static_cast<void*>(place)) U;
-  }
-  template <class U, class... Arguments>
-  void construct(U* place, Arguments&&... arguments) {
-    ::new (static_cast<void*>(place)) U{std::forward<Arguments>(arguments)...};
-  }
-};
 
 }  // namespace foldproof

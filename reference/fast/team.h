@@ -3,8 +3,8 @@
 
 namespace foldproof {
 
-/// So many threads, the calling one among them. No result depends on their number. A loop with a
-/// number in place of a Team runs on a team of that many.
+/// At most so many threads, the calling one among them. No result depends on their number. A loop
+/// with a number in place of a Team runs on a team of that many.
 class Team {
  public:
   Team() = default;   // the calling thread alone

@@ -225,7 +225,7 @@ class Library(Installed):
         asked = ("0.1", "0.2", VERSION, "0.3", "1.0")
         lines = [
             "cmake_minimum_required(VERSION 3.25)",
-            "project(versions LANGUAGES NONE)",
+            "project(versions LANGUAGES CXX)",
             *(
                 f'find_package(foldproof {version} QUIET)\nmessage("${{foldproof_FOUND}}")'
                 for version in asked
@@ -279,8 +279,8 @@ class Package(Installed):
         self.assertEqual(self.package.name, f"foldproof_{VERSION}_{architecture}.deb")
         needs = output_of("dpkg-deb", "-f", self.package, "Depends")
         for name in (
-            "libc6", "libstdc++6", "libgsl", "libhdf5", "libfmt", "python3-matplotlib",
-            "python3-h5py", "python3-jinja2"
+            "libc6", "libstdc++6", "libgsl", "libhdf5", "libfmt", "libtbb",
+            "python3-matplotlib", "python3-h5py", "python3-jinja2"
         ):
             self.assertRegex(needs, rf"(^|, ){re.escape(name)}")
 
