@@ -18,7 +18,7 @@ struct Problem {
   Product A;
   const PerParticle& inverse_mass;
   const SolverSettings& settings;
-  double scale;  // what the residual's norm is compared with [kg^1/2 m/s]
+  double scale;  // the residual is relative to this norm [kg^1/2 m/s]
   Team team = {};
 };
 
@@ -52,7 +52,7 @@ double positive_or_one(double scale) { return scale > 0 ? scale : 1; }
 
 SolveResult solve_velocity(const System& system, const DampingOperator& D, double s,
                            PerParticle3& v, Work& work) {
-  if (D.empty()) {
+  if (D.empty()) {  // w = w0
     ++work.damping_products, ++work.solves;
     return {0, 0, true, false};
   }

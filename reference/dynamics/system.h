@@ -34,9 +34,9 @@ void set_team(System& system, const Team& team);
 /// does not exist.
 void prescribe(System& system, const PrescribedParticle& particle);
 
-/// Largest stable step of the undamped motion, from the bound on the elastic
-/// frequency: 2/omega [s]; infinite without stiffness. `work` of a run lets it reuse
-/// what the run keeps, here and below.
+/// Largest stable step of the undamped motion, from the bound on the elastic frequency: 2/omega
+/// [s]; infinite without stiffness. Here and below, the `work` of a run gives access to the values
+/// that the run keeps.
 double elastic_limit(const System& system, const State& s, const Work& work = {});
 
 /// The same for a scheme whose limit is widened by damping to h^2 K < 4 M + 2 h D (scheme C). In

@@ -63,7 +63,7 @@ void see_neighbours(bool has_custom, Table& measured) {
   }
 }
 
-const Integrator* forgetful_of = nullptr;
+thread_local const Integrator* forgetful_of = nullptr;
 
 /// The step of `forgetful_of` in a run that keeps nothing.
 State forgetful_step(const System& system, std::span<const State> past, double h, Work& work) {
