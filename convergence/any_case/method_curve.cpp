@@ -33,14 +33,15 @@ std::string how_filters_act(const TrialLevels& levels) {
   return words;
 }
 
-/// Of each step that was asked, with half of it.
+/// Of each step that was tried, with half of it, where neither run exceeded its budget.
 std::vector<LongerRun> longer_runs_of(const PrecisionPlan& plan, const TrialLevels& levels) {
   std::vector<LongerRun> asked;
   const auto energy = [](const TrialRun& run) {
     return is_whole(run) ? run.energy : LongerEnergy{nan, nan};
   };
   for (const auto& [parts, run] : levels)
-    if (const auto half = levels.find(2 * parts); half != levels.end())
+    if (const auto half = levels.find(2 * parts); half != levels.end() && run.over_budget == 0 &&
+                                                  !(is_whole(run) && half->second.over_budget > 0))
       asked.push_back({frame_of(plan) / parts, energy(run), energy(half->second)});
   return asked;
 }
@@ -79,15 +80,15 @@ TrialRun& run_of(Trials& trials, const PrecisionTrial& trial) {
   return (trial.times > 1 ? trials.longer : trials.runs)[trial.method][trial.parts];
 }
 
-int asked_parts(const PrecisionPlan& plan, double step) {
+int parts_of(const PrecisionPlan& plan, double step) {
   return int(std::ceil(frame_of(plan) / step * (1 - 1e-9)));
 }
 
 Bracket bracket_of(const PrecisionPlan& plan, const MethodCurve& curve, double wanted) {
   const double step = price_at(curve.curve, plan.input_case.scene.schedule.end, wanted).step;
   if (std::isnan(step)) return {};
-  const auto fine = std::ranges::find_if(
-      curve.parts, [&](int parts) { return parts >= asked_parts(plan, step); });
+  const auto fine =
+      std::ranges::find_if(curve.parts, [&](int parts) { return parts >= parts_of(plan, step); });
   if (fine == curve.parts.begin() || fine == curve.parts.end()) return {};
   const double unstable = shortest_unstable_step(curve.curve.longer);
   const int too_few = std::isfinite(unstable) ? int(std::lround(frame_of(plan) / unstable)) : 0;

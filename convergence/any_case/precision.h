@@ -22,7 +22,19 @@ struct PrecisionPlan {
   double budget;                     // of one run [visits]
   std::map<std::string, int> first;  // steps a frame that each method begins with
   PerParticle mass;                  // N, 0 where the motion is prescribed [kg]
+  // of the automatic step of each method, at the start [s]; infinite for fully implicit methods
+  std::map<std::string, double> limits;
+  int lasting_times = longer;  // a winning step must last so many times as long as the case [1]
 };
+
+/// Lets winning steps be tried at least until `end` [s], where the case that is asked
+/// for is shorter.
+void try_until(double end, PrecisionPlan& plan);
+
+/// The time until which winning steps are tried [s].
+inline double lasting_end(const PrecisionPlan& plan) {
+  return plan.lasting_times * plan.input_case.scene.schedule.end;
+}
 
 /// The methods, checked and in the order of the table of integrators, with what the truth needs
 /// beside them, and where each begins: with a step of at most four times the elastic limit at the
@@ -38,7 +50,7 @@ using TrialRuns = std::map<std::string, std::map<int, TrialRun>>;
 /// All runs so far.
 struct Trials {
   TrialRuns runs;    // as long as the case
-  TrialRuns longer;  // `longer` times as long: do the steps that would win last?
+  TrialRuns longer;  // `lasting_times` times as long: do the steps that would win last?
 };
 
 /// Where the trial's run belongs.
@@ -83,8 +95,8 @@ struct MethodCurve {
   double stable_step = nan, unstable_step = nan;
 };
 
-/// Steps a frame with which a step is asked whether it lasts: the fewest whose step is no longer.
-int asked_parts(const PrecisionPlan& plan, double step);
+/// The fewest steps a frame that are no longer than `step` [s].
+int parts_of(const PrecisionPlan& plan, double step);
 
 /// The curves of all methods, those for the truth last.
 std::vector<MethodCurve> method_curves(const PrecisionPlan& plan, const Trials& trials,
@@ -105,20 +117,24 @@ Bracket bracket_of(const PrecisionPlan& plan, const MethodCurve& curve, double w
 /// unless the next wanted error, by the order that it showed, costs more than the budget, or
 /// `dearest` times what the cheapest method pays. Then both opinions on the truth are refined until
 /// they agree. Then brackets of prices of methods that might be cheapest are narrowed to a quarter
-/// of a step. Then the steps of the cheapest methods are asked whether they last; where one does
-/// not, the search goes on.
+/// of a step. Then the steps of the cheapest methods are tried until lasting_end, with at most
+/// `dearest_trial` times the budget; where one does not last, the search goes on.
 std::vector<PrecisionTrial> next_trials(const PrecisionPlan& plan, const Trials& trials);
 
 constexpr double dearest = 16;
+constexpr double dearest_trial = 20;  // with half the step, twice as much
 
 /// The cost of one error with one method.
 struct MethodPrice {
   std::string method;
   Price price;
-  double spacing = nan;    // of the steps between which it lies [1]
+  double spacing = nan;  // of the steps between which it lies [1]
+  // The price's step, or the next shorter one with a whole number of steps a frame: this one is
+  // tried until lasting_end and may be used [s].
+  double whole_step = nan;
   double over_best = nan;  // its work over the cheapest one's [1]
   bool is_tied = false;    // with the cheapest: closer than the spacing of what was tried
-  // of the run `longer` times as long [1]; NaN: it was not asked
+  // of the run until lasting_end [1]; NaN: there was none, or it exceeded its budget
   double energy_gain = nan;
   std::string because = "";  // why there is none; or ""
 };

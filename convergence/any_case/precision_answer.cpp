@@ -11,9 +11,10 @@ namespace foldproof {
 
 namespace {
 
-std::string why_not_reached(const MethodCurve& curve, double wanted) {
+std::string why_not_reached(const PrecisionPlan& plan, const MethodCurve& curve, double wanted) {
   if (!curve.curve.runs.empty() && curve.curve.runs.back().error <= wanted)
-    return "no step that was tried is stable in a run three times as long";
+    return fmt::format("no step that was tried is stable in a run until {:.3g} s",
+                       lasting_end(plan));
   for (size_t k = curve.stopped.size(); k-- > 0;)
     if (const double error = curve.curve.runs[k].error; !std::isnan(error))
       return fmt::format(
@@ -26,19 +27,16 @@ std::string why_not_reached(const MethodCurve& curve, double wanted) {
                       : "every run stops early: " + last;
 }
 
-/// The longer run of a price's step; nullptr: it was not asked.
-const LongerRun* asked_run(const PrecisionPlan& plan, const MethodCurve& curve, double step) {
-  if (std::isnan(step)) return nullptr;
-  return longer_run_of(curve.curve.longer, frame_of(plan) / asked_parts(plan, step));
-}
-
 MethodPrice price_of_error(const MethodCurve& curve, const PrecisionPlan& plan, double wanted) {
   const Bracket bracket = bracket_of(plan, curve, wanted);
   MethodPrice price{curve.method, price_at(curve.curve, plan.input_case.scene.schedule.end, wanted),
                     bracket.few == 0 ? 1 : double(bracket.many) / bracket.few};
-  if (const LongerRun* run = asked_run(plan, curve, price.price.step))
+  if (!std::isnan(price.price.step))
+    price.whole_step = frame_of(plan) / parts_of(plan, price.price.step);
+  if (const LongerRun* run = longer_run_of(curve.curve.longer, price.whole_step))
     price.energy_gain = energy_gain(*run);
-  if (price.price.limit == LimitedBy::not_reached) price.because = why_not_reached(curve, wanted);
+  if (price.price.limit == LimitedBy::not_reached)
+    price.because = why_not_reached(plan, curve, wanted);
   return price;
 }
 

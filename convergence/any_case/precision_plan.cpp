@@ -46,7 +46,7 @@ double limit_of(const BuiltScene& built, const Integrator& integrator) {
 PrecisionPlan precision_plan(const Case& input_case, std::vector<std::string> methods,
                              std::vector<double> wanted, double budget,
                              const LevelSetProvider& level_sets) {
-  PrecisionPlan plan{input_case, in_order(methods), {}, std::move(wanted), budget, {}, {}};
+  PrecisionPlan plan{input_case, in_order(methods), {}, std::move(wanted), budget, {}, {}, {}};
   std::ranges::sort(plan.wanted, std::greater<>());
   plan.for_truth = methods_for_truth(plan.methods);
   const BuiltScene built = build(input_case.scene, level_sets);
@@ -56,9 +56,16 @@ PrecisionPlan precision_plan(const Case& input_case, std::vector<std::string> me
                      ": the motion of every particle is prescribed; no method has an error");
   for (const std::string& method : all_methods(plan)) {
     const Integrator& integrator = integrator_named(method);
-    plan.first[method] = first_parts(frame_of(plan), limit_of(built, integrator));
+    const double limit = limit_of(built, integrator);
+    plan.first[method] = first_parts(frame_of(plan), limit);
+    plan.limits[method] = integrator.family == Family::fully_implicit ? INFINITY : limit;
   }
   return plan;
+}
+
+void try_until(double end, PrecisionPlan& plan) {
+  const double times = end / plan.input_case.scene.schedule.end;
+  plan.lasting_times = std::max(longer, int(std::ceil(times * (1 - 1e-9))));
 }
 
 }  // namespace foldproof

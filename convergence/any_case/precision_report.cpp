@@ -11,14 +11,25 @@ namespace {
 
 constexpr double percent = 100, milli = 1e-3;
 
-std::string step_in_words(const Price& price) {
-  return fmt::format("h {} {:.3g} ms", price.limit == LimitedBy::not_tried ? ">=" : "=",
-                     price.step / milli);
+/// A step that is printed to be used: whether it lasts, and how far it is beyond the limit that the
+/// automatic step keeps.
+std::string step_in_words(const PrecisionPlan& plan, const MethodPrice& of) {
+  const Price& price = of.price;
+  const std::string step = fmt::format(
+      "h {} {:.5g} ms", price.limit == LimitedBy::not_tried ? ">=" : "=", of.whole_step / milli);
+  if (std::isnan(of.energy_gain))
+    return fmt::format(
+        "the automatic step ({} reaches the error, but to try it until {:.3g} s costs more than "
+        "the budget)",
+        step, lasting_end(plan));
+  const double over_limit = of.whole_step / plan.limits.at(of.method);
+  if (!(over_limit > 1)) return step;
+  return step + fmt::format(" ({:.3g} times the elastic limit at the start)", over_limit);
 }
 
 /// Which method takes the fewest seconds, where it beats the first of the list by more than a tie:
 /// filters of contact and strain cost time that is not counted as work; "" where it is.
-std::string by_seconds(const PriceList& list) {
+std::string by_seconds(const PrecisionPlan& plan, const PriceList& list) {
   const MethodPrice& first = list.prices.front();
   const MethodPrice* fastest = &first;
   for (const MethodPrice& price : list.prices)
@@ -26,7 +37,7 @@ std::string by_seconds(const PriceList& list) {
   const double over_fastest = first.price.seconds / fastest->price.seconds;
   if (!(over_fastest > std::max(first.spacing, fastest->spacing))) return "";  // a tie
   return fmt::format("; by seconds {} with {}, 1.0; {} {:.3g}", fastest->method,
-                     step_in_words(fastest->price), first.method, over_fastest);
+                     step_in_words(plan, *fastest), first.method, over_fastest);
 }
 
 std::string sentence_of(const PrecisionAnswer& answer, const PriceList& list) {
@@ -39,7 +50,8 @@ std::string sentence_of(const PrecisionAnswer& answer, const PriceList& list) {
     if (std::isnan(price.price.applications))
       unreached.push_back(price.method);
     else if (parts.empty())
-      parts.push_back(fmt::format("{} with {}, 1.0", price.method, step_in_words(price.price)));
+      parts.push_back(
+          fmt::format("{} with {}, 1.0", price.method, step_in_words(answer.plan, price)));
     else
       parts.push_back(fmt::format("{} {:.3g}{}", price.method, price.over_best,
                                   price.is_tied ? " (tied)" : ""));
@@ -48,7 +60,7 @@ std::string sentence_of(const PrecisionAnswer& answer, const PriceList& list) {
   if (!unreached.empty())
     sentence += fmt::format("{}{} {} not reach it within the budget", parts.empty() ? "" : "; ",
                             fmt::join(unreached, ", "), unreached.size() == 1 ? "does" : "do");
-  return sentence + by_seconds(list);
+  return sentence + by_seconds(answer.plan, list);
 }
 
 struct CostAxis {
@@ -140,11 +152,13 @@ Table longer_run_table(const PrecisionAnswer& answer) {
     for (const LongerRun& run : curve.curve.longer)
       table.row(curve.method, run.step, run.with_step.added, run.with_half.added,
                 run.with_half.largest, energy_gain(run), lasts(run) ? "yes" : "no");
-  return {"longer-runs",
-          "Every step that was tried in a run three times as long; those that do not last get no "
-          "price. The gain is the energy over that with half the step; no energy: the run came to "
-          "no end",
-          table};
+  return {
+      "longer-runs",
+      fmt::format(
+          "Every step that was tried in a run until {:.3g} s; those that do not last get no price. "
+          "The gain is the energy over that with half the step; no energy: the run came to no end",
+          lasting_end(answer.plan)),
+      table};
 }
 
 Table run_table(const PrecisionAnswer& answer) {
@@ -212,10 +226,10 @@ StudyRecord precision_record(const PrecisionAnswer& answer, double seconds) {
       "constant steps, halved from run to run. Work is counted in applications of force operators; "
       "contact and strain limits are not among them; seconds include them. Prices are interpolated "
       "in logarithms between the two runs that bracket the error, never beyond them. The steps of "
-      "the cheapest methods are tried again in a run three times as long. One that does not last "
-      "there gets no price, and a shorter one is tried in its place: see the table of longer runs. "
-      "A step lasts if the kinetic energy of the added time is at most twice that with half the "
-      "step. The " +
+      "the cheapest methods are tried again in a longer run, at least three times as long and at "
+      "least to the end of the case. One that does not last there gets no price, and a shorter one "
+      "is tried in its place: see the table of longer runs. A step lasts if the kinetic energy of "
+      "the added time is at most twice that with half the step. The " +
       truth_in_words(answer) + ".";
   for (const CostAxis& cost : cost_axes()) record.figures.push_back(figure_of(answer, cost));
   if (const std::string why = for_truth_in_words(answer); !why.empty()) {

@@ -184,7 +184,7 @@ std::vector<PrecisionTrial> narrowed_brackets(const Survey& survey) {
   return trials;
 }
 
-/// Longer runs of the steps that win or tie, and of half of them.
+/// Runs until lasting_end of the steps that win or tie, and of half of them.
 std::vector<PrecisionTrial> longer_trials(const Survey& survey) {
   std::map<std::string, std::set<int>> asked;
   for (const auto& [method, levels] : survey.trials.longer)
@@ -194,10 +194,12 @@ std::vector<PrecisionTrial> longer_trials(const Survey& survey) {
     const PriceList list = price_list(survey.plan, survey.truth, survey.curves, wanted);
     for (const MethodPrice* price : winners(list))
       for (const int halves : {1, 2}) {
-        const int parts = halves * asked_parts(survey.plan, price->price.step);
-        const double budget = halves * longer * truth_budget * survey.plan.budget;
+        const int parts = halves * parts_of(survey.plan, price->price.step);
+        const int times = survey.plan.lasting_times;
+        const double budget =
+            halves * std::min(times * truth_budget, dearest_trial) * survey.plan.budget;
         if (asked[price->method].insert(parts).second)
-          trials.push_back({price->method, parts, budget, longer});
+          trials.push_back({price->method, parts, budget, times});
       }
   }
   return trials;

@@ -32,6 +32,7 @@ constexpr double usual_budget = 2.5e8;  // of one run [visits]: two to eight sec
 PrecisionPlan plan_of(const Options& options, const LevelSetProvider& level_sets) {
   Case input_case = read_case(case_file(options.file), options.overrides);
   Schedule& schedule = input_case.scene.schedule;
+  const double end = schedule.end;
   if (options.until > 0) schedule.end = std::min(options.until, schedule.end);
   std::vector<std::string> methods = options.methods;
   if (methods.empty() || methods == std::vector<std::string>{"all"}) {
@@ -40,7 +41,14 @@ PrecisionPlan plan_of(const Options& options, const LevelSetProvider& level_sets
   }
   std::vector<double> wanted;
   for (const std::string& error : options.errors) wanted.push_back(std::stod(error));
-  return precision_plan(input_case, methods, wanted, options.effort * usual_budget, level_sets);
+  PrecisionPlan plan =
+      precision_plan(input_case, methods, wanted, options.effort * usual_budget, level_sets);
+  try_until(end, plan);
+  return plan;
+}
+
+double end_of_case(const Options& options) {
+  return read_case(case_file(options.file), options.overrides).scene.schedule.end;
 }
 
 /// Makes what is missing, round by round, until nothing is.
@@ -93,13 +101,34 @@ void print_methods(const PrecisionAnswer& answer) {
   }
 }
 
-/// Steps that are stable in the run that is asked about, but not in a longer one.
-void print_unstable(const PrecisionAnswer& answer) {
+/// How far winning steps were tried, and at what cost; steps that are stable in the run that is
+/// asked about, but not until then.
+void print_lasting(const PrecisionAnswer& answer, const Trials& trials) {
+  long runs = 0;
+  double seconds = 0;
+  for (const auto& [method, levels] : trials.longer)
+    for (const auto& [parts, run] : levels) ++runs, seconds += run.seconds;
+  if (runs > 0)
+    fmt::print(
+        "steps that win were tried until {:.3g} s, as were half of them: {} runs, {:.3g} s\n",
+        lasting_end(answer.plan), runs, seconds);
   for (const MethodCurve& curve : answer.curves)
     if (const double step = shortest_unstable_step(curve.curve.longer); std::isfinite(step))
       fmt::print(
-          "{}: steps of {:.3g} s or longer are not priced: unstable in a run three times as long\n",
-          curve.method, step);
+          "{}: steps of {:.3g} s or longer are not priced: unstable in a run until {:.3g} s\n",
+          curve.method, step, lasting_end(answer.plan));
+}
+
+/// The command that runs the case with the cheapest method at its step: the one that was tried
+/// until lasting_end, or else the automatic one; "" without a price.
+std::string command_with(const MethodPrice& cheapest, const Options& options) {
+  if (std::isnan(cheapest.price.applications)) return "";
+  std::string command = "foldproof simulate " + options.file;
+  for (const std::string& change : options.overrides) command += fmt::format(" --set '{}'", change);
+  const std::string step =
+      std::isnan(cheapest.energy_gain) ? "automatic" : fmt::format("{:.12g}", cheapest.whole_step);
+  return fmt::format("{} --set time.integrator={} --set time.step={}", command, cheapest.method,
+                     step);
 }
 
 /// A reason that holds for several errors is printed once.
@@ -115,12 +144,15 @@ void print_missing_prices(const PrecisionAnswer& answer) {
     fmt::print("{} at {}: {}\n", key.first, wanted, key.second);
 }
 
-void print(const PrecisionAnswer& answer) {
+void print(const PrecisionAnswer& answer, const Trials& trials, const Options& options) {
   for (const std::string& sentence : precision_sentences(answer)) fmt::print("{}\n", sentence);
+  for (const PriceList& list : answer.lists)
+    if (const std::string command = command_with(list.prices.front(), options); !command.empty())
+      fmt::print("{:.3g} %: {}\n", 100 * list.wanted, command);
   fmt::print("{}\n", truth_in_words(answer));
   if (const std::string why = for_truth_in_words(answer); !why.empty()) fmt::print("{}\n", why);
   print_methods(answer);
-  print_unstable(answer);
+  print_lasting(answer, trials);
   print_missing_prices(answer);
   fmt::print(
       "\norder: observed, where the range is asymptotic; price: applications of force operators, "
@@ -134,8 +166,10 @@ struct SolverAnswer {
   std::vector<std::pair<std::string, std::string>> mapping;
 };
 
-void print(const SolverAnswer& solver, const PrecisionAnswer& reference) {
+void print(const SolverAnswer& solver, const PrecisionAnswer& reference, double case_end) {
   print(solver.precision, reference);
+  if (const double end = reference.plan.input_case.scene.schedule.end; end < case_end)
+    fmt::print("its steps were tried until {:.3g} s; the case ends at {:.3g} s\n", end, case_end);
   for (const auto& [key, value] : solver.mapping) fmt::print("mapping of {}: {}\n", key, value);
 }
 
@@ -149,12 +183,14 @@ json to_json(const Opinion& opinion) {
 json to_json(const MethodPrice& price) {
   return {{"method", price.method},
           {"step", price.price.step},
+          {"whole_step", price.whole_step},
           {"limited_by", name_of(price.price.limit)},
           {"applications", price.price.applications},
           {"seconds", price.price.seconds},
           {"over_cheapest", price.over_best},
           {"tied", price.is_tied},
           {"longer_run_energy_gain", price.energy_gain},
+          {"lasts", std::isnan(price.energy_gain) ? json() : json(true)},  // if it was tried
           {"because", price.because}};
 }
 
@@ -188,7 +224,7 @@ json to_json(const MethodCurve& curve) {
           {"longer_runs", longer_runs}};
 }
 
-json to_json(const PrecisionAnswer& answer) {
+json to_json(const PrecisionAnswer& answer, const Options& options) {
   json told = {{"case", answer.plan.input_case.scene.name},
                {"sentences", precision_sentences(answer)},
                {"truth",
@@ -204,7 +240,8 @@ json to_json(const PrecisionAnswer& answer) {
   for (const PriceList& list : answer.lists) {
     json prices = json::array();
     for (const MethodPrice& price : list.prices) prices.push_back(to_json(price));
-    told["prices"].push_back({{"error", list.wanted}, {"methods", prices}});
+    const std::string command = command_with(list.prices.front(), options);
+    told["prices"].push_back({{"error", list.wanted}, {"use", command}, {"methods", prices}});
   }
   return told;
 }
@@ -212,12 +249,13 @@ json to_json(const PrecisionAnswer& answer) {
 /// The answer, with the program, and how the case was asked.
 json to_json(const PrecisionAnswer& answer, const std::optional<SolverAnswer>& solver,
              const Options& options) {
-  json all = to_json(answer);
+  json all = to_json(answer, options);
   if (solver) {
     all["solver"] = to_json(solver->precision, answer);
     for (const auto& [key, value] : solver->mapping) all["solver"]["mapping"][key] = value;
   }
-  all["end"] = read_case(case_file(options.file), options.overrides).scene.schedule.end;
+  all["end"] = end_of_case(options);
+  all["tried_until"] = lasting_end(answer.plan);
   all["asked_end"] = answer.plan.input_case.scene.schedule.end;
   all["overrides"] = options.overrides;
   all["program"] = program_json(options.command);
@@ -270,8 +308,8 @@ int precision(const Options& options) {
   if (options.json) {
     fmt::print("{}\n", json_text(to_json(answer, solver, options)));
   } else {
-    print(answer);
-    if (solver) print(*solver, answer);
+    print(answer, trials, options);
+    if (solver) print(*solver, answer, end_of_case(options));
   }
   return is_answered(answer) && (!solver || solver->precision.is_answered()) ? all_hold : some_fail;
 }

@@ -310,8 +310,10 @@ error   distance from the truth, divided by the motion. The distance is the root
 truth   two methods of different families, each extrapolated where its order has settled. An error
         less than ten times their distance gets no price.
 price   interpolated between the two runs that bracket the error. Methods are tied if their prices
-        are closer than the steps tried. The steps of the cheapest methods must also be stable in a
-        run three times as long: its kinetic energy is at most twice that with half the step.
+        are closer than the steps tried. The steps of the cheapest methods must also last: in a run
+        at least three times as long, and at least to the end of the case (--until shortens it),
+        the kinetic energy is at most twice that with half the step. If such a run costs more than
+        20 times the budget, the answer is the automatic step.
 
 --solver CMD also finds step and price of another solver (verification/subjects/PROTOCOL.md).
 Its steps are equal from frame to frame, and halved until the error bar of the finest run is a tenth
