@@ -24,7 +24,7 @@ std::string step_in_words(const PrecisionPlan& plan, const MethodPrice& of) {
         step, lasting_end(plan));
   const double over_limit = of.whole_step / plan.limits.at(of.method);
   if (!(over_limit > 1)) return step;
-  return step + fmt::format(" ({:.3g} times the elastic limit at the start)", over_limit);
+  return step + fmt::format(" ({:.3g} times the limit of the automatic step)", over_limit);
 }
 
 /// Which method takes the fewest seconds, where it beats the first of the list by more than a tie:
@@ -118,7 +118,7 @@ Table price_table(const PrecisionAnswer& answer) {
               {"why no price", "1"}};
   for (const PriceList& list : answer.lists)
     for (const MethodPrice& price : list.prices)
-      table.row(percent * list.wanted, price.method, price.price.step, name_of(price.price.limit),
+      table.row(percent * list.wanted, price.method, price.whole_step, name_of(price.price.limit),
                 price.price.applications, price.over_best, price.is_tied ? "yes" : "no",
                 price.price.seconds, price.energy_gain, price.because);
   return {"prices", "What a position error costs with each method, the cheapest by work first",

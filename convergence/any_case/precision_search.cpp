@@ -195,11 +195,9 @@ std::vector<PrecisionTrial> longer_trials(const Survey& survey) {
     for (const MethodPrice* price : winners(list))
       for (const int halves : {1, 2}) {
         const int parts = halves * parts_of(survey.plan, price->price.step);
-        const int times = survey.plan.lasting_times;
-        const double budget =
-            halves * std::min(times * truth_budget, dearest_trial) * survey.plan.budget;
+        const double budget = halves * dearest_trial * survey.plan.budget;
         if (asked[price->method].insert(parts).second)
-          trials.push_back({price->method, parts, budget, times});
+          trials.push_back({price->method, parts, budget, survey.plan.lasting_times});
       }
   }
   return trials;

@@ -42,7 +42,7 @@ std::string beside(const PrecisionAnswer& reference, double wanted) {
   if (!list) return "the reference has no price for it";
   const MethodPrice& best = list->prices.front();
   return fmt::format("the reference with {} h = {:.3g} ms, {:.2g} s of the processor", best.method,
-                     best.price.step / milli, best.price.seconds);
+                     best.whole_step / milli, best.price.seconds);
 }
 
 std::string gap_in_words(const SolverPrecision& solver) {

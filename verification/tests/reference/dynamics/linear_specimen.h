@@ -2,8 +2,8 @@
 #pragma once
 
 #include "reference/dynamics/newton_matrix.h"
-#include "verification/tests/reference/dynamics/dynamics_specimen.h"
 #include "verification/specimens/solver_problems.h"
+#include "verification/tests/reference/dynamics/dynamics_specimen.h"
 
 namespace foldproof {
 

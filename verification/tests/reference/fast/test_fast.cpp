@@ -2,7 +2,6 @@
 #include <atomic>
 #include <barrier>
 #include <catch2/catch.hpp>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <mutex>
@@ -386,7 +385,7 @@ TEST_CASE("it is the velocity against the object that brings a point within reac
   CHECK_FALSE(over.out_of_reach(p, Vector3::Zero(), 0.11));  // 0.55 m
 }
 
-TEST_CASE("a point is out of reach of every object or of none, whoever sorts the answers") {
+TEST_CASE("a point is out of reach only if every object is") {
   const std::vector<Object> objects{half_space(Vector3::Zero(), -0.9), half_space({0, 3, 4}, -0.2)};
   RememberedQuery over(objects, {0, 0, 0.1});
   const Vector3 p(0.3, -0.7, 0.5), v(0, 0.3, 0.4);  // clearances 1.4 m and 0.7 m

@@ -221,7 +221,7 @@ TEST_CASE("a deforming object answers as at a span's start, with the mean veloci
   check_point({of_span.phi, of_span.normal, of_span.velocity}, {now.phi, now.normal, moved / 1.2});
 }
 
-TEST_CASE("a deforming object answers beside a rigid one") {
+TEST_CASE("a deforming object answers beside a rigid one, and is never out of reach") {
   const std::vector<Object> objects{
       {"floor", RigidObject{HalfSpace{}, {}, Motion{}}, 0.3},
       {"body",
