@@ -19,7 +19,6 @@ from math import inf, isfinite, nan
 from pathlib import Path
 from typing import Any
 
-from data.old_names import current_names, with_current_names
 from data.quantities import ratio_of
 from data.results import load_run
 from data.unreadable import Unreadable
@@ -91,7 +90,7 @@ class MarginChange:
 
 
 def row_of(path: Path) -> RunRow:
-    """The row of a folder's verdicts.json, or of the file itself; findings under today's names.
+    """The row of a folder's verdicts.json, or of the file itself.
     Throws Unreadable naming the file if it holds no finished run."""
     file = path / "verdicts.json" if path.is_dir() else path
     if not file.exists():
@@ -102,10 +101,9 @@ def row_of(path: Path) -> RunRow:
     try:
         written = json.loads(file.read_text(encoding="utf-8"))
         about = {name: str(written["program"].get(name, "")) for name in ABOUT}
-        now = current_names(about["version"])
         rows = [row for row in written["findings"] if row["kind"] != RULED]
         findings = {
-            now.get(row["name"], row["name"]): Judged(
+            row["name"]: Judged(
                 row["outcome"] or "did not run",
                 *(_number(row[key]) for key in ("measured", "bound", "seconds")),
             )
@@ -127,7 +125,7 @@ def _costs(file: Path, about: dict[str, str]) -> dict[str, float]:
     not there, or is another run's."""
     if not file.is_file():
         return {}
-    run = with_current_names(load_run(file))
+    run = load_run(file)
     if str(run.provenance.get("date")) != about["date"]:
         return {}
     costs = {"the whole run": float(run.provenance.get("seconds", nan))}

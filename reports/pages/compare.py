@@ -8,7 +8,6 @@ from math import inf, isfinite, log, nan
 from pathlib import Path
 from typing import Any
 
-from data.old_names import with_current_names
 from data.quantities import ratio_of
 from data.results import CaseEntry, Claim, Finding, Run, Study, load_case, load_run
 from data.unreadable import Unreadable
@@ -138,7 +137,7 @@ def compare(a: Side, b: Side) -> Comparison:
 
 
 def read_side(letter: str, given: Path) -> Side:
-    """A run from its folder or its file, its findings under today's names.
+    """A run from its folder or its file.
     Throws Unreadable if it is none."""
     file = given / "run.h5" if given.is_dir() else given
     bench = file.parent / "bench.h5"
@@ -147,8 +146,8 @@ def read_side(letter: str, given: Path) -> Side:
         raise Unreadable(
             f"{file}: no run of foldproof: it holds no findings, no studies and no claims"
         )
-    beside = with_current_names(load_run(bench)) if bench.is_file() and bench != file else None
-    return Side(letter, str(given), with_current_names(run), beside)
+    beside = load_run(bench) if bench.is_file() and bench != file else None
+    return Side(letter, str(given), run, beside)
 
 
 def _match(

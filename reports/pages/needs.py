@@ -13,7 +13,6 @@ from data.case_digest import case_digest, case_files
 from data.unreadable import reading
 
 NO_EFFECT = "no effect if added"
-OLD_NEEDS = {"not missed here": NO_EFFECT}   # of version 0.1.0
 CANNOT_TELL = "cannot tell"
 NEEDS = ("needed", "kept for a reason", "left out for a reason", "not needed here", "missing here",
          NO_EFFECT, CANNOT_TELL)
@@ -237,7 +236,7 @@ def _part(part: dict[str, Any], scene: dict[str, Any]) -> PartNeed:
         if scene[key] and run[key] != scene[key]
     ]
     return PartNeed(
-        part["name"], part["present"], OLD_NEEDS.get(part["need"], part["need"]), part["because"],
+        part["name"], part["present"], part["need"], part["because"],
         part["declared"], part["as_it_should_be"], _number(part["position_difference"]),
         _number(part["energy_difference"]), _number(run["crossings"]), _number(run["deepest"]),
         run["seconds"] / scene["seconds"] if scene["seconds"] else nan, work

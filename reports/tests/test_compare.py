@@ -106,17 +106,6 @@ class TwoRuns(unittest.TestCase):
             compare_runs(self.a, self.a, None).read_text(encoding="utf-8"),
         )
 
-    def test_a_run_of_version_0_1_0_is_compared_by_the_names_of_today(self) -> None:
-        with h5py.File(self.a / "run.h5", "r+") as file:
-            put(file, version="0.1.0")
-            put_finding(file, 9, "contact.a-belt-takes-along.A", "check")
-        with h5py.File(self.b / "run.h5", "r+") as file:
-            put(file, version="0.2.0")
-            put_finding(file, 10, "contact.a-belt-carries-cloth-along.A", "check")
-        found = self.compared()
-        self.assertEqual([finding.name for finding in found.only_a], [NAMES[3]])
-        self.assertEqual([finding.name for finding in found.only_b], ["mine.alone"])
-
     def test_what_is_no_run_is_refused(self) -> None:
         (self.b / "run.h5").write_bytes(b"no HDF5")
         for other, why in (

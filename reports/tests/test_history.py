@@ -95,10 +95,6 @@ class HistoryTest(unittest.TestCase):
         self.assertEqual(self.found(one, self.put(2, [finding("a", "fails")], tier="full"),
                                     self.put(3, [finding("a", "fails")], subject="another")), [])
 
-    def test_findings_of_the_old_version_have_todays_names(self) -> None:
-        old = self.put(1, [finding("oracle.falls-agree")], version="0.1.0")
-        self.assertEqual(list(row_of(old).findings), ["oracle.free-falls-agree"])
-
     def test_margins_that_shrink_are_listed(self) -> None:
         rows = [
             row_of(

@@ -28,19 +28,13 @@ class Compared(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = Path(folder.name)
 
-    def compare(
-        self, before: list[dict], after: list[dict], renames: str = "", *options: str
-    ) -> tuple[int, str]:
+    def compare(self, before: list[dict], after: list[dict], *options: str) -> tuple[int, str]:
         """Exit code, and all that it printed."""
         words = [sys.executable, str(ROOT / "scripts/compare_verdicts"), *options]
         for name, rows in (("before.json", before), ("after.json", after)):
             (self.folder / name).write_text(json.dumps({"findings": rows}))
             words.append(str(self.folder / name))
-        (self.folder / "renames.toml").write_text(renames)
-        done = subprocess.run(
-            [*words, "--renames", str(self.folder / "renames.toml")], capture_output=True,
-            text=True, check=False
-        )
+        done = subprocess.run(words, capture_output=True, text=True, check=False)
         return done.returncode, done.stdout + done.stderr
 
     def test_times_and_the_order_of_faults_do_not_count(self) -> None:
@@ -61,30 +55,12 @@ class Compared(unittest.TestCase):
         self.assertIn("old.one: is gone", printed)
         self.assertIn("new.one: is new", printed)
 
-    def test_names_and_words_are_read_through_the_table(self) -> None:
-        table = '[findings]\n"old.one" = "new.one"\n[texts]\n"told" = "reported"\n'
-        self.assertEqual(
-            self.compare(
-                [finding("old.one", note="is told")], [finding("new.one", note="is reported")],
-                table
-            )[0],
-            0,
-        )
-
-    def test_faults_are_read_through_the_table_and_keys_are_for_readers(self) -> None:
-        table = '[faults]\n"a" = "z"\n[keys]\n"expect.a" = "expect.b"\n'
-        self.assertEqual(
-            self.compare([finding("x.y")], [finding("x.y", faults=["b", "z"])], table)[0], 0
-        )
-        self.assertEqual(self.compare([finding("x.y")], [finding("x.y")], table)[0], 1)
-        self.assertEqual(self.compare([finding("x.y")], [finding("x.y")], "[names]\n")[0], 2)
-
     def test_sentences_may_differ_if_only_numbers_are_asked_for(self) -> None:
         worded = finding("x.y", claim="Other words.", note="none")
         self.assertEqual(self.compare([finding("x.y")], [worded])[0], 1)
-        self.assertEqual(self.compare([finding("x.y")], [worded], "", "--numbers")[0], 0)
+        self.assertEqual(self.compare([finding("x.y")], [worded], "--numbers")[0], 0)
         self.assertEqual(
-            self.compare([finding("x.y")], [worded | {"measured": 0.5}], "", "--numbers")[0], 1
+            self.compare([finding("x.y")], [worded | {"measured": 0.5}], "--numbers")[0], 1
         )
 
     def test_of_what_the_clock_measures_the_outcome_counts_alone(self) -> None:

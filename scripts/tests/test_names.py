@@ -133,41 +133,6 @@ class Names(unittest.TestCase):
     def test_drawings_are_of_studies_that_exist(self) -> None:
         self.assertLessEqual(set(drawn_studies()), {row["name"] for row in self.listed["studies"]})
 
-    def test_renames_lead_from_names_that_are_gone_to_names_that_exist(self) -> None:
-        renames = tomllib.loads((ROOT / "scripts/renames.toml").read_text(encoding="utf-8"))
-        faults = {fault.name for fault in FAULTS.read_faults()}
-        current = (
-            {row["name"] for kind in ("checks", "studies") for row in self.listed[kind]}
-            | set(self.listed["case_findings"])
-            | faults
-        )
-        self.assertGreater(len(renames["findings"]), 600)
-        for old, new in (renames["findings"] | renames["faults"]).items():
-            self.assertNotIn(old, current)
-            self.assertTrue(
-                self.exists(new) or new in faults,
-                f"'{old}' is renamed to '{new}', which does not exist",
-            )
-
-    def test_keys_of_case_files_are_renamed_to_keys_that_exist(self) -> None:
-        page = (ROOT / "cases/KEYS.md").read_text(encoding="utf-8")
-        for old, new in tomllib.loads((ROOT / "scripts/renames.toml").read_text(encoding="utf-8"))[
-            "keys"
-        ].items():
-            self.assertIn(f"`{new.rpartition('.')[2]}`", page)
-            self.assertNotIn(f"`{old.rpartition('.')[2]}`", page)
-
-    def test_the_changelog_holds_every_rename(self) -> None:
-        renames = tomllib.loads((ROOT / "scripts/renames.toml").read_text(encoding="utf-8"))
-        changelog = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8").splitlines()
-        rows = [
-            f"| `{old}` | `{new}` |"
-            for kind in ("findings", "keys", "faults")
-            for old, new in renames[kind].items()
-        ]
-        self.assertEqual([row for row in rows if row not in changelog], [])
-        self.assertEqual(sum(line.startswith("| `") for line in changelog), len(rows))
-
 
 if __name__ == "__main__":
     unittest.main()
