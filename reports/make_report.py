@@ -31,7 +31,7 @@ from data.command_line import OneLineParser, refuse, require_modules, require_pr
 require_modules("make_report", "numpy", "h5py", "matplotlib", "jinja2")
 from data.fault_record import with_record  # noqa: E402
 from data.history import row_of  # noqa: E402
-from data.mutant_record import load_mutant_record  # noqa: E402
+from data.mutation_scores import load_mutation_page  # noqa: E402
 from data.trials import is_trial, read_trial, trial_of_run  # noqa: E402
 from data.results import (
     Case,
@@ -288,7 +288,7 @@ def make_page(folder: Path, figures: Path, for_papers: bool, shipped: Path) -> P
         "variants": load_variants(folder / "variants.json"),
         "machines": load_machines(folder / "machines.json"),
         "mutation": load_mutation(folder / "mutation.json"),
-        "mutants": load_mutant_record() if recorded else None,
+        "mutants": load_mutation_page() if recorded else None,
         "unended": "" if trial else note_on_unfinished_run(folder / "verdicts.json"),
         "trial": trial,
         "needs": load_needs(folder / "ablation.json", recorded),

@@ -7,12 +7,12 @@ import time
 from pathlib import Path
 
 from edits import Change, sample
-from mutant_record import nearest_line
+from mutant_scores import nearest_line
 from mutant_trials import Judgement, Mutant, read_explained
 from mutants import ROOT, write_at_once
 
 sys.path.insert(0, str(ROOT / "reports"))
-from data.mutant_record import EXPLAINED_ASKED, Row, key_of_row, read_rows  # noqa: E402
+from data.mutation_scores import EXPLAINED_ASKED, Row, key_of_row  # noqa: E402
 
 
 def not_asked(rows: list[Row], seed: int) -> list[Mutant]:
@@ -42,11 +42,6 @@ def with_answers(rows: list[Row], judged: list[Judgement], commit: str) -> list[
         }
         for one in judged if one.outcome in ("killed", "SURVIVED")
     ]
-
-
-def read_answers() -> list[Row]:
-    """Of all edits that were explained when they were asked."""
-    return read_rows(EXPLAINED_ASKED)
 
 
 def write_answers(rows: list[Row], path: Path = EXPLAINED_ASKED) -> None:

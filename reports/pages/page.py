@@ -17,7 +17,7 @@ from markupsafe import Markup
 from data import quantities
 from data.fault_record import commits_of
 from data.formulas import GREEK, formula_html
-from data.mutant_record import MutantRecord
+from data.mutation_scores import MutationPage
 from data.results import Case, CaseEntry, Column, Fault, Finding, Run, Study
 from data.trials import Trial
 from pages import ledger
@@ -123,7 +123,7 @@ class Page:
     machines: Machines | None = None
     alone: bool = False  # simulations that no run of the verification made
     unended: str = ""  # why this is not what was run last
-    mutants: MutantRecord | None = None  # random slips of the shipped record
+    mutants: MutationPage | None = None  # random slips, from the shipped scores
     mutation: Mutation | None = None  # what scripts/mutate found, where that lies beside the run
     trial: Trial | None = None  # of another solver, or of frames
 

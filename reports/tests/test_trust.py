@@ -7,7 +7,7 @@ from unittest import mock
 
 import h5py
 
-from data.mutant_record import load_mutant_record
+from data.mutation_scores import load_mutation_page
 from tests.made_up_run import HOSTILE, put, put_run
 from tests.report_test import ReportTest
 
@@ -32,24 +32,23 @@ class Beside(ReportTest):
         self.assertIn("3–5, 9", text)
         self.read(text)
 
-    def test_random_slips_are_shown_with_what_notices_those_that_were_missed(self) -> None:
+    def test_random_slips_are_shown_with_those_that_nothing_notices(self) -> None:
         put_run(self.root)
-        row = {"room": "reference/forces", "file": "a.cpp", "line": 7, "before": "a < b",
-               "after": "a > b", "outcome": "killed", "by": "check.x", "seed": 1, "commit": "abc",
-               "date": "2026-02-01"}
-        missed = {**row, "after": HOSTILE, "outcome": "SURVIVED"}
-        equal = {**row, "after": "a <= b", "outcome": "SURVIVED"}
-        rows = [row, {**row, "after": "b"}, {**missed, "noticed_by": "check.y"},
-                {**missed, "after": "a"}, equal,
-                {**row, "commit": "old", "date": "2026-01-01"}]
-        record, reasons = self.root / "mutants.json", self.root / "reasons.toml"
-        record.write_text(json.dumps({"mutants": rows}))
+        folder = {"folder": "reference/forces", "noticed": 2, "missed": 2, "noticed_since": 1,
+                  "equivalent": 1}
+        samples = [{"commit": "old", "date": "2026-01-01",
+                    "folders": [{**folder, "noticed": 1, "missed": 0}]},
+                   {"commit": "abc", "date": "2026-02-01", "folders": [folder]}]
+        edit = {"file": "a.cpp", "line": 7, "before": "a < b", "after": HOSTILE}
+        scores, reasons = self.root / "scores.json", self.root / "reasons.toml"
+        scores.write_text(json.dumps({"samples": samples, "open": [edit]}))
         reasons.write_text('[[mutant]]\nfile = "a.cpp"\nline = "a < b"\nbecomes = "a <= b"\n'
                            'reason = "they are never equal"\n')
         asked = self.root / "asked.json"
-        asked.write_text(json.dumps({"mutants": [equal, {**row, "after": "c"}]}))
-        with mock.patch("make_report.load_mutant_record",
-                        lambda: load_mutant_record(record, reasons, asked)):
+        asked.write_text(json.dumps({"mutants": [{**edit, "outcome": "SURVIVED"},
+                                                 {**edit, "outcome": "killed"}]}))
+        with mock.patch("make_report.load_mutation_page",
+                        lambda: load_mutation_page(scores, reasons, asked)):
             text = self.made()
         section = text[text.index('id="mutants"'):]
         self.assertIn('<td class="num">2</td><td class="num">2</td><td class="num">1</td>'
@@ -57,10 +56,9 @@ class Beside(ReportTest):
                       '<td class="num">15 to 85 %</td>', section)
         self.assertIn('<td>2026-01-01</td><td><code>old</code></td><td class="num">1</td>'
                       '<td class="num">0</td><td class="num">100.0 %</td>', section)
-        for said in ("<td>check.y</td>", "<td>nothing</td>", "they are never equal",
-                     "1 edits have a reason", "2 such edits, drawn at random from",
-                     "1 was noticed, and no longer has a reason"):
-            self.assertIn(said, section)
+        for words in ("a.cpp:7", "1 edits have a reason", "2 such edits, drawn at random from",
+                      "1 was noticed, and no longer has a reason"):
+            self.assertIn(words, section)
         self.read(section)
 
     def test_variants_are_shown_with_their_false_alarms(self) -> None:

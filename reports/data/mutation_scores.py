@@ -1,0 +1,157 @@
+"""Scores of random slips, as `scripts/mutate --record` keeps them: for each commit that was sampled
+and each folder, how many of its slips the checks and tests noticed when they were first put to
+them. The score of a sample is that of slips for which nobody has mended anything."""
+from __future__ import annotations
+
+import json
+import math
+import tomllib
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from data.unreadable import reading
+
+FAULTS = Path(__file__).resolve().parents[2] / "verification" / "faults"
+SCORES = FAULTS / "scores.json"
+EXPLAINED = FAULTS / "equivalent_mutants.toml"
+EXPLAINED_ASKED = FAULTS / "explained_mutants.json"
+
+Row = dict[str, Any]
+Key = tuple[str, str, str]  # file, line, and what the line becomes
+
+
+@dataclass(frozen=True)
+class Score:
+    """Counts of the mutants of one folder, or of all."""
+    folder: str
+    noticed: int
+    missed: int
+    noticed_since: int    # of the missed
+    equivalent: int       # declared to change nothing; in no score
+
+    @property
+    def ratio(self) -> float | None:
+        """Noticed over noticed and missed; None without either."""
+        of = self.noticed + self.missed
+        return self.noticed / of if of else None
+
+    @property
+    def interval(self) -> tuple[float | None, float | None]:
+        """The ratios that 95 % of such samples leave possible."""
+        return score_interval(self.noticed, self.noticed + self.missed)
+
+
+@dataclass(frozen=True)
+class Sample:
+    """The mutants that were drawn at one commit, by folder."""
+    commit: str
+    date: str
+    folders: list[Score]
+
+    @property
+    def all(self) -> Score:
+        counts = ("noticed", "missed", "noticed_since", "equivalent")
+        return Score("all", *(sum(getattr(one, name) for one in self.folders) for name in counts))
+
+
+@dataclass
+class Scores:
+    """The file of scores."""
+    samples: list[Sample] = field(default_factory=list)  # the oldest first
+    # missed and not noticed since: folder, file, line, before, after, commit
+    open: list[Row] = field(default_factory=list)
+
+
+@dataclass(frozen=True)
+class Part:
+    """The samples of the method, or of the code that judges it."""
+    title: str
+    newest: Sample
+    earlier: list[Sample]  # the latest first
+
+
+@dataclass(frozen=True)
+class MutationPage:
+    """The scores as a page shows them."""
+    parts: list[Part]
+    open: list[Row]
+    explained: int             # edits with a reason
+    explained_asked: int       # put to all checks and unit tests that reach them
+    explained_noticed: int     # of those asked: their reasons were wrong, and are gone
+
+    @property
+    def asked(self) -> int:
+        """How many mutants the newest samples have."""
+        newest = [part.newest.all for part in self.parts]
+        return sum(row.noticed + row.missed + row.equivalent for row in newest)
+
+
+def read_scores(path: Path = SCORES) -> Scores:
+    """Throws Unreadable if the file is damaged; without a file, no scores."""
+    if not path.is_file():
+        return Scores()
+    with reading(path):
+        stored = json.loads(path.read_text(encoding="utf-8"))
+        samples = [
+            Sample(row["commit"], row["date"], [Score(**folder) for folder in row["folders"]])
+            for row in stored["samples"]
+        ]
+        return Scores(samples, stored["open"])
+
+
+def read_answers(path: Path = EXPLAINED_ASKED) -> list[Row]:
+    """Of edits that were explained when they were put to the checks; none without a file."""
+    if not path.is_file():
+        return []
+    with reading(path):
+        rows: list[Row] = json.loads(path.read_text(encoding="utf-8"))["mutants"]
+        return rows
+
+
+def key_of_row(row: Row) -> Key:
+    return row["file"], row["before"], row["after"]
+
+
+def load_mutation_page(
+    scores: Path = SCORES, explained: Path = EXPLAINED, asked: Path = EXPLAINED_ASKED
+) -> MutationPage | None:
+    """None without scores. Throws Unreadable if a file is damaged."""
+    read = read_scores(scores)
+    if not read.samples:
+        return None
+    with reading(explained):
+        reasons = tomllib.loads(explained.read_text(encoding="utf-8"))["mutant"]
+    answers = read_answers(asked)
+    return MutationPage(
+        parts_of(read.samples), read.open, len(reasons), len(answers),
+        sum(row["outcome"] == "killed" for row in answers)
+    )
+
+
+def parts_of(samples: list[Sample]) -> list[Part]:
+    """The method first; a part without samples is left out."""
+    parts = []
+    for title, is_method in (("The method", True), ("The code that judges it", False)):
+        of_part = []
+        for sample in samples:
+            folders = [
+                one for one in sample.folders if one.folder.startswith("reference/") == is_method
+            ]
+            if folders:
+                of_part.append(Sample(sample.commit, sample.date, folders))
+        if of_part:
+            *earlier, newest = of_part
+            parts.append(Part(title, newest, earlier[::-1]))
+    return parts
+
+
+def score_interval(hits: int, of: int) -> tuple[float | None, float | None]:
+    """The ratios that 95 % of such samples leave possible: Wilson's interval (Wilson, J. Am. Stat.
+    Assoc. 22, 1927)."""
+    if not of:
+        return None, None
+    z, ratio = 1.959964, hits / of
+    middle = (ratio + z * z / (2 * of)) / (1 + z * z / of)
+    half = z * math.sqrt(ratio * (1 - ratio) / of + z * z / (4 * of * of)) / (1 + z * z / of)
+    return middle - half, middle + half

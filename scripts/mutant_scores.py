@@ -1,0 +1,147 @@
+"""The log of the mutants that were asked in this tree, and the scores that are shipped. Of
+scripts/mutate; reports/data/mutation_scores.py says what a score is.
+"""
+
+import json
+import sys
+import time
+from collections import Counter, defaultdict
+from dataclasses import asdict, replace
+from pathlib import Path
+
+from edits import Change
+from mutant_questions import FOLDER
+from mutant_trials import Judgement, Mutant
+from mutants import ROOT, write_at_once
+
+sys.path.insert(0, str(ROOT / "reports"))
+from data.mutation_scores import (  # noqa: E402
+    SCORES,
+    Key,
+    Row,
+    Sample,
+    Score,
+    Scores,
+    key_of_row,
+)
+
+ASKED = ("killed", "SURVIVED", "equivalent")
+ASKED_LOG = FOLDER / "asked.jsonl"
+
+
+# ---- the log -------------------------------------------------------------------------------------
+
+
+def rows_of(folder: str, judged: list[Judgement], seed: int, commit: str) -> list[Row]:
+    """One row for each mutant that was asked; others are left out."""
+    return [
+        {
+            "folder": folder, "file": one.mutant.file, "line": one.mutant.line,
+            "before": one.mutant.before, "after": one.mutant.after, "outcome": one.outcome,
+            "by": one.by or one.what, "seed": seed, "commit": commit
+        }
+        for one in judged if one.outcome in ASKED
+    ]
+
+
+def log_asked(rows: list[Row], path: Path = ASKED_LOG) -> None:
+    """Appends a line for each row; several runs of a campaign may append at once."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with path.open("a", encoding="utf-8") as log:
+        log.write("".join(f"{json.dumps(row, ensure_ascii=False)}\n" for row in rows))
+
+
+def read_asked(commit: str, path: Path = ASKED_LOG) -> list[Row]:
+    """The mutants of this commit, each as it was first found. Skips lines that a killed run left
+    unfinished."""
+    first: dict[Key, Row] = {}
+    for line in path.read_text(encoding="utf-8").splitlines() if path.is_file() else []:
+        try:
+            row = json.loads(line)
+        except ValueError:
+            continue
+        if row["commit"] == commit:
+            first.setdefault(key_of_row(row), row)
+    return list(first.values())
+
+
+# ---- the scores ----------------------------------------------------------------------------------
+
+
+def with_sample(scores: Scores, rows: list[Row], explained: set[Key]) -> Scores:
+    """The scores with those of the rows, all of one commit, in place of any that it had. A mutant
+    with a reason counts as equivalent."""
+    commit = rows[0]["commit"][:10]
+    counts: dict[str, Counter[str]] = defaultdict(Counter)
+    missed = []
+    for row in rows:
+        outcome = "equivalent" if key_of_row(row) in explained else row["outcome"]
+        counts[row["folder"]][outcome] += 1
+        if outcome == "SURVIVED":
+            edit = {name: row[name] for name in ("folder", "file", "line", "before", "after")}
+            missed.append({**edit, "commit": commit})
+    folders = [
+        Score(name, count["killed"], count["SURVIVED"], 0, count["equivalent"])
+        for name, count in sorted(counts.items())
+    ]
+    sample = Sample(commit, time.strftime("%Y-%m-%d", time.gmtime()), folders)
+    return Scores(
+        [one for one in scores.samples if one.commit != commit] + [sample],
+        [one for one in scores.open if one["commit"] != commit] + missed
+    )
+
+
+def write_scores(scores: Scores, path: Path = SCORES) -> None:
+    samples = [
+        f' {{"commit": "{sample.commit}", "date": "{sample.date}", "folders": [\n'
+        + ",\n".join(f"  {json.dumps(asdict(one))}" for one in sample.folders) + "]}"
+        for sample in scores.samples
+    ]
+    still_open = [f" {json.dumps(row, ensure_ascii=False)}" for row in scores.open]
+    write_at_once(
+        path,
+        '{"samples": [\n' + ",\n".join(samples) + '],\n"open": [\n' + ",\n".join(still_open)
+        + "]}\n"
+    )
+
+
+# ---- missed mutants, asked again -----------------------------------------------------------------
+
+
+def open_mutants(rows: list[Row]) -> list[Mutant]:
+    """Of the open rows, as edits of the files of today; a line that is gone cannot be asked."""
+    found = []
+    for number, row in enumerate(rows):
+        text = (ROOT / row["file"]).read_text(encoding="utf-8")
+        place = nearest_line(text, row["before"], row["line"])
+        if place is not None:
+            line, at = place
+            change = Change(at, row["before"], row["after"], "recorded")
+            found.append(Mutant(row["file"], number, change, line, row["before"], row["after"]))
+    return found
+
+
+def nearest_line(text: str, line: str, to: int) -> tuple[int, int] | None:
+    """Number and place of the line that reads so, without its margin, next to the number `to`."""
+    places, at = [], 0
+    for number, each in enumerate(text.splitlines(keepends=True), start=1):
+        if each.strip() == line:
+            places.append((abs(number - to), number, at + len(each) - len(each.lstrip())))
+        at += len(each)
+    return min(places)[1:] if places else None
+
+
+def with_noticed(scores: Scores, judged: list[Judgement]) -> Scores:
+    """Open rows that are killed now are open no longer; their samples keep them as missed."""
+    noticed = {one.mutant.number for one in judged if one.outcome == "killed"}
+    since = Counter(
+        (row["commit"], row["folder"]) for k, row in enumerate(scores.open) if k in noticed
+    )
+    samples = [
+        replace(sample, folders=[
+            replace(one, noticed_since=one.noticed_since + since[sample.commit, one.folder])
+            for one in sample.folders
+        ])
+        for sample in scores.samples
+    ]
+    return Scores(samples, [row for k, row in enumerate(scores.open) if k not in noticed])
