@@ -162,7 +162,6 @@ class Fault:
     caught_by_tests: list[str] = field(default_factory=list)   # names of test cases
     checks: list[FaultCheck] = field(default_factory=list)   # of those that are named
     commit: str = ""   # on which a recorded outcome was found; "" for one of this run, or none
-    date: str = ""
 
 
 @dataclass

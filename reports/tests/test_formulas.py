@@ -89,26 +89,13 @@ class FaultRecord(unittest.TestCase):
         edit = edit_digest(
             fault.file, fault.find, fault.replace, fault.caught_by, fault.caught_by_tests
         )
-        self.file.write_text(
-            json.dumps(
-                {
-                    "faults": {
-                        "slip": {
-                            "outcome": "caught",
-                            "commit": "abc",
-                            "date": "2026-01-02",
-                            "edit": edit,
-                        }
-                    }
-                }
-            )
-        )
+        self.file.write_text(json.dumps({"abc": {"caught": {"slip": edit}}}))
 
     def test_an_outcome_is_recalled_with_its_commit(self) -> None:
         self.record(self.fault)
         [found] = with_record([self.fault], self.file)
         self.assertEqual((found.outcome, found.commit), ("caught", "abc"))
-        self.assertEqual(commits_of([found, self.fault]), [("abc", "2026-01-02", 1)])
+        self.assertEqual(commits_of([found, self.fault]), [("abc", 1)])
 
     def test_a_fault_that_was_edited_since_was_not_run(self) -> None:
         self.record(self.fault)
@@ -129,7 +116,7 @@ class FaultRecord(unittest.TestCase):
 
     def test_a_record_may_be_missing_but_not_damaged(self) -> None:
         self.assertEqual(with_record([self.fault], self.file), [self.fault])
-        self.file.write_text('{"faults": {"slip": {}}}')
+        self.file.write_text('{"abc": {"caught": ["slip"]}}')
         with self.assertRaisesRegex(Unreadable, "outcomes.json"):
             with_record([self.fault], self.file)
 
