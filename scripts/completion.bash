@@ -6,16 +6,15 @@
 _foldproof_commands() { "$1" --help | sed -n '/^Commands:/,/^$/ s/^  \([a-z]\+\) .*/\1/p'; }
 _foldproof_options() { "$@" --help 2>/dev/null | sed -n 's/^  \(-., \)\?\(--[a-z-]*\).*/\2/p' | sort -u; }
 
-# Names that `list` shows under these headings, and the groups before the dots.
+# Names that `list` shows of some kinds, and the groups before the dots.
 _foldproof_names() {
-  local program=$1 headings=$2
-  "$program" list | awk -v headings="$headings" '
-    /^[a-z]/ { sub(":", "", $1); wanted = index(headings, " " $1 " ") }
-    /^  / && wanted { print $1; if (split($1, part, ".") > 1) print part[1] }' | sort -u
+  local program=$1 kind
+  shift
+  for kind; do "$program" list "$kind"; done |
+    awk '{ print $1; if (split($1, part, ".") > 1) print part[1] }' | sort -u
 }
 
-# The shipped cases, as `list` shows them.
-_foldproof_cases() { "$1" list | awk '/^[a-z]/ { wanted = $1 == "cases" } /^  / && wanted { print $1 }'; }
+_foldproof_cases() { "$1" list cases; }
 
 # Their findings: case.twist for hard/twist.
 _foldproof_case_findings() { _foldproof_cases "$1" | sed 's|.*/||; s|^|case.|'; }
@@ -37,11 +36,11 @@ _foldproof() {
   elif [[ $now == -* ]]; then
     words=$(_foldproof_options "$program" "$command")
   elif [[ $command == check ]]; then
-    words="$(_foldproof_names "$program" ' checks studies ') case $(_foldproof_case_findings "$program")"
+    words="$(_foldproof_names "$program" checks studies) case $(_foldproof_case_findings "$program")"
   elif [[ $command == study ]]; then
-    words=$(_foldproof_names "$program" ' studies ')
+    words=$(_foldproof_names "$program" studies)
   elif [[ $command == judge && ${COMP_WORDS[COMP_CWORD-1]} != --* ]]; then
-    words=$(_foldproof_names "$program" ' laws ')
+    words=$(_foldproof_names "$program" laws)
   elif [[ $command == golden ]]; then
     words='bending springs integrator forecast friction projection sticking'
   elif [[ $command == evaluate && $COMP_CWORD == 2 ]]; then

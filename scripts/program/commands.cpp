@@ -5,10 +5,8 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "convergence/studies.h"
-#include "reference/dynamics/integrator.h"
 #include "reference/bodies/level_set_provider.h"
 #include "scripts/program/bench/bench.h"
 #include "scripts/program/data_folder.h"
@@ -16,7 +14,6 @@
 #include "verification/subjects/bending_rows.h"
 #include "verification/subjects/crossing_queries.h"
 #include "scripts/program/interruption.h"
-#include "scripts/program/json_text.h"
 #include "scripts/program/kept_results.h"
 #include "scripts/program/ledger.h"
 #include "scripts/program/command_line/out_folder.h"
@@ -27,14 +24,12 @@
 #include "scripts/program/report_commands.h"
 #include "scripts/program/run_all.h"
 #include "scripts/program/run_case.h"
-#include "verification/cases/frame_laws.h"
 #include "verification/checks.h"
 #include "verification/claims/read_claims.h"
 #include "verification/faults/faults.h"
 #include "verification/seeds.h"
 #include "verification/files/verdicts_file.h"
 #include "verification/subjects/reference_subject.h"
-#include "verification/subjects/suite/laws.h"
 
 namespace foldproof {
 
@@ -95,16 +90,6 @@ int conclude(RunRecord& run, const Options& options, const std::string& file) {
   return exit_code(run);
 }
 
-std::vector<std::string> names_of_case_findings() {
-  std::vector<std::string> names;
-  for (const std::string& name : built_in_cases(Tier::full)) {
-    const Case input_case = built_in_case(name);
-    for (const Expectation& expectation : input_case.expectations)
-      names.push_back(finding_name(input_case.scene, expectation));
-  }
-  return names;
-}
-
 /// Judges all shipped cases; those that are shown leave their files in the folder.
 std::vector<Job> jobs_of_built_in_cases(const Options& options, const Provenance& provenance) {
   constexpr double length = 60;
@@ -161,52 +146,7 @@ RunRecord run_whole_suite(const Options& options) {
   return run;
 }
 
-/// Of checks, studies or laws.
-template <class Asked>
-nlohmann::json names_and_claims(const std::vector<Asked>& all) {
-  nlohmann::json rows = nlohmann::json::array();
-  for (const Asked& one : all)
-    rows.push_back({{"name", one.name}, {"claim", one.claim}, {"source", one.source}});
-  return rows;
-}
-
 }  // namespace
-
-int list(const Options& options) {
-  nlohmann::json json = {{"checks", names_and_claims(all_checks())},
-                         {"studies", names_and_claims(all_studies())},
-                         {"laws", names_and_claims(portable_laws())},
-                         {"frame_laws", names_and_claims(frame_laws())}};
-  json["cases"] = built_in_cases(Tier::full);
-  json["cases_folder"] = data_folder() + "/cases";
-  json["long_cases"] = long_cases();
-  json["integrators"] = nlohmann::json::array();
-  for (const Integrator& i : integrators())
-    json["integrators"].push_back(
-        {{"name", i.name}, {"title", i.title}, {"source", i.source}, {"order", i.order}});
-  if (options.json) {
-    json["case_findings"] = names_of_case_findings();
-    json["claims"] = nlohmann::json::array();
-    for (const Claim& claim : written_claims())
-      json["claims"].push_back({{"id", claim.id}, {"findings", findings_named_in(claim)}});
-    fmt::print("{}\n", json_text(json));
-    return all_hold;
-  }
-  for (const auto& [kind, heading] : {std::pair("checks", "checks"),
-                                      {"studies", "studies"},
-                                      {"laws", "laws for `judge`"},
-                                      {"frame_laws", "laws for `judge --frames`"}}) {
-    fmt::print("{}:\n", heading);
-    for (const auto& row : json[kind])
-      fmt::print("  {:<58} {}\n", row["name"].get<std::string>(), row["claim"].get<std::string>());
-  }
-  fmt::print("cases ({}/cases/NAME.toml):\n", data_folder());
-  for (const std::string& name : built_in_cases(Tier::full)) fmt::print("  {}\n", name);
-  fmt::print("integrators:\n");
-  for (const Integrator& i : integrators())
-    fmt::print("  {}  {} ({}), order {}\n", i.name, i.title, i.source, i.order);
-  return all_hold;
-}
 
 int run_checks(const Options& options) {
   require_folder_to_resume(options);

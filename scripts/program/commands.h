@@ -5,7 +5,7 @@
 
 namespace foldproof {
 
-int list(const Options& options);
+int list(const Options& options);           // list_command.cpp
 int simulate_case(const Options& options);  // simulate_command.cpp
 int ablate(const Options& options);         // ablate_command.cpp
 int converge(const Options& options);       // converge_command.cpp

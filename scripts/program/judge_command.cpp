@@ -38,7 +38,7 @@ std::vector<Law> chosen_laws(const std::vector<std::string>& names) {
     const auto is_chosen = [&](const Law& law) { return chooses(name, law.name); };
     if (std::ranges::any_of(laws, is_chosen)) continue;
     const std::string meant = did_you_mean(nearest_names(name, known));
-    throw InputError(fmt::format("there is no law '{}' (`foldproof list` shows all){}", name,
+    throw InputError(fmt::format("there is no law '{}' (`foldproof list laws` shows all){}", name,
                                  meant.empty() ? "; is CMD in quotes?" : meant));
   }
   std::erase_if(laws, [&](const Law& law) {

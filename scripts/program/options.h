@@ -25,7 +25,7 @@ struct Options {
   double reach = 0, eps = 0;       // of project [m]
   // of project [m]; NaN: the deepest in the run
   double deepest = std::numeric_limits<double>::quiet_NaN();
-  std::string kind;                 // of evaluate crossings: of pair; of export: of file
+  std::string kind;                 // of list; of evaluate crossings: of pair; of export: of file
   std::string field, size, fps;     // of film: as its script takes them
   double keep = 1e-6;               // of evaluate crossings [m]
   int count = 10;                   // of golden: rows

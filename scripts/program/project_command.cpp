@@ -97,7 +97,7 @@ Wrinkles wrinkles_of(const std::string& of, const Source& source, const PerParti
                      const PerParticle& phi) {
   Wrinkles wrinkles{of, deviation_where(phi, [&](Eigen::Index i) { return before[i] < 0; }), {}};
   for (int axis = 0; axis < 3; ++axis) {
-    const Section section = section_of(source.scene.mesh, axis);
+    const MeshSection section = section_of(source.scene.mesh, axis);
     const double length = section.length.empty() ? 0 : section.length.back();
     wrinkles.wavelength[std::size_t(axis)] =
         dominant_wavelength(along(section, phi, samples_along), length / (samples_along - 1));

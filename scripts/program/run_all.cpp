@@ -36,7 +36,7 @@ bool is_named(const std::vector<std::string>& kinds, const char* kind) {
   for (const Study& study : studies) add(study.name);
   for (const std::string& file : built_in_cases(Tier::full)) add(group_of_case(file));
   throw InputError(
-      fmt::format("there is no check, study or case '{}' (`foldproof list` shows all){}", name,
+      fmt::format("there is no check, study or case '{}' (`foldproof list checks`, `studies`, `cases` show all){}", name,
                   did_you_mean(nearest_names(name, known))));
 }
 

@@ -135,11 +135,11 @@ class Program(Installed):
 
     def test_it_says_where_its_cases_are_and_what_it_misses(self) -> None:
         self.assertIn(
-            f"cases ({self.here.prefix}/share/foldproof/cases/NAME.toml):",
+            f"Cases are {self.here.prefix}/share/foldproof/cases/NAME.toml.",
             self.here.run("list").stdout,
         )
         self.assertIn(
-            "`foldproof list` shows the shipped ones", self.here.run("simulate", "nowhere").stderr
+            "`foldproof list cases` shows the shipped ones", self.here.run("simulate", "nowhere").stderr
         )
         self.assertIn(
             "`foldproof verify --out none`", self.here.run("claims", "--out", "none").stderr

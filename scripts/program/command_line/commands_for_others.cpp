@@ -47,7 +47,7 @@ void add_judge(CLI::App& app, Options& options) {
   solver->type_name("CMD")->check(some_text("a command"));
   judge
       ->add_option("LAW", options.names,
-                   "Laws or groups to judge, as `foldproof list` shows them (default: all)")
+                   "Laws or groups to judge, as `foldproof list laws` shows them")
       ->needs(solver);
   add_judged_frames(judge, solver, options);
   judge->add_option("--name", options.name, "Name in the report (default: the solver's own)")
@@ -85,7 +85,7 @@ void add_judge(CLI::App& app, Options& options) {
                   {"serve", "Answer the protocol of `judge` as the reference: `judge` starts this",
                    help::serve},
                   serve);
-  served->add_option("--integrator", options.integrator, "One that `foldproof list` names")
+  served->add_option("--integrator", options.integrator, "One of `foldproof list integrators`")
       ->type_name("NAME")
       ->check(some_text("an integrator"))
       ->capture_default_str();

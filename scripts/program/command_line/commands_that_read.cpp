@@ -149,11 +149,13 @@ void add_compare(CLI::App& app, Options& options) {
 }  // namespace
 
 void add_readers(CLI::App& app, Options& options) {
-  add_json(add_command(app, options,
-                       {"list", "Show what there is: checks, studies, laws, cases, integrators",
-                        help::list},
-                       list),
-           options);
+  CLI::App* names = add_command(
+      app, options,
+      {"list", "Show what there is: checks, studies, laws, cases, claims", help::list}, list);
+  names->add_option("KIND", options.kind, "The names of one kind; without it, how many there are")
+      ->check(CLI::IsMember(
+          {"checks", "studies", "laws", "frame-laws", "cases", "claims", "integrators"}));
+  add_json(names, options);
   CLI::App* claims = add_command(
       app, options,
       {"claims", "Show the rulings of a finished run on the papers' claims", help::claims},

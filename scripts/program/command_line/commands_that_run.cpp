@@ -101,7 +101,8 @@ void add_selections(CLI::App& app, Options& options) {
                     run_checks),
         add_command(app, options, {"study", "Run studies (all, or those named)", help::study},
                     run_studies)}) {
-    command->add_option("NAME", options.names, "Names or groups, as `foldproof list` shows them");
+    command->add_option("NAME", options.names,
+                        "Names or groups, as `foldproof list checks` shows them");
     add_out_if_typed(command, options,
                      "Also write run.h5, verdicts.json and junit.xml into this folder");
     add_running(command, options);

@@ -9,7 +9,7 @@ constexpr const char* whole_program =
   foldproof verify                                     the quick tier, and results/report.html
   foldproof simulate hanging_sheet                     one case, into results/
   foldproof check bending                              all checks of bending
-  foldproof list                                       names of checks, studies, laws and cases
+  foldproof list                                       what there is: checks, laws, cases, claims
 `foldproof COMMAND --help` explains a command, with examples.
 
 Exit codes:
@@ -20,8 +20,8 @@ Exit codes:
 
 constexpr const char* list =
     R"(Examples:
-  foldproof list
-  foldproof list --json                                also claims and the findings of cases
+  foldproof list cases                                 the names of the shipped cases
+  foldproof list --json                                everything, also the findings of cases
 
 Exit codes:
   0    listed

@@ -48,7 +48,7 @@ std::string suggestion(const std::string& typed, const FileKind& kind) {
   for (const std::string& name : nearest_names(fs::path(typed).stem().string(), names))
     meant.push_back(words.at(name));
   if (!meant.empty()) return did_you_mean(meant);
-  return &kind == &case_kind ? "; `" + program_command() + " list` shows the shipped ones"
+  return &kind == &case_kind ? "; `" + program_command() + " list cases` shows the shipped ones"
                              : "; check the path";
 }
 

@@ -1,0 +1,127 @@
+// `foldproof list`: counts of checks, studies, laws, cases, claims; the names of one kind.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "convergence/studies.h"
+#include "reference/dynamics/integrator.h"
+#include "scripts/program/commands.h"
+#include "scripts/program/data_folder.h"
+#include "scripts/program/json_text.h"
+#include "scripts/program/ledger.h"
+#include "scripts/program/run_case.h"
+#include "verification/cases/frame_laws.h"
+#include "verification/checks.h"
+#include "verification/claims/read_claims.h"
+#include "verification/subjects/suite/laws.h"
+
+namespace foldproof {
+
+namespace {
+
+/// A name, and a sentence; empty if the name says enough.
+using Row = std::pair<std::string, std::string>;
+
+/// One kind of thing that the program knows by name.
+struct Kind {
+  std::string name;  // the word after `list`
+  std::string use;   // the command that takes such a name
+  std::vector<Row> rows;
+};
+
+/// Of checks, studies or laws.
+template <class Named>
+std::vector<Row> names_and_claims(const std::vector<Named>& all) {
+  std::vector<Row> rows;
+  for (const Named& one : all) rows.emplace_back(one.name, one.claim);
+  return rows;
+}
+
+std::vector<Kind> kinds() {
+  std::vector<Row> cases, claims, methods;
+  for (const std::string& name : built_in_cases(Tier::full)) cases.emplace_back(name, "");
+  for (const Claim& claim : read_claims(data_folder() + "/verification/claims"))
+    claims.emplace_back(claim.id, claim.statement);
+  for (const Integrator& i : integrators())
+    methods.emplace_back(i.name, fmt::format("{} ({}), order {}", i.title, i.source, i.order));
+  return {{"checks", "check NAME", names_and_claims(all_checks())},
+          {"studies", "study NAME", names_and_claims(all_studies())},
+          {"laws", "judge --solver COMMAND NAME", names_and_claims(portable_laws())},
+          {"frame-laws", "judge --frames FOLDER NAME", names_and_claims(frame_laws())},
+          {"cases", "simulate NAME", cases},
+          {"claims", "claims ID", claims},
+          {"integrators", "simulate CASE --set time.integrator=NAME", methods}};
+}
+
+void print_counts(const std::vector<Kind>& all) {
+  for (const Kind& kind : all)
+    fmt::print("{:<12}{:>5}   foldproof {}\n", kind.name, kind.rows.size(), kind.use);
+  fmt::print(
+      "`foldproof list KIND` prints the names of one kind, such as `foldproof list cases`.\n"
+      "Cases are {}/cases/NAME.toml.\n",
+      data_folder());
+}
+
+void print_names(const Kind& kind) {
+  size_t width = 0;
+  for (const auto& [name, sentence] : kind.rows) width = std::max(width, name.size());
+  for (const auto& [name, sentence] : kind.rows)
+    fmt::print("{}\n", sentence.empty() ? name : fmt::format("{:<{}}  {}", name, width, sentence));
+}
+
+template <class Named>
+nlohmann::json json_rows(const std::vector<Named>& all) {
+  nlohmann::json rows = nlohmann::json::array();
+  for (const Named& one : all)
+    rows.push_back({{"name", one.name}, {"claim", one.claim}, {"source", one.source}});
+  return rows;
+}
+
+std::vector<std::string> names_of_case_findings() {
+  std::vector<std::string> names;
+  for (const std::string& name : built_in_cases(Tier::full)) {
+    const Case input_case = built_in_case(name);
+    for (const Expectation& expectation : input_case.expectations)
+      names.push_back(finding_name(input_case.scene, expectation));
+  }
+  return names;
+}
+
+nlohmann::json everything() {
+  nlohmann::json json = {{"checks", json_rows(all_checks())},
+                         {"studies", json_rows(all_studies())},
+                         {"laws", json_rows(portable_laws())},
+                         {"frame_laws", json_rows(frame_laws())},
+                         {"cases", built_in_cases(Tier::full)},
+                         {"cases_folder", data_folder() + "/cases"},
+                         {"long_cases", long_cases()},
+                         {"integrators", nlohmann::json::array()},
+                         {"case_findings", names_of_case_findings()},
+                         {"claims", nlohmann::json::array()}};
+  for (const Integrator& i : integrators())
+    json["integrators"].push_back(
+        {{"name", i.name}, {"title", i.title}, {"source", i.source}, {"order", i.order}});
+  for (const Claim& claim : read_claims(data_folder() + "/verification/claims"))
+    json["claims"].push_back({{"id", claim.id}, {"findings", findings_named_in(claim)}});
+  return json;
+}
+
+}  // namespace
+
+int list(const Options& options) {
+  if (options.json) {
+    fmt::print("{}\n", json_text(everything()));
+    return all_hold;
+  }
+  const std::vector<Kind> all = kinds();
+  if (options.kind.empty()) print_counts(all);
+  for (const Kind& kind : all)
+    if (kind.name == options.kind) print_names(kind);
+  return all_hold;
+}
+
+}  // namespace foldproof
