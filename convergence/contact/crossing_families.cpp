@@ -143,7 +143,7 @@ bool meets_exactly(const CrossingQuery& query) {
 
 bool meets_exactly_before(const CrossingQuery& query, double end) {
   if (!(end > 0)) return false;
-  const oracles::Motion motion = oracles::exact_motion(query.x, query.displacement);
+  const oracles::ExactMotion motion = oracles::exact_motion(query.x, query.displacement);
   return oracles::ever_meet(features_of(query.kind),
                             oracles::until(motion, std::nextafter(end, 0)));
 }

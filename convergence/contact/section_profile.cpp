@@ -51,8 +51,8 @@ Vector3 place(const TriangleMesh& mesh, const Crossing& crossing) {
   return (1 - crossing.t) * mesh.rest.col(crossing.a) + crossing.t * mesh.rest.col(crossing.b);
 }
 
-Section section_along(const TriangleMesh& mesh, const Cut& cut, const std::vector<int>& line) {
-  Section section;
+MeshSection section_along(const TriangleMesh& mesh, const Cut& cut, const std::vector<int>& line) {
+  MeshSection section;
   for (int edge : line) {
     const Crossing& crossing = cut.of_edge[std::size_t(edge)];
     const double step =
@@ -67,18 +67,18 @@ Section section_along(const TriangleMesh& mesh, const Cut& cut, const std::vecto
 
 }  // namespace
 
-Section section_of(const TriangleMesh& mesh, int axis) {
+MeshSection section_of(const TriangleMesh& mesh, int axis) {
   const double low = mesh.rest.row(axis).minCoeff(), high = mesh.rest.row(axis).maxCoeff();
   const double size = (mesh.rest.rowwise().maxCoeff() - mesh.rest.rowwise().minCoeff()).maxCoeff();
   if (!(high - low > 1e-6 * size)) return {};  // flat along this axis
   const Cut cut = cut_by(mesh, axis, (low + high) / 2 + 1e-9 * (high - low));
-  Section longest;
+  MeshSection longest;
   std::vector<bool> passed(mesh.edges.size(), false);
   for (const bool from_border : {true, false}) {  // open lines from their ends, then closed ones
     for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
       const bool is_border = mesh.edges[e].triangles[1] < 0;
       if (cut.of_edge[e].t < 0 || passed[e] || (from_border && !is_border)) continue;
-      Section found =
+      MeshSection found =
           section_along(mesh, cut, walk(mesh, cut, int(e), mesh.edges[e].triangles[0], passed));
       if (longest.length.empty() || found.length.back() > longest.length.back())
         longest = std::move(found);
@@ -87,7 +87,7 @@ Section section_of(const TriangleMesh& mesh, int axis) {
   return longest;
 }
 
-std::vector<double> along(const Section& section, const PerParticle& values, int count) {
+std::vector<double> along(const MeshSection& section, const PerParticle& values, int count) {
   std::vector<double> samples;
   std::size_t next = 1;
   for (int k = 0; k < count && section.length.size() >= 2; ++k) {

@@ -14,7 +14,7 @@ struct Crossing {
 };
 
 /// Crossings in their order along the line, and the length from the first to each, at rest [m].
-struct Section {
+struct MeshSection {
   std::vector<Crossing> crossings;
   std::vector<double> length;
 };
@@ -22,10 +22,10 @@ struct Section {
 /// The longest line in which the plane through the middle of the rest shape, normal to the axis (0
 /// x, 1 y, 2 z), cuts it; empty where the shape is flat along the axis. A plane that meets a
 /// particle is moved aside by a billionth of the extent.
-Section section_of(const TriangleMesh& mesh, int axis);
+MeshSection section_of(const TriangleMesh& mesh, int axis);
 
 /// The values (N) along the section, at `count` >= 2 places equally far from the next; empty for
 /// an empty section.
-std::vector<double> along(const Section& section, const PerParticle& values, int count);
+std::vector<double> along(const MeshSection& section, const PerParticle& values, int count);
 
 }  // namespace foldproof

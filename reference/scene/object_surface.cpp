@@ -8,9 +8,9 @@ namespace foldproof {
 
 namespace {
 
-constexpr int context = 64;      // vertices of a circle about the axis
-constexpr int along_arc = 16;    // edges of a quarter of a circle in the profile
-constexpr int subdivisions = 4;  // of the sphere: 5120 triangles
+constexpr int vertices_around = 64;  // the axis, on each circle
+constexpr int along_arc = 16;        // edges of a quarter of a circle in the profile
+constexpr int subdivisions = 4;      // of the sphere: 5120 triangles
 
 struct ProfilePoint {
   double r, z;  // m
@@ -21,18 +21,18 @@ struct ProfilePoint {
 ObjectSurface revolve(const std::vector<ProfilePoint>& profile, bool closes) {
   const int rings = int(profile.size());
   ObjectSurface surface;
-  surface.vertices.resize(3, rings * context);
+  surface.vertices.resize(3, rings * vertices_around);
   for (int k = 0; k < rings; ++k)
-    for (int i = 0; i < context; ++i) {
-      const double angle = 2 * pi * i / context;
-      surface.vertices.col(k * context + i) << profile[size_t(k)].r * std::cos(angle),
+    for (int i = 0; i < vertices_around; ++i) {
+      const double angle = 2 * pi * i / vertices_around;
+      surface.vertices.col(k * vertices_around + i) << profile[size_t(k)].r * std::cos(angle),
           profile[size_t(k)].r * std::sin(angle), profile[size_t(k)].z;
     }
   for (int k = 0; k + (closes ? 0 : 1) < rings; ++k)
-    for (int i = 0; i < context; ++i) {
-      const int a = k * context + i, b = k * context + (i + 1) % context;
-      const int c = (k + 1) % rings * context + i,
-                d = (k + 1) % rings * context + (i + 1) % context;
+    for (int i = 0; i < vertices_around; ++i) {
+      const int a = k * vertices_around + i, b = k * vertices_around + (i + 1) % vertices_around;
+      const int c = (k + 1) % rings * vertices_around + i,
+                d = (k + 1) % rings * vertices_around + (i + 1) % vertices_around;
       surface.triangles.push_back({a, b, d});
       surface.triangles.push_back({a, d, c});
     }

@@ -68,9 +68,9 @@ TriangleMesh read_disc(const KeyTable& keys, const SceneLimits& limits) {
 }
 
 TriangleMesh read_cylinder(const KeyTable& keys, const SceneLimits& limits) {
-  const int context = count(keys, "around"), along = count(keys, "along");
-  reject_many_triangles(keys, "around", 2.0 * context * along, limits);
-  return make_cylinder(keys.number("radius"), keys.number("height"), context, along);
+  const int around = count(keys, "around"), along = count(keys, "along");
+  reject_many_triangles(keys, "around", 2.0 * around * along, limits);
+  return make_cylinder(keys.number("radius"), keys.number("height"), around, along);
 }
 
 /// How finely an icosahedron is divided: its edges are halved `subdivisions` times, or are in

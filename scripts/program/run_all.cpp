@@ -35,9 +35,8 @@ bool is_named(const std::vector<std::string>& kinds, const char* kind) {
   for (const Check& check : checks) add(check.name);
   for (const Study& study : studies) add(study.name);
   for (const std::string& file : built_in_cases(Tier::full)) add(group_of_case(file));
-  throw InputError(
-      fmt::format("there is no check, study or case '{}' (`foldproof list checks`, `studies`, `cases` show all){}", name,
-                  did_you_mean(nearest_names(name, known))));
+  throw InputError(fmt::format("there is no check, study or case '{}' (see `foldproof list`){}",
+                               name, did_you_mean(nearest_names(name, known))));
 }
 
 bool add_named(const std::string& name, const std::vector<Check>& checks,

@@ -139,7 +139,8 @@ class Program(Installed):
             self.here.run("list").stdout,
         )
         self.assertIn(
-            "`foldproof list cases` shows the shipped ones", self.here.run("simulate", "nowhere").stderr
+            "`foldproof list cases` shows the shipped ones",
+            self.here.run("simulate", "nowhere").stderr,
         )
         self.assertIn(
             "`foldproof verify --out none`", self.here.run("claims", "--out", "none").stderr

@@ -101,7 +101,7 @@ MeetDecision decide(const Stretch& s, int halvings) {
 
 }  // namespace
 
-MeetDecision decide_by_subdivision(Features features, const Motion& motion, int halvings) {
+MeetDecision decide_by_subdivision(Features features, const ExactMotion& motion, int halvings) {
   Quad<Whole> end;
   for (std::size_t i = 0; i < 4; ++i) end[i] = motion.start[i] + motion.displacement[i];
   return decide({corners_of(features, motion.start), corners_of(features, end)}, halvings);

@@ -12,6 +12,6 @@ enum class MeetDecision { meet, apart, unclear };
 /// and at its end; they meet if they pass through a common plane while they overlap when seen along
 /// some fixed direction. The time is halved at most `halvings` times; anything still undecided,
 /// such as touching, is unclear. In integers throughout.
-MeetDecision decide_by_subdivision(Features features, const Motion& motion, int halvings);
+MeetDecision decide_by_subdivision(Features features, const ExactMotion& motion, int halvings);
 
 }  // namespace foldproof::oracles

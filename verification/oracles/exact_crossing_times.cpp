@@ -122,7 +122,7 @@ Quad<Whole> sum(const Quad<Whole>& p, const Quad<Whole>& q) {
   return {p[0] + q[0], p[1] + q[1], p[2] + q[2], p[3] + q[3]};
 }
 
-Quad<Polynomial> over_time(const Motion& motion) {
+Quad<Polynomial> over_time(const ExactMotion& motion) {
   Quad<Polynomial> x;
   for (std::size_t i = 0; i < 4; ++i) {
     const Exact &p = motion.start[i], &w = motion.displacement[i];
@@ -139,7 +139,7 @@ Quad<Whole> exact_points(const FourPoints& x, int exponent) {
 
 }  // namespace
 
-Motion exact_motion(const FourPoints& start, const FourPoints& displacement) {
+ExactMotion exact_motion(const FourPoints& start, const FourPoints& displacement) {
   const int k =
       common_exponent({start.col(0), start.col(1), start.col(2), start.col(3), displacement.col(0),
                        displacement.col(1), displacement.col(2), displacement.col(3)});
@@ -147,10 +147,10 @@ Motion exact_motion(const FourPoints& start, const FourPoints& displacement) {
 }
 
 // x = start + t end way; end = whole / 2^halvings
-Motion until(const Motion& motion, double end) {
+ExactMotion until(const ExactMotion& motion, double end) {
   const int exponent = common_exponent({Vector3(end, 0, 0)});
   const Whole numerator = whole(end, exponent), denominator = Whole(1) << unsigned(-exponent);
-  Motion shorter;
+  ExactMotion shorter;
   for (std::size_t i = 0; i < 4; ++i) {
     shorter.start[i] = denominator * motion.start[i];
     shorter.displacement[i] = numerator * motion.displacement[i];
@@ -158,7 +158,7 @@ Motion until(const Motion& motion, double end) {
   return shorter;
 }
 
-Motion motion_between(const std::array<std::array<Fraction, 3>, 8>& points) {
+ExactMotion motion_between(const std::array<std::array<Fraction, 3>, 8>& points) {
   Whole common = 1;
   for (const auto& point : points)
     for (const Fraction& f : point) common = lcm(common, f.denominator);
@@ -169,7 +169,7 @@ Motion motion_between(const std::array<std::array<Fraction, 3>, 8>& points) {
     return Exact{times_common(points[i][0]), times_common(points[i][1]),
                  times_common(points[i][2])};
   };
-  Motion motion;
+  ExactMotion motion;
   for (std::size_t i = 0; i < 4; ++i) {
     motion.start[i] = whole_point(i);
     motion.displacement[i] = whole_point(i + 4) - motion.start[i];
@@ -177,7 +177,7 @@ Motion motion_between(const std::array<std::array<Fraction, 3>, 8>& points) {
   return motion;
 }
 
-bool ever_meet(Features features, const Motion& motion) {
+bool ever_meet(Features features, const ExactMotion& motion) {
   if (separated_by_an_axis(differences(features, motion.start),
                            differences(features, sum(motion.start, motion.displacement))))
     return false;

@@ -26,26 +26,26 @@ enum class Features { vertex_and_triangle, edge_and_edge };
 using FourPoints = Eigen::Matrix<double, 3, 4>;
 
 /// Four points at start + t way, t in [0, 1], in integer multiples of some unit of length.
-struct Motion {
+struct ExactMotion {
   Quad<Whole> start, displacement;
 };
 
 /// The doubles [m] taken as exact numbers.
-Motion exact_motion(const FourPoints& start, const FourPoints& displacement);
+ExactMotion exact_motion(const FourPoints& start, const FourPoints& displacement);
 
 /// The motion up to the time `end` in [0, 1], slowed down to last from 0 to 1.
-Motion until(const Motion& motion, double end);
+ExactMotion until(const ExactMotion& motion, double end);
 
 struct Fraction {
   Whole numerator, denominator;  // the denominator is not zero
 };
 
 /// From the first four points to the last four.
-Motion motion_between(const std::array<std::array<Fraction, 3>, 8>& points);
+ExactMotion motion_between(const std::array<std::array<Fraction, 3>, 8>& points);
 
 /// True if the two closed features, which may be degenerate, have a point in common at some
 /// time in [0, 1].
-bool ever_meet(Features features, const Motion& motion);
+bool ever_meet(Features features, const ExactMotion& motion);
 
 /// True if they have one at rest.
 bool meet(Features features, const FourPoints& x);
