@@ -1,6 +1,5 @@
 // The map of error and cost over step and mesh, from ladders whose laws are known.
 #include <catch2/catch.hpp>
-#include <cmath>
 
 #include "convergence/any_case/error_map.h"
 
@@ -17,20 +16,15 @@ constexpr double work_by_step = 0.9, work_by_edge = 2.4, longest_by_edge = 1.3;
 constexpr double first_step = 5e-3, first_edge = 0.06;  // s, m
 constexpr double first_work = 3000, particles = 60, seconds_by_work = 2e-6;
 
-/// Differences of an error law between n levels, coarse to fine [m].
-std::vector<double> differences(double as_it_is, double order, int levels) {
-  std::vector<double> found;
-  for (int k = 0; k + 1 < levels; ++k)
-    found.push_back(motion * as_it_is * (std::exp2(-order * k) - std::exp2(-order * (k + 1))));
-  return found;
-}
-
-LadderAnswer ladder(const std::string& in, double as_it_is, double order, int levels) {
-  LadderAnswer answer{"strip", "C", in, {}, {}, {}, std::vector<std::string>(size_t(levels)), {}};
-  const std::vector<double> d = differences(as_it_is, order, levels);
+/// Four levels, coarse to fine, of errors that fall by these laws.
+LadderAnswer ladder(const std::string& in, double as_it_is, double order) {
+  const bool in_time = in == "time";
+  LadderAnswer answer{"strip", "C", in, {}, {}, {}, std::vector<std::string>(4), {}};
+  std::vector<double> d;  // differences between levels [m]
+  for (int k = 0; k < 3; ++k)
+    d.push_back(motion * as_it_is * (std::exp2(-order * k) - std::exp2(-order * (k + 1))));
   answer.quantities = {{"positions", "m", {}, d, error_bar({{}, d, 2, 2, 0}), 1}};
-  for (int k = 0; k < levels; ++k) {
-    const bool in_time = in == "time";
+  for (int k = 0; k < 4; ++k) {
     answer.sizes.push_back(std::exp2(-k) * (in_time ? first_step : first_edge));
     answer.particles.push_back(int(particles) << (in_time ? 0 : 2 * k));
     answer.work.push_back(first_work * std::exp2(k * (in_time ? work_by_step : work_by_edge)) *
@@ -40,21 +34,22 @@ LadderAnswer ladder(const std::string& in, double as_it_is, double order, int le
   return answer;
 }
 
-LadderAnswer in_time() { return ladder("time", step_error, step_order, 4); }
+LadderAnswer in_time() { return ladder("time", step_error, step_order); }
 
 LadderAnswer in_space() {
-  LadderAnswer answer = ladder("space", mesh_error, mesh_order, 4);
+  LadderAnswer answer = ladder("space", mesh_error, mesh_order);
   answer.mean_step = first_step * std::exp2(-3 * longest_by_edge);
   const double there = step_error * std::pow(answer.mean_step / first_step, step_order);
   answer.quantities[0].step_error = 1.5 * motion * there;
   return answer;
 }
 
+ErrorMap whole_map() { return error_map(in_time(), in_space(), motion); }
+
 }  // namespace
 
 TEST_CASE("a map has the laws of its ladders") {
-  const ErrorMap map = error_map(in_time(), in_space(), motion);
-  REQUIRE(map.reason.empty());
+  const ErrorMap map = whole_map();
   CHECK(map.step_error.as_it_is == Approx(step_error));
   CHECK(map.step_error.exponent == Approx(step_order));
   CHECK(map.mesh_error.as_it_is == Approx(mesh_error));
@@ -74,44 +69,33 @@ TEST_CASE("a map has the laws of its ladders") {
 }
 
 TEST_CASE("the cheapest pair shares the error as the exponents demand") {
-  ErrorMap map = error_map(in_time(), in_space(), motion);
+  ErrorMap map = whole_map();
   map.longest_by_edge = -9;  // no limit on the finer meshes
   // A r^p : B s^q = a/p : b/q where the cost r^-a s^-b is least
   const double of_step = work_by_step / step_order, of_mesh = work_by_edge / mesh_order;
-  const double wanted = 1e-3;
-  const CheapestPair pair = cheapest_pair(map, wanted);
-  CHECK(map.error(pair.step, pair.edge) == Approx(wanted).epsilon(1e-9));
+  const CheapestPair pair = cheapest_pair(map, 1e-3);
+  CHECK(map.error(pair.step, pair.edge) == Approx(1e-3).epsilon(1e-9));
   CHECK(map.step_error.at(pair.step / first_step) ==
-        Approx(wanted * of_step / (of_step + of_mesh)).epsilon(0.05));
+        Approx(1e-3 * of_step / (of_step + of_mesh)).epsilon(0.05));
   CHECK(pair.halving_costs == Approx(std::exp2(of_step + of_mesh)).epsilon(1e-3));
-  CHECK(pair.particles == Approx(particles * std::pow(pair.edge / first_edge, -2)));
-  CHECK(pair.seconds == Approx(map.seconds(pair.step, pair.edge)));
   CHECK_FALSE(pair.is_limited_by_rule);
 }
 
 TEST_CASE("no step of a pair is longer than the case's own rule takes") {
-  const ErrorMap map = error_map(in_time(), in_space(), motion);
-  const CheapestPair pair = cheapest_pair(map, 1e-3);
+  const ErrorMap map = whole_map();
+  const CheapestPair pair = cheapest_pair(map, 1e-3), none = cheapest_pair(map, 1e-12);
   CHECK(pair.is_limited_by_rule);
   CHECK(pair.step == Approx(map.longest_step(pair.edge)));
   CHECK(map.error(pair.step, pair.edge) <= 1e-3);
-}
-
-TEST_CASE("an error beyond all meshes has no pair") {
-  const ErrorMap map = error_map(in_time(), in_space(), motion);
-  const CheapestPair pair = cheapest_pair(map, 1e-12);
-  CHECK(std::isnan(pair.edge));
-  CHECK(std::isnan(pair.seconds));
-  CHECK_THAT(map_in_words(map, {pair}).back(), Contains("1e-10 %: no mesh of edges"));
+  CHECK(std::isnan(none.edge));
+  CHECK_THAT(map_in_words(map, {none}).back(), Contains("1e-10 %: no mesh of edges"));
 }
 
 TEST_CASE("positions without an order have no map, and the reason is told") {
   LadderAnswer coarse = in_space();
   coarse.quantities[0].bar = error_bar({{}, {1, 2, 4}, 2, 2, 0});
   const ErrorMap map = error_map(in_time(), coarse, motion);
-  CHECK(map_in_words(map, {}) ==
-        std::vector<std::string>{"No map of error over step and mesh: the positions have no order "
-                                 "in space: differences between levels grow."});
+  CHECK_THAT(map_in_words(map, {}).at(0), Contains("no order in space: differences between"));
   CHECK(map_study(map, {}).maps.empty());
   CHECK_THAT(error_map(in_time(), in_space(), 0).reason, Contains("nothing moves"));
 }
@@ -122,31 +106,25 @@ TEST_CASE(
   rough.quantities[0].bar = error_bar({{}, {8, 4, 1}, 2, 2, 0});
   other.quantities[0].step_error *= 10;
   const ErrorMap map = error_map(rough, other, motion);
-  REQUIRE(map.warnings.size() == 2);
-  CHECK_THAT(map.warnings[0], Contains("the order in time, 2.00, is not asymptotic"));
-  CHECK_THAT(map.warnings[1], Contains("times as large on the second-finest mesh"));
+  CHECK_THAT(map.warnings.at(0), Contains("the order in time, 2.00, is not asymptotic"));
+  CHECK_THAT(map.warnings.at(1), Contains("times as large on the second-finest mesh"));
 }
 
 TEST_CASE("a drawn map has lines of equal cost, and no error of steps that the rule refuses") {
-  const ErrorMap map = error_map(in_time(), in_space(), motion);
-  const StudyRecord study = map_study(map, {cheapest_pair(map, 1e-2)});
-  REQUIRE(study.maps.size() == 1);
-  const Map& drawn = study.maps[0];
+  const ErrorMap map = whole_map();
+  const Map drawn = map_study(map, {cheapest_pair(map, 1e-2)}).maps.at(0);
   REQUIRE(drawn.values.size() == drawn.x_values.size() * drawn.y_values.size());
-  for (size_t row = 0; row < drawn.y_values.size(); ++row)
-    for (size_t column = 0; column < drawn.x_values.size(); ++column) {
-      const double h = drawn.x_values[column], dx = drawn.y_values[row];
-      const double value = drawn.values[row * drawn.x_values.size() + column];
-      if (h > 1.01 * map.longest_step(dx)) CHECK(std::isnan(value));
-      if (h < 0.99 * map.longest_step(dx)) CHECK(value == Approx(map.error(h, dx)));
-    }
-  REQUIRE(drawn.curves.size() >= 3);
-  const Curve& line = drawn.curves[0];  // ten times the cost of the case as it is, 0.36 s
+  for (size_t k = 0; k < drawn.values.size(); ++k) {
+    const double h = drawn.x_values[k % drawn.x_values.size()],
+                 dx = drawn.y_values[k / drawn.x_values.size()];
+    if (h > 1.01 * map.longest_step(dx)) CHECK(std::isnan(drawn.values[k]));
+    if (h < 0.99 * map.longest_step(dx)) CHECK(drawn.values[k] == Approx(map.error(h, dx)));
+  }
+  const Curve& line = drawn.curves.at(0);  // ten times the cost of the case as it is, 0.36 s
   CHECK(line.label == "3.6 s");
   for (size_t k = 0; k < line.x.size(); ++k)
     CHECK(map.seconds(line.x[k], line.y[k]) == Approx(10 * map.seconds(first_step, first_edge)));
   CHECK(drawn.curves.back().label == "cheapest");
-  CHECK(study.tables[0].numbers("wanted error") == std::vector<double>{1e-2});
 }
 
 }  // namespace foldproof

@@ -1,15 +1,11 @@
 // When positions stop being predictable: motions whose growth of small differences is known.
-#include <array>
 #include <catch2/catch.hpp>
-#include <cmath>
-#include <functional>
 #include <random>
 
 #include "convergence/any_case/motion_statistics.h"
 #include "convergence/any_case/predictability.h"
 #include "reference/mesh/shapes.h"
 #include "verification/cases/folds.h"
-#include "verification/seeds.h"
 
 using namespace foldproof;
 
@@ -33,13 +29,11 @@ using Phase = Eigen::Vector4d;  // angles from the vertical [rad], and their rat
 Phase pendulum_rate(const Phase& p) {
   constexpr double g = 9.81;  // m/s^2
   const double delta = p[0] - p[1], below = 3 - std::cos(2 * delta);
-  const double a = (-3 * g * std::sin(p[0]) - g * std::sin(p[0] - 2 * p[1]) -
-                    2 * std::sin(delta) * (p[3] * p[3] + p[2] * p[2] * std::cos(delta))) /
-                   below;
+  const double a = -3 * g * std::sin(p[0]) - g * std::sin(p[0] - 2 * p[1]) -
+                   2 * std::sin(delta) * (p[3] * p[3] + p[2] * p[2] * std::cos(delta));
   const double b = 2 * std::sin(delta) *
-                   (2 * p[2] * p[2] + 2 * g * std::cos(p[0]) + p[3] * p[3] * std::cos(delta)) /
-                   below;
-  return {p[2], p[3], a, b};
+                   (2 * p[2] * p[2] + 2 * g * std::cos(p[0]) + p[3] * p[3] * std::cos(delta));
+  return {p[2], p[3], a / below, b / below};
 }
 
 Phase runge_kutta(const Phase& p, double h) {
@@ -48,22 +42,19 @@ Phase runge_kutta(const Phase& p, double h) {
   return p + h / 6 * (a + 2 * b + 2 * c + d);
 }
 
-PerParticle3 bobs(const Phase& p) {
-  PerParticle3 x = PerParticle3::Zero(3, 3);
-  x.col(1) << std::sin(p[0]), -std::cos(p[0]), 0;
-  x.col(2) = x.col(1) + Vector3(std::sin(p[1]), -std::cos(p[1]), 0);
-  return x;
-}
-
 const Phase high_start(2.2, 2.7, 0, 0);
 
-/// A run with `parts` steps a frame of 1/50 s.
-LevelRun pendulum(Phase p, double end, int parts) {
+/// Thirty seconds of the pendulum whose first angle is moved so far, in frames of 1/50 s.
+LevelRun pendulum(double moved) {
   LevelRun run;
-  for (int k = 0; k <= int(end * 50); ++k) {
+  Phase p = high_start + Phase(moved, 0, 0, 0);
+  for (int k = 0; k <= 1500; ++k) {
+    PerParticle3 x = PerParticle3::Zero(3, 3);
+    x.col(1) << std::sin(p[0]), -std::cos(p[0]), 0;
+    x.col(2) = x.col(1) + Vector3(std::sin(p[1]), -std::cos(p[1]), 0);
     run.times.push_back(k / 50.0);
-    run.x.push_back(bobs(p));
-    for (int j = 0; j < parts; ++j) p = runge_kutta(p, 1.0 / 50 / parts);
+    run.x.push_back(x);
+    for (int j = 0; j < 40; ++j) p = runge_kutta(p, 1.0 / 50 / 40);
   }
   return run;
 }
@@ -89,10 +80,10 @@ LevelRun made_up(double end, const std::function<Vector3(double, int)>& place) {
   for (int k = 0; k <= 200; ++k) {
     const double t = end * k / 200;
     run.times.push_back(t);
-    PerParticle3 x(3, 3);
-    for (int i = 0; i < 3; ++i) x.col(i) = place(t, i);
-    run.x.push_back(x);
+    run.x.emplace_back(3, 3);
+    for (int i = 0; i < 3; ++i) run.x.back().col(i) = place(t, i);
   }
+  run.kinetic = run.elastic = run.contacts = std::vector<double>(201, 0);
   return run;
 }
 
@@ -104,60 +95,32 @@ Predictability read(const LevelRun& first, const LevelRun& rounding, const Level
 }  // namespace
 
 TEST_CASE("the growth rate of a double pendulum is its Lyapunov exponent") {
-  const auto moved = [](double by) { return Phase(high_start + Phase(by, 0, 0, 0)); };
-  const LevelRun first = pendulum(high_start, 30, 40);
-  const Predictability p =
-      read(first, pendulum(moved(1e-12), 30, 40), pendulum(moved(1e-4), 30, 40), 1e-4);
+  const Predictability p = read(pendulum(0), pendulum(1e-12), pendulum(1e-4), 1e-4);
   const double exponent = lyapunov_exponent(high_start, 4000);
   INFO("rate " << p.growth.rate << " +- " << p.growth.uncertainty << ", exponent " << exponent
                << ", horizons " << p.rounding.horizon << " and " << p.error.horizon);
   CHECK(std::abs(p.growth.rate - exponent) < 0.25 * exponent);
   CHECK(p.horizon == p.error.horizon);
-  CHECK(p.error.horizon < p.rounding.horizon);
   CHECK(p.rounding.horizon < 30);
   const double later = std::log(1e-4 / 1e-12) / exponent;  // s
   CHECK(std::abs(p.rounding.horizon - p.error.horizon - later) < 0.35 * later);
-  CHECK(in_words(p).find("only statistics") != std::string::npos);
 }
 
 TEST_CASE("differences of a damped oscillator decay at its rate, and have no horizon") {
-  const std::array<double, 3> omega = {7.1, 8.3, 9.7};  // rad/s
   const auto run = [&](double amplitude) {
     return made_up(6, [&, amplitude](double t, int i) {
-      return Vector3(std::exp(-0.4 * t) * amplitude * std::cos(omega[size_t(i)] * t), 0, i);
+      return Vector3(std::exp(-0.4 * t) * amplitude * std::cos((7.1 + 1.3 * i) * t), 0, i);
     });
   };
   const Predictability p = read(run(1), run(1 + 1e-12), run(1.001), 1e-3);
   CHECK(p.horizon == infinity);
   CHECK(std::abs(growth_of(p.times, p.error.distances, 1).rate + 0.4) < 0.05);
-  CHECK(in_words(p).starts_with("predictable to its end"));
-}
-
-TEST_CASE("motions on a limit cycle stay apart in phase, and have no horizon") {
-  const auto run = [](double disturbed) {
-    std::array<Eigen::Vector2d, 3> of;  // place and velocity of van der Pol's oscillators
-    for (int i = 0; i < 3; ++i) of[size_t(i)] = {0.3 + 0.7 * i + disturbed, 0.2};
-    const auto rate = [](const Eigen::Vector2d& y) {
-      return Eigen::Vector2d(y[1], (1 - y[0] * y[0]) * y[1] - y[0]);
-    };
-    LevelRun levels;
-    for (int k = 0; k <= 1200; ++k) {
-      levels.times.push_back(k / 20.0);
-      PerParticle3 x = PerParticle3::Zero(3, 3);
-      for (int i = 0; i < 3; ++i) x(0, i) = of[size_t(i)][0];
-      levels.x.push_back(x);
-      for (int j = 0; j < 20; ++j)
-        for (Eigen::Vector2d& y : of) {
-          const Eigen::Vector2d middle = y + rate(y) / 800;
-          y += rate(middle) / 400;
-        }
-    }
-    return levels;
-  };
-  const Predictability p = read(run(0), run(1e-12), run(1e-3), 1e-3);
-  INFO("rate " << p.growth.rate);
-  CHECK(p.horizon == infinity);
-  CHECK(std::abs(growth_of(p.times, p.error.distances, 1).rate) < 0.02);
+  LevelRun stopped = run(1);
+  stopped.stopped = "an edge lost its length";
+  const Predictability cut = read(run(1), run(1), stopped, 1e-3);
+  CHECK(std::isnan(cut.horizon));
+  CHECK(in_words(cut).find("an edge lost its length") != std::string::npos);
+  CHECK(std::isnan(read(run(0), run(0), run(0), 1e-3).horizon));  // at rest
 }
 
 TEST_CASE("an exponential's rate and crossing are found") {
@@ -174,17 +137,6 @@ TEST_CASE("an exponential's rate and crossing are found") {
   CHECK(crossing_time({1, 2, 4}, {0.1, 0.3, 0.7}, 0.9) == infinity);
   CHECK(crossing_time({1, 2, 4}, {0.1, foldproof::nan, 0.7}, 0.9) == 2);
   CHECK(std::isnan(growth_of(times, std::vector<double>(60, 0.0), 1).rate));
-}
-
-TEST_CASE("a twin that stops, or cloth that rests, leaves predictability unknown") {
-  const auto moving = [](double t, int i) { return Vector3(t, i, 0); };
-  LevelRun first = made_up(2, moving), stopped = first;
-  stopped.stopped = "an edge lost its length";
-  const Predictability cut = read(first, first, stopped, 1e-3);
-  CHECK(std::isnan(cut.horizon));
-  CHECK(in_words(cut).find("an edge lost its length") != std::string::npos);
-  const LevelRun resting = made_up(2, [](double, int i) { return Vector3(0, i, 0); });
-  CHECK(std::isnan(read(resting, resting, resting, 1e-3).horizon));
 }
 
 TEST_CASE("the first level's error is taken before the levels part") {
@@ -207,35 +159,26 @@ TEST_CASE("a disturbance has its size, leaves prescribed particles alone and kee
   const double size = largest_disturbance(scene);
   const PerParticle3 u = displacement_of({size, 3}, scene);
   CHECK(std::sqrt(u.colwise().squaredNorm().dot(mass.transpose()) / mass.sum()) == Approx(size));
-  CHECK(u.col(4).norm() == 0);
-  CHECK(u.col(11).norm() == 0);
+  CHECK(u.col(4).norm() + u.col(11).norm() == 0);
   CHECK(u == displacement_of({size, 3}, scene));
   CHECK((u - displacement_of({size, 4}, scene)).norm() > 0.3 * u.norm());
-  double steepest = 0;
   for (const Edge& e : scene.mesh.edges)
-    steepest = std::max(
-        steepest, (u.col(e.a) - u.col(e.b)).norm() / (scene.x.col(e.a) - scene.x.col(e.b)).norm());
-  CHECK(steepest < 0.8);
-  seed_shift = 5;
-  const PerParticle3 shifted = displacement_of({size, 3}, scene);
-  seed_shift = 0;
-  CHECK((u - shifted).norm() > 0.3 * u.norm());
+    CHECK((u.col(e.a) - u.col(e.b)).norm() < 0.8 * (scene.x.col(e.a) - scene.x.col(e.b)).norm());
 }
 
 TEST_CASE("a twin takes the steps of the run that it is compared with") {
-  Level level{"trial", {three_particles(), {}}, {}, 3};
-  const Level twin = disturbed_level(level, {0.1, 0.3, 1}, {1e-3, 2});
-  CHECK(twin.input_case.scene.schedule.step.ends == std::vector<double>{0.1, 0.3, 1});
-  CHECK(twin.input_case.scene.v == level.input_case.scene.v);
-  CHECK(twin.input_case.scene.x != level.input_case.scene.x);
-  CHECK(twin.input_case.scene.mesh.rest == level.input_case.scene.mesh.rest);
-  CHECK(key_of(twin, "p") != key_of(disturbed_level(level, {0.1, 0.3, 1}, {1e-3, 3}), "p"));
+  const Level level{"trial", {three_particles(), {}}, {}, 3};
+  const auto twin = [&](unsigned seed) {
+    return disturbed_level(level, {0.1, 0.3, 1}, {1e-3, seed});
+  };
+  const Scene scene = twin(2).input_case.scene;
+  CHECK(scene.schedule.step.ends == std::vector<double>{0.1, 0.3, 1});
+  CHECK(scene.x != level.input_case.scene.x);
+  CHECK(key_of(twin(2), "p") != key_of(twin(3), "p"));
 }
 
 TEST_CASE("orders are asked before the horizon only") {
-  LevelRun run = made_up(2, [](double t, int i) { return Vector3(t, i, 0); });
-  run.contacts.assign(run.times.size(), 0);
-  LevelRun other = run;
+  LevelRun run = made_up(2, [](double t, int i) { return Vector3(t, i, 0); }), other = run;
   other.contacts[50] = 7;  // t = 0.5 s
   CHECK(frames_until({run}, 1).front().x.size() == 101);
   Predictability p;
@@ -246,10 +189,10 @@ TEST_CASE("orders are asked before the horizon only") {
   answer.quantities.resize(4);
   for (QuantityOverLevels& q : answer.quantities) q.bar.reading = Reading::asymptotic;
   answer.quantities[1].bar.reading = Reading::not_asymptotic;
-  const std::vector<Measurement> asked = {{"early", "height", {}, Instant::at_time, 0.8},
-                                          {"late", "height", {}, Instant::at_time, 1.2},
-                                          {"end", "height"}};
-  limit_to_horizon(asked, {run, other}, p, answer);
+  limit_to_horizon({{"early", "height", {}, Instant::at_time, 0.8},
+                    {"late", "height", {}, Instant::at_time, 1.2},
+                    {"end", "height"}},
+                   {run, other}, p, answer);
   CHECK(answer.quantities[0].bar.reading == Reading::asymptotic);
   CHECK(answer.quantities[1].bar.reading == Reading::not_asymptotic);
   CHECK(answer.quantities[1].bar.reason.find("from t = 0.5 s") != std::string::npos);
@@ -263,16 +206,12 @@ TEST_CASE("statistics are means over the frames beyond the horizon") {
   Scene scene = three_particles();
   scene.gravity = Vector3(0, -9.81, 0);
   LevelRun run = made_up(2, [](double t, int) { return Vector3(0, t > 1 ? 3 : 50, 0); });
-  for (const double t : run.times) {
-    run.kinetic.push_back(t > 1 ? 4 : 1);
-    run.elastic.push_back(5);
-    run.contacts.push_back(6);
+  for (size_t k = 0; k < run.times.size(); ++k) {
+    run.kinetic[k] = run.times[k] > 1 ? 4 : 1;
+    run.elastic[k] = 5, run.contacts[k] = 6;
   }
   const std::vector<MotionStatistic> all = motion_statistics(scene, run, 1);
-  CHECK(all[0].value == Approx(3));
-  CHECK(all[1].value == Approx(4));
-  CHECK(all[2].value == Approx(5));
-  CHECK(all[3].value == Approx(6));
+  for (size_t k = 0; k < 4; ++k) CHECK(all.at(k).value == Approx(3 + double(k)));
 }
 
 TEST_CASE("95 of 100 further runs lie within the reach of an ensemble's mean") {
@@ -280,9 +219,9 @@ TEST_CASE("95 of 100 further runs lie within the reach of an ensemble's mean") {
   std::normal_distribution<double> normal(3, 0.4);
   const Scene scene = three_particles();
   const auto run = [&] {
-    LevelRun one = made_up(1, [](double, int i) { return Vector3(i, i * i, 0); });
+    LevelRun one;
     one.times = {0.5};
-    one.x.resize(1);
+    one.x = {scene.x};
     one.kinetic = one.contacts = {0};
     one.elastic = {normal(bits)};
     return one;
@@ -290,10 +229,8 @@ TEST_CASE("95 of 100 further runs lie within the reach of an ensemble's mean") {
   CHECK(reach_factor(5) == Approx(2.776 * std::sqrt(1.2)));
   CHECK(reach_factor(13) == Approx(2.179 * std::sqrt(1 + 1.0 / 13)).epsilon(0.002));
   int inside = 0;
-  for (int k = 0; k < 4000; ++k) {
-    const auto over = statistics_over_runs(scene, {run(), run(), run()}, {run()}, 0);
-    inside += over[1].agrees[0];
-  }
+  for (int k = 0; k < 4000; ++k)
+    inside += statistics_over_runs(scene, {run(), run(), run()}, {run()}, 0)[1].agrees[0];
   INFO(inside << " of 4000");
   CHECK(std::abs(inside - 3800) < 60);  // four standard deviations of such a count
   CHECK_FALSE(statistics_over_runs(scene, {run()}, {run()}, 0)[1].agrees[0]);
@@ -303,15 +240,11 @@ TEST_CASE("a fold's angle falls into its band, by the length of its edge") {
   PerParticle3 x(3, 4);
   x << 0, 2, 1, 1, 0, 0, -1, 1, 0, 0, 0, 0;
   const TriangleMesh mesh = make_triangle_mesh(x, {{{0, 2, 3}}, {{1, 3, 2}}});
-  CHECK(fold_spectrum(mesh, x)[0] == 1);
-  for (const auto& [degrees, band] : {std::pair{30.0, 2}, {-60.0, 3}, {120.0, 4}, {7.0, 1}}) {
-    PerParticle3 bent = x;
-    const double angle = degrees * pi / 180;
-    bent.col(1) = Vector3(1 + std::cos(angle), 0, std::sin(angle));
-    CHECK(fold_spectrum(mesh, bent)[size_t(band)] == 1);
+  for (const auto& [degrees, band] :
+       {std::pair{0.0, 0}, {30, 2}, {-60.0, 3}, {120.0, 4}, {7.0, 1}}) {
+    x.col(1) = Vector3(1 + std::cos(degrees * pi / 180), 0, std::sin(degrees * pi / 180));
+    CHECK(fold_spectrum(mesh, x)[size_t(band)] == 1);
   }
-  CHECK(name_of_fold_band(0) == "0 to 5 degrees");
-  CHECK(name_of_fold_band(4) == "90 to 180 degrees");
   x(0, 0) = foldproof::nan;
   CHECK(std::isnan(fold_spectrum(mesh, x)[0]));
 }

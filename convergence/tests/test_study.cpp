@@ -9,57 +9,54 @@
 
 using namespace foldproof;
 
+namespace {
+
+std::vector<Record> records_of_study(const std::string& name,
+                                     const std::function<StudyResult()>& result) {
+  const Study study{name, "A sentence.", "", "",
+                    [&](const Subject&, Tier, const Progress&) { return result(); }};
+  return run_study(study, reference_subject(), Tier::quick, [](double) {}).first;
+}
+
+}  // namespace
+
 TEST_CASE("a study that throws fails under its own name") {
-  const Study study{"sums", "A sentence.", "", "",
-                    [](const Subject&, Tier, const Progress&) -> StudyResult {
-                      throw std::runtime_error("no convergence");
-                    }};
-  const auto [records, whole] = run_study(study, reference_subject(), Tier::quick, [](double) {});
+  const auto records =
+      records_of_study("sums", []() -> StudyResult { throw std::runtime_error("no convergence"); });
   REQUIRE(records.size() == 1);
   CHECK(records[0].name == "sums");
   CHECK(records[0].outcome == Outcome::fails);
 }
 
 TEST_CASE("each finding of a study is judged by its own verdict") {
-  const Study study{"sums", "A sentence.", "", "", [](const Subject&, Tier, const Progress&) {
-                      StudyResult result;
-                      for (const double measured : {1.0, 3.0, 2.25, foldproof::nan})
-                        result.findings.push_back(
-                            {"sums.one", "A sentence.", {{measured, 2, 0.5, "1", ""}, {}, ""}});
-                      return result;
-                    }};
-  const auto [records, whole] = run_study(study, reference_subject(), Tier::quick, [](double) {});
-  REQUIRE(records.size() == 4);
-  CHECK(records[0].outcome == Outcome::holds);
-  CHECK(records[1].outcome == Outcome::fails);
-  CHECK(records[2].outcome == Outcome::inconclusive);
-  CHECK(records[3].outcome == Outcome::fails);
-}
-
-TEST_CASE("the sentence of every study names the findings that it rests on") {
-  for (const Study& study : all_studies()) {
-    INFO(study.name);
-    CHECK_FALSE(headline_families(study.name).empty());
-  }
+  std::vector<Outcome> outcomes;
+  for (const Record& record : records_of_study("sums", [] {
+         StudyResult result;
+         for (const double measured : {1.0, 3.0, 2.25, foldproof::nan})
+           result.findings.push_back({"sums.one", "", {{measured, 2, 0.5, "1", ""}, {}, ""}});
+         return result;
+       }))
+    outcomes.push_back(*record.outcome);
+  CHECK(outcomes == std::vector<Outcome>{Outcome::holds, Outcome::fails, Outcome::inconclusive,
+                                         Outcome::fails});
 }
 
 TEST_CASE("a study fails that does not measure what its sentence rests on") {
-  const auto bend = [](const char* last) {
-    return Study{"bending-scaling", "A sentence.", "", "",
-                 [=](const Subject&, Tier, const Progress&) {
-                   StudyResult result;
-                   for (const char* name : {"edge-factor-vanishes-with-cell-width", last})
-                     result.findings.push_back({std::string("bending-scaling.") + name,
-                                                "A sentence.",
-                                                {{1, 2, 0, "1", ""}, {}, ""}});
-                   return result;
-                 }};
+  const auto outcome = [](const std::string& last) {
+    return records_of_study("bending-scaling",
+                            [&] {
+                              StudyResult result;
+                              for (const std::string& name :
+                                   {std::string("edge-factor-vanishes-with-cell-width"), last})
+                                result.findings.push_back(
+                                    {"bending-scaling." + name, "", {{1, 2, 0, "1", ""}, {}, ""}});
+                              return result;
+                            })[0]
+        .outcome;
   };
-  const auto outcome = [](const Study& study) {
-    return run_study(study, reference_subject(), Tier::quick, [](double) {}).first[0].outcome;
-  };
-  CHECK(outcome(bend("edge-squared-over-area-factor-tends-to-a-constant")) == Outcome::holds);
-  CHECK(outcome(bend("edge-squared-over-area-factor-tends-to-a-constant.fine")) == Outcome::holds);
-  CHECK(outcome(bend("edge-squared-over-area-factor-tends")) == Outcome::fails);
-  CHECK(outcome(bend("edge-squared-over-area-factor-tends-to-a-constant-too")) == Outcome::fails);
+  const std::string factor = "edge-squared-over-area-factor-tends";
+  for (const char* end : {"-to-a-constant", "-to-a-constant.fine"})
+    CHECK(outcome(factor + end) == Outcome::holds);
+  for (const char* end : {"", "-to-a-constant-too"}) CHECK(outcome(factor + end) == Outcome::fails);
+  for (const Study& study : all_studies()) CHECK_FALSE(headline_families(study.name).empty());
 }

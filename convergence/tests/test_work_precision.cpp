@@ -1,7 +1,5 @@
 // The cheapest method of a motion: ties are printed as ties, on costs that are known.
 #include <catch2/catch.hpp>
-#include <cmath>
-#include <stdexcept>
 
 #include "convergence/work_precision/work_precision.h"
 
@@ -11,45 +9,33 @@ namespace {
 
 /// A method whose only run reaches every error at that cost.
 PrecisionCurve costing(const std::string& method, double applications) {
-  const double seconds = 1e-3 * applications;
-  return {integrator_named(method), {{40, 1e-5, applications, seconds, 1, {}}}};
+  return {integrator_named(method), {{40, 1e-5, applications, 1e-3 * applications, 1, {}}}};
 }
 
 /// Steps are tried by a ratio of 1.5.
-PrecisionScene scene_of(std::vector<PrecisionCurve> curves) {
+Table cheapest_of(std::vector<PrecisionCurve> curves) {
   PrecisionScene scene{};
-  scene.problem.description = "the motion";
   scene.problem.end = 0.8;
   scene.problem.ratio = 1.5;
   scene.truth = {{}, 1, 0, 0.01, 0.01, 0.01};
   scene.curves = std::move(curves);
-  return scene;
-}
-
-Table cheapest_of(const PrecisionScene& scene) {
-  for (const Table& table : precision_tables({scene}))
-    if (table.name == "cheapest") return table;
-  throw std::logic_error("no such table");
+  const std::vector<Table> tables = precision_tables({scene});
+  return *std::ranges::find(tables, "cheapest", &Table::name);
 }
 
 }  // namespace
 
 TEST_CASE("methods nearer in cost than two tried steps are tied", "[work-precision]") {
-  const Table tied =
-      cheapest_of(scene_of({costing("A", 310), costing("B", 140), costing("C", 100)}));
-  CHECK(tied.texts("cheapest method").front() == "C");
-  CHECK(tied.texts("tied").front() == "B");
-
-  const Table won =
-      cheapest_of(scene_of({costing("A", 310), costing("B", 170), costing("C", 100)}));
-  CHECK(won.texts("cheapest method").front() == "C");
-  CHECK(won.texts("tied").front().empty());
+  for (const double of_b : {140.0, 170.0}) {
+    const Table table = cheapest_of({costing("A", 310), costing("B", of_b), costing("C", 100)});
+    CHECK(table.texts("cheapest method").front() == "C");
+    CHECK(table.texts("tied").front() == (of_b < 150 ? "B" : ""));
+  }
 }
 
 TEST_CASE("the next best method is the cheapest of those that are not tied", "[work-precision]") {
-  const PrecisionScene scene =
-      scene_of({costing("C", 400), costing("RK4", 300), costing("B", 105), costing("A", 100)});
-  const Table table = cheapest_of(scene);
+  const Table table =
+      cheapest_of({costing("C", 400), costing("RK4", 300), costing("B", 105), costing("A", 100)});
   CHECK(table.texts("cheapest method").front() == "A");
   CHECK(table.texts("tied").front() == "B");
   CHECK(table.texts("next best").front() == "RK4");
@@ -74,30 +60,27 @@ TEST_CASE("a step lasts whose energy is at most twice that of half the step", "[
 
 TEST_CASE("a price rests on no step that a longer run shows to be unstable", "[work-precision]") {
   // errors of second order; steps of 0.04, 0.02, 0.01 and 0.005 s
-  PrecisionCurve curve{integrator_named("B"),
-                       {{20, 0.016, 20, 0.2, 1, {}},
-                        {40, 0.004, 40, 0.4, 1, {}},
-                        {80, 0.001, 80, 0.8, 1, {}},
-                        {160, 0.00025, 160, 1.6, 1, {}}}};
-  constexpr double end = 0.8, wanted = 0.008;
-  const double step = price_at(curve, end, wanted).step;
+  PrecisionCurve curve{integrator_named("B"), {}};
+  for (int n = 20; n <= 160; n *= 2)
+    curve.runs.push_back({n, 6.4 / n / n, double(n), 0.01 * n, 1, {}});
+  const auto price = [&](double wanted) { return price_at(curve, 0.8, wanted); };
+  const double step = price(0.008).step;
   CHECK(step == Approx(0.04 / std::sqrt(2.)));
   const LongerEnergy allowed{1, 1}, gained{3, 3}, none{std::nan(""), std::nan("")};
   curve.longer = {{step, gained, allowed}};
-  CHECK(price_at(curve, end, wanted).step == Approx(0.02));
-  CHECK(price_at(curve, end, wanted).applications == 40);
-  CHECK(price_at(curve, end, wanted).limit == LimitedBy::longer_run);
-  CHECK(price_at(curve, end, 0.002).limit == LimitedBy::accuracy);
+  CHECK(price(0.008).step == Approx(0.02));
+  CHECK(price(0.008).applications == 40);
+  CHECK(price(0.008).limit == LimitedBy::longer_run);
+  CHECK(price(0.002).limit == LimitedBy::accuracy);
   curve.longer.push_back({0.02, none, allowed});
-  CHECK(price_at(curve, end, wanted).step == Approx(0.01));
+  CHECK(price(0.008).step == Approx(0.01));
   curve.longer.push_back({0.005, none, none});
-  CHECK(price_at(curve, end, wanted).limit == LimitedBy::not_reached);
+  CHECK(price(0.008).limit == LimitedBy::not_reached);
 }
 
 TEST_CASE("the cheapest method of a motion is one whose step lasts", "[work-precision]") {
   PrecisionCurve unstable = costing("A", 100), stable = costing("B", 310);
   unstable.longer = {{0.02, {5, 5}, {1, 1}}};
   stable.longer = {{0.02, {1, 1}, {1, 1}}};
-  const PrecisionScene scene = scene_of({unstable, stable});
-  CHECK(cheapest_of(scene).texts("cheapest method").front() == "B");
+  CHECK(cheapest_of({unstable, stable}).texts("cheapest method").front() == "B");
 }

@@ -15,40 +15,28 @@ using Corners = std::array<Vector3, 4>;
 constexpr double roundings = 16 * std::numeric_limits<double>::epsilon();
 
 inline HingeInput first_hinge() {
-  HingeInput hinge;
-  hinge.x = {Vector3(-.71, .13, .36), Vector3(.59, .44, .27), Vector3(.04, -.03, -.11),
-             Vector3(-.06, .05, .83)};
-  hinge.v = {Vector3(.31, -1.2, .45), Vector3(-.62, .83, .17), Vector3(.92, .24, -.53),
-             Vector3(-.14, .37, .76)};
-  hinge.rest = {Vector3(-.8, .02, .3), Vector3(.67, 0, .41), Vector3(.01, 0, -.07),
-                Vector3(0, .03, .9)};
-  hinge.ke = 3.7e-3;
-  hinge.kd = 4.1e-4;
-  hinge.theta0 = .63;
-  return hinge;
+  return {{Vector3(-.71, .13, .36), {.59, .44, .27}, {.04, -.03, -.11}, {-.06, .05, .83}},
+          {Vector3(.31, -1.2, .45), {-.62, .83, .17}, {.92, .24, -.53}, {-.14, .37, .76}},
+          {Vector3(-.8, .02, .3), {.67, 0, .41}, {.01, 0, -.07}, {0, .03, .9}},
+          3.7e-3,
+          4.1e-4,
+          .63};
 }
 
 /// Folded beyond a right angle the other way, small and thin.
 inline HingeInput second_hinge() {
-  HingeInput hinge;
-  hinge.x = {Vector3(.045, .014, .017), Vector3(.031, .052, .024), Vector3(.003, .001, .002),
-             Vector3(.009, .012, .061)};
-  hinge.v = {Vector3(1.7, .3, -.6), Vector3(-.9, 2.3, .8), Vector3(.5, -.7, 1.1),
-             Vector3(.2, .6, -1.3)};
-  hinge.rest = {Vector3(-.05, .003, .01), Vector3(.06, .002, .02), Vector3(0, .001, 0),
-                Vector3(.004, 0, .057)};
-  hinge.ke = 2.9e-5;
-  hinge.kd = 1.3e-6;
-  hinge.theta0 = -.87;
-  return hinge;
+  return {{Vector3(.045, .014, .017), {.031, .052, .024}, {.003, .001, .002}, {.009, .012, .061}},
+          {Vector3(1.7, .3, -.6), {-.9, 2.3, .8}, {.5, -.7, 1.1}, {.2, .6, -1.3}},
+          {Vector3(-.05, .003, .01), {.06, .002, .02}, {0, .001, 0}, {.004, 0, .057}},
+          2.9e-5,
+          1.3e-6,
+          -.87};
 }
 
 inline std::array<HingeInput, 2> hinges() { return {first_hinge(), second_hinge()}; }
 
 inline double size(const Corners& p) {
-  double sum = 0;
-  for (const Vector3& vector : p) sum += vector.norm();
-  return sum;
+  return p[0].norm() + p[1].norm() + p[2].norm() + p[3].norm();
 }
 
 inline double distance(const Corners& p, const Corners& q) {

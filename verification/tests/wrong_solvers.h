@@ -14,14 +14,16 @@
 
 namespace foldproof {
 
+using Names = std::set<std::string>;
+
 inline SolverCommand python(const std::string& program) {
   return {"exec /usr/bin/python3 " SUBJECTS_FOLDER "/" + program, {}, {}};
 }
 
 /// A solver of bad/broken.py.
-inline SolverCommand broken(const std::string& kind) {
+inline SolverCommand broken(const std::string& kind, double seconds = 20) {
   SolverCommand command = python("bad/broken.py " + kind);
-  command.limits.seconds = 20;
+  command.limits.seconds = seconds;
   return command;
 }
 
@@ -44,33 +46,51 @@ inline void ignore(const Record&) {}
 inline std::vector<Law> laws_of(const std::vector<std::string>& beginnings) {
   std::vector<Law> laws = portable_laws();
   std::erase_if(laws, [&](const Law& law) {
-    return std::ranges::none_of(
-        beginnings, [&](const std::string& beginning) { return law.name.starts_with(beginning); });
+    return std::ranges::none_of(beginnings,
+                                [&](const auto& start) { return law.name.starts_with(start); });
   });
   return laws;
 }
 
-/// Those of the laws that a solver of bad/wrong.py fails.
-inline std::set<std::string> failing_laws(const std::string& kind, const std::vector<Law>& laws) {
-  std::set<std::string> names;
-  for (const Record& record : judge_solver(python("bad/wrong.py " + kind), laws, ignore).records)
+/// Records of a solver of bad/wrong.py.
+inline std::vector<Record> records_of(const std::string& kind,
+                                      const std::vector<std::string>& laws) {
+  return judge_solver(python("bad/wrong.py " + kind), laws_of(laws), ignore).records;
+}
+
+/// Those of the laws that it fails.
+inline Names failing_laws(const std::string& kind, const std::vector<std::string>& laws) {
+  Names names;
+  for (const Record& record : records_of(kind, laws))
     if (record.outcome != Outcome::holds && record.outcome != Outcome::not_applicable)
       names.insert(record.name);
   return names;
 }
 
-inline std::set<std::string> failing_laws(const std::string& kind) {
-  return failing_laws(kind, portable_laws());
+inline std::optional<Outcome> outcome_of_law(const std::string& kind, const std::string& law) {
+  return records_of(kind, {law}).at(0).outcome;
 }
 
-inline std::optional<Outcome> outcome_of_law(const std::string& kind, const std::string& law) {
-  const SolverCommand command = python("bad/wrong.py " + kind);
-  return judge_solver(command, laws_of({law}), ignore).records.at(0).outcome;
+/// Of the laws whose names begin so (all, for ""), each of these solvers fails exactly those.
+inline void require_found(const std::vector<std::string>& kinds,
+                          const std::vector<std::string>& laws, const Names& failing) {
+  for (const std::string& kind : kinds) {
+    INFO(kind);
+    CHECK(failing_laws(kind, laws) == failing);
+  }
 }
 
 inline void require_law_fails(const std::string& kind, const std::string& law) {
-  INFO(kind);
-  CHECK(failing_laws(kind, laws_of({law})) == std::set<std::string>{law});
+  require_found({kind}, {law}, {law});
+}
+
+/// The law has this outcome for each of these solvers.
+inline void require_outcome(const std::vector<std::string>& kinds, const std::string& law,
+                            Outcome outcome) {
+  for (const std::string& kind : kinds) {
+    INFO(kind << " " << law);
+    CHECK(outcome_of_law(kind, law) == outcome);
+  }
 }
 
 }  // namespace foldproof

@@ -8,11 +8,17 @@
 #include <vector>
 
 #include "reference/bodies/level_set_provider.h"
-#include "verification/cases/frame_motion.h"
+#include "verification/cases/frame_laws.h"
 
 namespace foldproof::hand_made {
 
 using Law = Finding (*)(const FrameMotion&);
+
+inline Law law(const std::string& name) {
+  for (const FrameLaw& one : frame_laws())
+    if (one.name == "frames." + name) return one.run;
+  throw std::logic_error("no law " + name);
+}
 
 /// A case and frames of it. Change `of` through the constructor's argument only.
 struct Frames {
@@ -20,8 +26,11 @@ struct Frames {
   BuiltScene built;
   std::vector<TimedMesh> frames = {};
 
-  explicit Frames(Case given)
-      : of(std::move(given)), built(build(of.scene, computing_provider())) {}
+  /// The cloth stays at its start at these times [s].
+  explicit Frames(Case given, const std::vector<double>& times = {})
+      : of(std::move(given)), built(build(of.scene, computing_provider())) {
+    for (const double time : times) add(time, of.scene.x);
+  }
   Frames(const Frames&) = delete;
   Frames& operator=(const Frames&) = delete;
 
@@ -43,18 +52,26 @@ struct Frames {
 
 /// A sheet of 3 x 2 cells, 0.3 m x 0.24 m, and more tables.
 inline Case sheet(const std::string& more) {
-  const std::string text = R"([cloth]
-shape = "sheet"
-width = 0.3
-height = 0.24
-columns = 3
-rows = 2
-density = 0.17
-[time]
-end = 0.5
-frames_per_second = 50
+  const std::string text =
+      R"(
+cloth = { shape = "sheet", width = 0.3, height = 0.24, columns = 3, rows = 2, density = 0.17 }
+time = { end = 0.5, frames_per_second = 50 }
 )" + more;
   return Case{read_scene_text(text, "hand.toml"), {}};
+}
+
+/// Of the circle about a cell's half, stretched by a quarter [m].
+inline const double radius_of_half_cells = 1.25 * std::hypot(0.1, 0.12) / 2;
+
+inline const std::string ball =
+    "[[object]]\nshape = \"sphere\"\nradius = 0.1\nmove = [0.1, 0.12, -0.2]\n";
+inline const std::string driven = "[[hold]]\nparticles = [0]\nvelocity = [0, 0, 1]\n";
+
+/// A corner of the sheet is brought through its middle.
+inline PerParticle3 crossed(PerParticle3 x) {
+  x.col(0) = Vector3(0.17, 0.13, -0.05);
+  x.col(1) = Vector3(0.17, 0.11, 0.05);
+  return x;
 }
 
 /// Agrees to rounding errors.
@@ -63,9 +80,7 @@ inline Approx exactly(double value) { return Approx(value).epsilon(1e-9).margin(
 /// The largest coordinate of any frame times half a unit of its sixth digit [m].
 inline double rounding_of(const std::vector<TimedMesh>& frames) {
   double largest = 0;
-  for (const TimedMesh& frame : frames)
-    for (Eigen::Index i = 0; i < frame.x.size(); ++i)
-      largest = std::max(largest, std::abs(frame.x.data()[i]));
+  for (const TimedMesh& frame : frames) largest = std::max(largest, frame.x.cwiseAbs().maxCoeff());
   return largest / 200000;
 }
 

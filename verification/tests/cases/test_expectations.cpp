@@ -1,10 +1,10 @@
-// The [expect] table of a case: read with its place, judged as it says.
+// [expect] and [ablation] of a case: read with their places, added to, judged as they say.
 #include <catch2/catch.hpp>
-#include <fstream>
 
 #include "reference/mesh/obj.h"
 #include "reference/mesh/shapes.h"
 #include "verification/cases/judge.h"
+#include "verification/cases/replaced_shape.h"
 #include "verification/specimens/scratch_folder.h"
 #include "verification/tests/cases/small_sheet.h"
 
@@ -13,15 +13,11 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-const std::string sheet = small_sheet + R"([gravity]
-[time]
-end = 0.05
-frames_per_second = 100
-)";
+const std::string why = "why = \"w\"\n";
 
-Case trial(const std::string& more) {
+Case trial(const std::string& more, const std::vector<std::string>& overrides = {}) {
   const ScratchFolder folder;
-  return read_case(folder.write("trial.toml", sheet + more));
+  return read_case(folder.write("trial.toml", small_sheet + more), overrides);
 }
 
 std::vector<Record> judge_trial(const Case& input_case) {
@@ -35,28 +31,49 @@ std::vector<Record> judge_trial(const Case& input_case) {
   return judge.records(result);
 }
 
-/// A square of so many triangles a side, in the folder.
-std::string written_square(const ScratchFolder& folder, const std::string& name, int side) {
-  const TriangleMesh mesh =
-      make_sheet({.width = 0.2, .height = 0.2, .columns = side, .rows = side});
-  write_obj(folder.file(name), mesh.rest, mesh.triangles);
-  return folder.file(name);
+/// "key " of each expectation that a shipped case has.
+std::string usual(const Case& of) {
+  std::string all;
+  for (const Expectation& one : with_usual_expectations(of).expectations) all += one.key + " ";
+  return all;
 }
 
-/// A case of the mesh square.obj above a sphere, in the folder: one bound for any cloth, one
-/// for this shape.
-std::string written_mesh_case(const ScratchFolder& folder) {
-  written_square(folder, "square.obj", 3);
-  const std::string path = folder.file("mine.toml");
-  std::ofstream(path)
-      << "[cloth]\nmesh = \"square.obj\"\ndensity = 0.2\n[stretch]\nstiffness = 40\n"
-         "[time]\nend = 0.02\n[[object]]\nshape = \"sphere\"\nradius = 0.1\n"
-         "move = [0, 0, -0.5]\n"
-         "[expect.never_crosses_itself]\nat_most = 0\nwhy = \"any\"\n"
-         "[expect.takes_steps]\nat_least = 1e9\nwhy = \"this\"\n"
-         "[expect.stays_flat]\nat_most = 0\nwhy = \"this\"\n";
-  return path;
+/// A quantity of a run that ends so.
+double at_end(const char* key, const Scene& scene, const PerParticle3& x) {
+  RunResult result;
+  result.last = start_state(scene);
+  result.last.x = x;
+  const Repetition repetition(scene, computing_provider());
+  return find_quantity(key)->of_run({scene, {}, result, repetition});
 }
+
+/// A folder with a case of the mesh square.obj above a sphere: one bound for any cloth, two for
+/// this shape; and with other meshes, of which ball.obj starts in no plane.
+struct MeshCase {
+  ScratchFolder folder;
+
+  MeshCase() {
+    folder.write("mine.toml", R"(cloth = { mesh = "square.obj", density = 0.2 }
+stretch = { stiffness = 40 }
+time = { end = 0.02 }
+object = [{ shape = "sphere", radius = 0.1, move = [0, 0, -0.5] }]
+[expect]
+never_crosses_itself = { at_most = 0, why = "any" }
+takes_steps = { at_least = 1e9, why = "this" }
+stays_flat = { at_most = 0, why = "this" }
+)");
+    const auto write = [&](const char* name, const TriangleMesh& mesh) {
+      write_obj(folder.file(name), mesh.rest, mesh.triangles);
+    };
+    write("square.obj", make_sheet({.width = 0.2, .height = 0.2, .columns = 3, .rows = 3}));
+    write("other.obj", make_sheet({.width = 0.2, .height = 0.2, .columns = 4, .rows = 4}));
+    write("ball.obj", make_icosphere(0.1, 1));
+  }
+  Case with(const std::vector<std::string>& overrides) const {
+    return read_case(folder.file("mine.toml"), overrides);
+  }
+  std::string mesh(const std::string& name) const { return "cloth.mesh=" + folder.file(name); }
+};
 
 /// "key: reason" of each bound that is not asked.
 std::vector<std::string> not_asked(const Case& input_case) {
@@ -67,52 +84,75 @@ std::vector<std::string> not_asked(const Case& input_case) {
   return found;
 }
 
+using Keys = std::vector<std::string>;
+
 }  // namespace
 
-TEST_CASE("expect: bounds and reasons are read, and named after the case") {
-  const Case input_case = trial("[expect.stays_flat]\nat_most = 2.5e-7\nwhy = \"words\"\n");
-  REQUIRE(input_case.expectations.size() == 1);
-  CHECK(input_case.expectations[0].bound == 2.5e-7);
-  CHECK(input_case.expectations[0].why == "words");
-  CHECK(finding_name(input_case.scene, input_case.expectations[0]) == "case.trial.stays-flat");
+TEST_CASE("expect: what is wrong is refused with its line") {
+  const std::string flat = "[expect.stays_flat]\nat_most = 0\n";
+  const std::vector<std::pair<std::string, std::string>> rows = {
+      {"[expect.stays_flatt]\nat_most = 0\n" + why, "trial.toml:5: unknown quantity 'stays_flatt'"},
+      {"[expect.leaves_its_plane]\nat_least = 0\n" + why, "trial.toml:6: at_least must be > 0"},
+      {"[expect.stays_flat]\nat_least = 0\n" + why, "needs the key 'at_most'"},
+      {flat, "trial.toml:5: "},
+      {flat + "why = \"\"\n", "trial.toml:7: 'why' is empty"},
+      {flat + why + "despite_error = \"\"\n", "trial.toml:8: 'despite_error' is empty"},
+      {flat + why + "more = 1\n", "trial.toml:8: unknown key 'more'"},
+      {"[expect.folds_to]\nat_least = 3\n" + why, "trial.toml:5: 'folds_to' cannot be expected"},
+      {"[ablation]\nuntil = 0\n", "trial.toml:6: 'until' must be > 0"},
+      {"[ablation]\nstretch = \"\"\n", "trial.toml:6: say why"},
+      {"[ablation]\ncoarser_mesh = [\"a=1\", \"b\"]\n", "trial.toml:6: 'b' is not"},
+      {"[ablation]\ncoarser_mesh = \"cloth.columns=\"\n", "is not table.key=number"},
+      {"[ablation]\ncoarser_mesh = \"cloth.mesh=a.obj\"\n", "is not table.key=number"}};
+  for (const auto& [text, piece] : rows) CHECK_THROWS_WITH(trial(text), Contains(piece));
+  for (const std::string& allowed :
+       {"[expect.is_carried]\nat_least = 1e-9\n" + why, flat + why + "despite_error = \"d\"\n",
+        "[expect.stays_flat]\nat_most = -1\n" + why})
+    CHECK_NOTHROW(trial(allowed));
 }
 
-TEST_CASE("expect: what is wrong is refused with its line") {
-  CHECK_THROWS_WITH(
-      trial("[expect.stays_flatt]\nat_most = 0\nwhy = \"w\"\n"),
-      Contains("trial.toml:14") && Contains("stays_flatt") && Contains("stays_flat,"));
-  CHECK_THROWS_WITH(trial("[expect.leaves_its_plane]\nat_least = 0\nwhy = \"w\"\n"),
-                    Contains("at_least must be > 0"));
-  CHECK_THROWS_WITH(trial("[expect.stays_flat]\nat_least = 0\nwhy = \"w\"\n"),
-                    Contains("needs the key 'at_most'"));
-  CHECK_THROWS_WITH(trial("[expect.stays_flat]\nat_most = 0\n"),
-                    Contains("trial.toml:14") && Contains("'why'"));
-  CHECK_THROWS_WITH(trial("[expect.stays_flat]\nat_most = 0\nwhy = \"\"\n"),
-                    Contains("trial.toml:16"));
-  CHECK_THROWS_WITH(trial("[expect.stays_flat]\nat_most = 0\nwhy = \"w\"\nmore = 1\n"),
-                    Contains("trial.toml:17") && Contains("'more'"));
-  CHECK_THROWS_WITH(trial("[expect.folds_to]\nat_least = 3\nwhy = \"w\"\n"),
-                    Contains("trial.toml:14") && Contains("no [bending]"));
+TEST_CASE("expect: bounds, and parts and coarser meshes of [ablation], are read") {
+  const Case of = trial(
+      "[expect.stays_flat]\nat_most = 2.5e-7\nwhy = \"words\"\n[ablation]\n"
+      "coarser_mesh = [\"cloth.columns=2\", \"cloth.rows=1.5\"]\nuntil = 0.03\nbending = "
+      "\"out\"\n");
+  CHECK(of.expectations.at(0).bound == 2.5e-7);
+  CHECK(of.expectations[0].why == "words");
+  CHECK(finding_name(of.scene, of.expectations[0]) == "case.trial.stays-flat");
+  CHECK(of.coarser_mesh == Keys{"cloth.columns=2", "cloth.rows=1.5"});
+  CHECK(of.ablated_until == 0.03);
+  REQUIRE(of.declared.size() == 1);
+  CHECK(of.declared[0].part + ": " + of.declared[0].why == "bending: out");
+  CHECK(trial("[ablation]\ncoarser_mesh = \"cloth.columns=09\"\n").coarser_mesh.size() == 1);
+  CHECK(trial("[ablation]\ncoarser_mesh = \"\"\n").coarser_mesh.empty());
 }
 
 TEST_CASE(
     "expect: shipped cases must end, must not cross themselves, and account for their energy "
     "unless they say otherwise") {
-  const Case usual = with_usual_expectations(trial(""));
-  REQUIRE(usual.expectations.size() == 4);
-  CHECK(usual.expectations[0].key == "runs_to_its_end");
-  CHECK(usual.expectations[1].key == "energy_is_accounted_for");
-  CHECK(usual.expectations[2].key == "is_reproducible");
-  CHECK(usual.expectations[2].bound == 0);
-  CHECK(usual.expectations[3].key == "never_crosses_itself");
-  CHECK(usual.expectations[3].bound == 0);
-  const Case own = with_usual_expectations(
-      trial("[expect.energy_is_accounted_for]\nat_most = 0.3\nwhy = \"w\"\n"));
-  REQUIRE(own.expectations.size() == 4);
-  CHECK(own.expectations[0].bound == 0.3);
-  const Case driven =
-      with_usual_expectations(trial("[[hold]]\nparticles = [0]\nvelocity = [0, 0, 1]\n"));
-  CHECK(driven.expectations.size() == 3);
+  const std::string all =
+      "runs_to_its_end energy_is_accounted_for is_reproducible never_crosses_itself ";
+  const std::string without_energy = "runs_to_its_end is_reproducible never_crosses_itself ";
+  const std::string bending = "[bending]\nstiffness = 1e-3\n", hold = "[[hold]]\nparticles = [0]\n";
+  for (const std::string& more : {std::string(), bending, hold}) CHECK(usual(trial(more)) == all);
+  for (const std::string& more :
+       {bending + "weighting = \"current\"\n", std::string("[strain_limits]\n"),
+        hold + "velocity = [0, 0, 1]\n"})
+    CHECK(usual(trial(more)) == without_energy);
+  Case sticky = trial(""), apart = sticky, own = sticky;
+  sticky.scene.sticky.emplace_back();
+  CHECK(usual(sticky) == without_energy);
+  apart.scene.self_collision = SelfCollisionSettings{};
+  CHECK(usual(apart) == without_energy);
+  CHECK_THAT(with_usual_expectations(apart).expectations[2].why, Contains("impact zones"));
+  CHECK(usual(trial("[[object]]\nshape = \"half_space\"\nmove = [0, 0, -1]\n")) ==
+        "runs_to_its_end is_reproducible faces_outside never_crosses_itself ");
+  for (const Expectation& one : with_usual_expectations(own).expectations)
+    CHECK(one.bound == (one.key == "energy_is_accounted_for" ? 0.01 : 0));
+  own.expectations = {{"tangle_does_not_grow", 3, "w"}, {"energy_is_accounted_for", 0.3, "w"}};
+  CHECK(usual(own) ==
+        "tangle_does_not_grow energy_is_accounted_for runs_to_its_end is_reproducible ");
+  CHECK(with_usual_expectations(own).expectations[1].bound == 0.3);
 }
 
 TEST_CASE("a case's level sets are made when it is built, each of them once") {
@@ -134,115 +174,74 @@ TEST_CASE("a case's level sets are made when it is built, each of them once") {
        }});
   for (int times = 0; times < 2; ++times) {
     const BuiltScene built = build(input_case.scene, kept);
-    const std::span<const Object> objects = built.objects;
-    REQUIRE(objects.size() == 5);
-    CHECK(std::get<DeformingObject>(objects[3].body).body->between == BetweenFrames::carried);
-    CHECK(std::get<DeformingObject>(objects[4].body).body->between == BetweenFrames::blended);
+    REQUIRE(built.objects.size() == 5);
+    const auto between = [&](std::size_t k) {
+      return std::get<DeformingObject>(built.objects[k].body).body->between;
+    };
+    CHECK(between(3) == BetweenFrames::carried);
+    CHECK(between(4) == BetweenFrames::blended);
     CHECK(grids == 1);   // two objects of one shape share it
     CHECK(bodies == 3);  // the octree, and either way between frames
   }
 }
 
 TEST_CASE(
-    "expect: what crosses is counted, and a case that keeps cloth from itself gives its own "
-    "reason") {
-  Case input_case = trial("[expect.never_crosses_itself]\nat_most = 1\nwhy = \"w\"\n");
-  CHECK(find_quantity("never_crosses_itself")
-            ->of_frame(input_case.scene, start_state(input_case.scene)) == 0);
-  State folded = start_state(input_case.scene);
-  // one half on the other
-  folded.x.row(0) = (folded.x.row(0).array() - folded.x.row(0).mean()).abs();
-  CHECK(find_quantity("never_crosses_itself")->of_frame(input_case.scene, folded) > 10);
-  folded.x(0, 0) = NAN;
-  CHECK(std::isnan(find_quantity("never_crosses_itself")->of_frame(input_case.scene, folded)));
-  input_case.scene.self_collision = SelfCollisionSettings{0.01, 1, 0, 8, true};
-  input_case.expectations.clear();
-  const Case usual = with_usual_expectations(input_case);
-  REQUIRE(usual.expectations.size() == 3);
-  CHECK(usual.expectations[2].key == "never_crosses_itself");
-  CHECK_THAT(usual.expectations[2].why, Contains("impact zones"));
-  input_case.expectations = {{"tangle_does_not_grow", 29, "it starts crossed"}};
-  CHECK(with_usual_expectations(input_case).expectations.size() == 3);
-}
-
-TEST_CASE(
     "expect: what is left of a height and of angles is that of the end, over that of the start") {
-  const Case input_case = trial("[bending]\nstiffness = 1\n");
-  RunResult result;
-  result.last = start_state(input_case.scene);
-  const DiagnosticsSummary summary;
-  const Repetition repetition(input_case.scene, computing_provider());
-  const RunView run{input_case.scene, summary, result, repetition};
-  CHECK(find_quantity("keeps_its_height")->of_run(run) == 1);
-  CHECK(find_quantity("crumples_by")->of_run(run) == 0);
-  PerParticle3& x = result.last.x;
+  const Scene scene = trial("[bending]\nstiffness = 1\n").scene;
+  PerParticle3 x = scene.x;
+  CHECK(at_end("keeps_its_height", scene, x) == 1);
+  CHECK(at_end("crumples_by", scene, x) == 0);
   x.row(1) *= 0.25;
-  CHECK(find_quantity("collapses_to")->of_run(run) == Approx(0.25));
-  x = input_case.scene.x;
-  int turned = 0;  // the hinges on one grid line, by 45 degrees
-  for (const Hinge& hinge : input_case.scene.mesh.hinges)
-    turned += std::abs(x(0, hinge.particles[2]) - 0.1) < 1e-9 &&
-              std::abs(x(0, hinge.particles[3]) - 0.1) < 1e-9;
-  REQUIRE(turned == 2);
-  x.row(2) = (x.row(0).array() - 0.1).max(0);
-  const double of_all = double(input_case.scene.mesh.hinges.size());
-  CHECK(find_quantity("keeps_most_angles")->of_run(run) == Approx(45 * std::sqrt(turned / of_all)));
+  CHECK(at_end("collapses_to", scene, x) == Approx(0.25));
+  x = scene.x;
+  x.row(2) = (x.row(0).array() - 0.1).max(0);  // two hinges on one grid line, by 45 degrees
+  const double of_all = double(scene.mesh.hinges.size());
+  CHECK(at_end("keeps_most_angles", scene, x) == Approx(45 * std::sqrt(2 / of_all)));
 }
 
 TEST_CASE("expect: creases are counted line by line, and lie half a wavelength apart") {
-  Case input_case = trial("[bending]\nstiffness = 1\n");
-  Scene& scene = input_case.scene;
+  Scene scene = trial("[bending]\nstiffness = 1\n").scene;
   scene.mesh = make_sheet({.width = 0.24, .height = 0.05, .columns = 24, .rows = 5});
   scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
-  RunResult result;
-  result.last = State{0, scene.mesh.rest, PerParticle3::Zero(3, scene.mesh.particles())};
-  const DiagnosticsSummary summary;
-  const Repetition repetition(scene, computing_provider());
-  const RunView run{scene, summary, result, repetition};
-  const Quantity &creases = *find_quantity("forms_creases"),
-                 &wavelength = *find_quantity("wrinkles_stay_short");
-  CHECK(creases.of_run(run) == 0);
-  CHECK(std::isnan(wavelength.of_run(run)));
-  PerParticle3& x = result.last.x;
-  // a zigzag, folded by 2 atan(0.3) = 33 degrees every 4 cm
-  for (Eigen::Index i = 0; i < x.cols(); ++i) {
-    const double along = std::abs(std::remainder(scene.mesh.rest(0, i), 0.08));
-    x(2, i) = 0.3 * along;
-  }
-  CHECK(creases.of_run(run) == 5);
-  CHECK(wavelength.of_run(run) == Approx(0.08));
+  PerParticle3 x = scene.mesh.rest;
+  CHECK(at_end("forms_creases", scene, x) == 0);
+  CHECK(std::isnan(at_end("wrinkles_stay_short", scene, x)));
+  for (Eigen::Index i = 0; i < x.cols(); ++i)  // folded by 2 atan(0.3) = 33 degrees every 4 cm
+    x(2, i) = 0.3 * std::abs(std::remainder(x(0, i), 0.08));
+  CHECK(at_end("forms_creases", scene, x) == 5);
+  CHECK(at_end("wrinkles_stay_short", scene, x) == Approx(0.08));
   x.row(2) *= 0.5;  // 17 degrees
-  CHECK(creases.of_run(run) == 0);
+  CHECK(at_end("forms_creases", scene, x) == 0);
 }
 
 TEST_CASE(
     "expect: a bound that is kept holds, one that is not fails, and a run that stops says "
     "nothing") {
-  const std::string flat = "[expect.stays_flat]\nat_most = 0\nwhy = \"w\"\n";
-  const std::string leaves = "[expect.leaves_its_plane]\nat_least = 1e-9\nwhy = \"w\"\n";
-  CHECK(judge_trial(trial(flat))[0].outcome == Outcome::holds);
-  CHECK(judge_trial(trial(leaves))[0].outcome == Outcome::fails);
+  const std::string flat = "[expect.stays_flat]\nat_most = 0\n" + why;
+  const std::string leaves = "[expect.leaves_its_plane]\nat_least = 1e-9\n" + why;
   const std::string thrown = "[start]\nvelocity = [0, 0, 0.5]\n";
-  CHECK(judge_trial(trial(thrown + flat))[0].outcome == Outcome::fails);
-  const Record reached = judge_trial(trial(thrown + leaves))[0];
+  const auto record_of = [](const std::string& more, const Keys& overrides = {}) {
+    return judge_trial(trial(more, overrides))[0];
+  };
+  CHECK(record_of(flat).outcome == Outcome::holds);
+  CHECK(record_of(leaves).outcome == Outcome::fails);
+  CHECK(record_of(thrown + flat).outcome == Outcome::fails);
+  const Record reached = record_of(thrown + leaves);
   CHECK(reached.outcome == Outcome::holds);
   CHECK(reached.finding.verdict.measured == Approx(1e-9 - 0.025));
   CHECK_THAT(reached.finding.note, Contains("reached 0.025 m"));
-  const std::string capped = "max_steps = 1\nsafety = 0.01\n";
-  const Record stopped = judge_trial(trial(capped + flat))[0];
+  const Record stopped = record_of(flat, {"time.max_steps=1", "time.safety=0.01"});
   CHECK(stopped.outcome == Outcome::fails);
   CHECK_THAT(stopped.finding.note, Contains("cap"));
 }
 
 TEST_CASE("expect: bounds of a shape are not asked where an override puts another in its place") {
-  const ScratchFolder folder;
-  const std::string path = written_mesh_case(folder),
-                    other = written_square(folder, "other.obj", 4);
-  const std::string reason = ": written for square.obj; this run uses " + other;
-  const Case changed = read_case(path, {"cloth.mesh=" + other});
-  CHECK(not_asked(changed) ==
-        std::vector<std::string>{"stays_flat" + reason, "takes_steps" + reason});
-  const std::vector<Record> records = judge_trial(changed);
+  const MeshCase one;
+  const std::string reason =
+      ": written for square.obj; this run uses " + one.folder.file("other.obj");
+  const Case changed = one.with({one.mesh("other.obj")});
+  CHECK(not_asked(changed) == Keys{"stays_flat" + reason, "takes_steps" + reason});
+  const std::vector<Record> records = judge_trial(changed), as_written = judge_trial(one.with({}));
   REQUIRE(records.size() == 3);
   CHECK(records[0].outcome == Outcome::holds);
   for (const size_t k : {1, 2}) {
@@ -250,43 +249,32 @@ TEST_CASE("expect: bounds of a shape are not asked where an override puts anothe
     CHECK(": " + records[k].finding.note == reason);
     CHECK(std::isnan(records[k].finding.verdict.measured));
   }
-  const std::vector<Record> as_written = judge_trial(read_case(path));
   CHECK(as_written[1].outcome == Outcome::holds);
   CHECK(as_written[2].outcome == Outcome::fails);
-}
-
-TEST_CASE(
-    "expect: numbers that an override sets, and bounds that it states, are asked all the same") {
-  const ScratchFolder folder;
-  const std::string path = written_mesh_case(folder),
-                    other = written_square(folder, "other.obj", 4);
-  CHECK(not_asked(read_case(path, {"stretch.stiffness=50", "cloth.fit=0.3"})).empty());
-  // the same file
-  CHECK(not_asked(read_case(path, {"cloth.mesh=" + folder.file("square.obj")})).empty());
-  const Case stated = read_case(path, {"cloth.mesh=" + other, "expect.takes_steps.at_least=3"});
-  REQUIRE(not_asked(stated).size() == 1);
+  // numbers that an override sets, the same file, and bounds that it states
+  CHECK(not_asked(one.with({"stretch.stiffness=50", "cloth.fit=0.3"})).empty());
+  CHECK(not_asked(one.with({one.mesh("square.obj")})).empty());
+  const Case stated = one.with({one.mesh("other.obj"), "expect.takes_steps.at_least=3"});
+  CHECK(not_asked(stated).size() == 1);
   CHECK(stated.expectations[2].bound == 3);
   CHECK(stated.expectations[2].not_asked.empty());
-}
-
-TEST_CASE(
-    "expect: objects and tables that are replaced are named, and bounds without a meaning not "
-    "refused") {
-  const ScratchFolder folder;
-  const std::string path = written_mesh_case(folder);
-  const std::vector<std::string> box = {
-      R"(object=[{shape = "box", size = [0.1, 0.1, 0.1], move = [0, 0, -1]}])"};
-  REQUIRE(not_asked(read_case(path, box)).size() == 2);
-  CHECK_THAT(not_asked(read_case(path, box))[0], Contains("written for the file's 'object'"));
-  const std::vector<std::string> statue = {"object.shape=statue", "object.height=0.1",
-                                           "object.subdivisions=3"};
-  CHECK_THROWS_WITH(read_case(path, statue), Contains("unknown key 'radius'"));
-  const TriangleMesh upright = make_icosphere(0.1, 1);  // starts in no plane
-  write_obj(folder.file("ball.obj"), upright.rest, upright.triangles);
-  const Case ball = read_case(path, {"cloth.mesh=" + folder.file("ball.obj")});
+  // bounds that have no meaning for the new shape are not refused, unless the override states them
+  const Case ball = one.with({one.mesh("ball.obj")});
   CHECK(not_asked(ball).size() == 2);
   CHECK(judge_trial(ball)[1].outcome == Outcome::not_applicable);
-  CHECK_THROWS_WITH(
-      read_case(path, {"cloth.mesh=" + folder.file("ball.obj"), "expect.stays_flat.at_most=1"}),
-      Contains("plane of constant z"));
+  CHECK_THROWS_WITH(one.with({one.mesh("ball.obj"), "expect.stays_flat.at_most=1"}),
+                    Contains("plane of constant z"));
+}
+
+TEST_CASE("shapes: a mesh that is the same file does not hide what else is replaced") {
+  const ScratchFolder folder;
+  const std::string mesh = folder.write("a.obj", "v 0 0 0\n");
+  const CaseKeys keys = parse_case_text(
+      "[[object]]\nmesh = \"a.obj\"\nshape = \"sphere\"\nframes = \"b\"\n", folder.file("one.toml"),
+      {"object.0.mesh=" + mesh, "object.0.shape=capsule", "object.0.frames=c"});
+  CHECK(replaced_shape(keys) == "written for sphere and b; this run uses capsule and c");
+  const std::string ball = "object = [{ shape = \"sphere\" }]\n", path = folder.file("one.toml");
+  CHECK(replaced_shape(parse_case_text(ball, path, {"object.0.shape=sphere"})) == "");
+  CHECK_THAT(replaced_shape(parse_case_text(ball, path, {"object=[{ shape = \"box\" }]"})),
+             Contains("the file's 'object'"));
 }

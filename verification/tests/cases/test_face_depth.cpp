@@ -1,18 +1,21 @@
-// Depths of whole triangles: closed forms against the search, the search against dense sampling,
-// and the derived bound against random triangles.
+// Depths of whole triangles: closed forms against the search, the search against known depths, and
+// the bounds that follow from the bodies against random triangles.
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
-#include <cmath>
 #include <random>
 
+#include "reference/bodies/level_set_provider.h"
 #include "reference/scene/scene.h"
 #include "verification/cases/face_bound.h"
 #include "verification/cases/face_depth.h"
 #include "verification/cases/quantities.h"
 
 using namespace foldproof;
+using Catch::Matchers::Contains;
 
 namespace {
+
+Approx exactly(double value) { return Approx(value).epsilon(1e-10).margin(1e-14); }
 
 Vector3 random_point(std::mt19937& bits, double reach) {
   std::uniform_real_distribution<double> within(-reach, reach);
@@ -23,32 +26,32 @@ FaceCorners random_face(std::mt19937& bits, double reach) {
   return {random_point(bits, reach), random_point(bits, reach), random_point(bits, reach)};
 }
 
-/// The deepest of many points of the face [m]; `finer` per side.
-double sampled_depth(const Solid& solid, const FaceCorners& face, int finer) {
-  double deepest = -1e9;
-  for (int i = 0; i <= finer; ++i)
-    for (int j = 0; i + j <= finer; ++j) {
-      const double a = double(i) / finer, b = double(j) / finer;
-      deepest = std::max(
-          deepest, -distance_to(solid, a * face[0] + b * face[1] + (1 - a - b) * face[2]).phi);
-    }
-  return deepest;
-}
-
-Scene scene_with(const Solid& solid) {
-  TriangleMesh mesh = make_triangle_mesh(
-      (PerParticle3(3, 4) << 0, 0.3, 0, 0.3, 0, 0, 0.3, 0.3, 0.1, 0.1, 0.1, 0.1).finished(),
-      {{0, 1, 2}, {1, 3, 2}});
-  Scene scene = scene_at_rest(std::move(mesh), 0.2);
-  SceneObject part;
-  part.object = {"solid", RigidObject{solid, {}, {}}, 0.3};
-  scene.objects.push_back(part);
+/// A triangle of sides 3, 4 and 5 dm and a smaller one; its circle has a radius of 0.25 m.
+Scene scene_with(const std::vector<Solid>& solids) {
+  Scene scene = scene_at_rest(
+      make_triangle_mesh(
+          (PerParticle3(3, 4) << 0, 0.3, 0, 0.3, 0, 0, 0.4, 0.2, 0, 0, 0, 0).finished(),
+          {{0, 1, 2}, {1, 3, 2}}),
+      0.2);
+  for (const Solid& solid : solids) {
+    scene.objects.emplace_back();
+    scene.objects.back().object = {"solid", RigidObject{solid, {}, {}}, 0.3};
+  }
   return scene;
 }
 
-double faces_outside(const Scene& scene) {
-  return value_at(*find_quantity("faces_outside"), scene,
-                  build_objects(scene, computing_provider()), start_state(scene));
+double bound_of(const std::vector<Solid>& solids, const std::vector<Expectation>& stated) {
+  return expected_faces_outside(scene_with(solids), stated)->bound;
+}
+
+double faces_outside(const Scene& scene, const std::vector<Object>& objects) {
+  return value_at(*find_quantity("faces_outside"), scene, objects, start_state(scene));
+}
+
+std::vector<Object> ring_at(const Vector3& place) {
+  RigidObject ring{Torus{0.12, 0.03}, {}, {}};
+  ring.place.translation = place;
+  return {{"ring", ring, 0.1}};
 }
 
 }  // namespace
@@ -69,7 +72,6 @@ TEMPLATE_TEST_CASE("closed forms of the deepest point are what a search finds", 
     inside += exact > 0;
     CHECK(found >= exact - 1e-14);
     CHECK(found <= exact + 1.0001e-4);
-    CHECK(exact >= sampled_depth(solid, faces[0], 20) - 1e-14);
   }
   CHECK(inside > 300);
 }
@@ -81,17 +83,95 @@ TEST_CASE("a body whose axis pierces the face is as deep in it as its radius") {
   CHECK(deepest_point(Box{{0.5, 0.7, 0.3}}, cut) == Approx(0.3).epsilon(1e-15));
 }
 
-TEST_CASE("the search keeps a depth that is known, and its bound holds for a tilted field") {
-  std::mt19937 bits(5);
-  const auto shallow = [](const Vector3& p) { return 0.5 * p.x() - 0.25 * p.y(); };
+TEST_CASE("depth of faces: slivers and points are as deep as their segments") {
+  const Capsule capsule{0.4, 0.6};
+  std::mt19937 bits(8);
+  for (int k = 0; k < 300; ++k) {
+    const Vector3 a = random_point(bits, 1.1), b = random_point(bits, 1.1);
+    double deepest = -9;
+    for (int i = 0; i <= 2000; ++i)
+      deepest = std::max(deepest, -capsule.at(a + i / 2000.0 * (b - a)).phi);
+    const Vector3 middle = 0.3 * a + 0.7 * b;
+    CHECK(deepest_point(capsule, {a, middle, b}) == Approx(deepest).margin(2e-3));
+    CHECK(deepest_point(capsule, {a, middle, b}) >= deepest - 1e-12);
+    CHECK(deepest_point(capsule, {a, a, a}) == exactly(-capsule.at(a).phi));
+  }
+}
+
+TEST_CASE("depth of faces: in an object that is turned and moved, and at least what is known") {
+  RigidObject body{Box{{0.5, 0.7, 0.3}}, {}, {}};
+  body.place.rotation = Eigen::AngleAxisd(0.7, Vector3(1, 2, -1).normalized());
+  body.place.translation = Vector3(0.3, -0.2, 0.9);
+  FaceCorners face = {Vector3(0.6, 0.1, 0.1), Vector3(-0.4, 0.3, 0.2), Vector3(0.2, -0.9, 0.1)};
+  const double deepest = deepest_point(Box{{0.5, 0.7, 0.3}}, face);
+  for (Vector3& corner : face) corner = body.place.rotation * corner + body.place.translation;
+  const std::vector<FaceCorners> faces = {face,
+                                          {Vector3(9, 9, 9), Vector3(9, 8, 9), Vector3(8, 9, 9)}};
+  CHECK(deepest > 0.1);
+  CHECK(deepest_in_object({"box", body, 0.3}, 0.4, faces, 0.011, 1e-4) == exactly(deepest));
+  CHECK(deepest_in_object({"box", body, 0.3}, 0.4, faces, 0.77, 1e-4) == 0.77);
+}
+
+TEST_CASE("depth of faces: a search adds its tolerance to what it finds, once it finds more") {
+  const auto bump = [](const Vector3& p) { return 0.5 - (p - Vector3(0.3, 0.2, 0)).norm(); };
+  const FaceCorners large = {Vector3(0, 0, 0), Vector3(1, 0, 0), Vector3(0, 1, 0)};
+  const FaceCorners other = {Vector3(3, 0, 0), Vector3(4, 0, 0), Vector3(3, 1, 0)};
+  for (const std::vector<FaceCorners>& faces :
+       std::vector<std::vector<FaceCorners>>{{large}, {other, large}, {large, other}}) {
+    for (const double tolerance : {0.1, 0.01, 1e-3})
+      CHECK(deepest_of({bump, 1, tolerance}, faces, 0) ==
+            Approx(0.5 + tolerance / 2).epsilon(0).margin(tolerance / 2));
+    CHECK(deepest_of({bump, 1, 1e-3}, faces, 0.5) == 0.5);
+  }
+  // a linear field: of the middles of the quarters, that of the corner with the largest x
+  const auto slope = [](const Vector3& p) { return p.x(); };
+  CHECK(deepest_of({slope, 1, 0.4}, std::vector<FaceCorners>{large}, 0) == exactly(2.0 / 3 + 0.4));
+}
+
+TEST_CASE("depth of faces: of a whole cloth, a search is a thousandth of its longest side off") {
+  // the core of a ring passes through the middle of the face, where the search begins
+  for (const Triangle& face : std::vector<Triangle>{{0, 1, 2}, {1, 2, 0}, {2, 0, 1}})
+    for (const bool is_alone : {true, false}) {
+      PerParticle3 x(3, 6);
+      x << 0, 0.5, 0.1, 5, 5.2, 5, 0, 0.1, 0.3, 5, 5, 5.1, 0, 0, 0, 7, 7, 7;
+      const PerParticle3 kept = is_alone ? PerParticle3(x.leftCols(3)) : x;
+      std::vector<Triangle> triangles = {face};
+      if (!is_alone) triangles.push_back({3, 4, 5});  // smaller, and far away
+      const Scene scene = scene_at_rest(make_triangle_mesh(kept, triangles), 0.2);
+      const Vector3 middle = (x.col(0) + x.col(1) + x.col(2)) / 3;
+      CHECK(faces_outside(scene, ring_at(middle - Vector3(0.12, 0, 0))) ==
+            exactly(0.03 + 1e-3 * std::hypot(0.5, 0.1)));
+      for (const int corner : {0, 1, 2}) {  // where a corner is the deepest point, it is exact
+        const Vector3 place = x.col(corner);
+        CHECK(faces_outside(scene, ring_at(place + 0.12 * (place - middle).normalized())) ==
+              exactly(0.03));
+      }
+    }
+}
+
+TEST_CASE("the enclosing circle is about the longest side unless all angles are acute") {
+  const Vector3 o(0, 0, 0), x(4, 0, 0);
+  CHECK(enclosing_radius(o, x, {1, 0.5, 0}) == 2);
+  CHECK(enclosing_radius(o, x, {0, 3, 0}) == 2.5);
+  CHECK(enclosing_radius(o, x, {2, 2 * std::sqrt(3.), 0}) == Approx(4 / std::sqrt(3.)));
+}
+
+TEST_CASE("bounds of faces: the enclosing circle of any triangle holds it, and is the smallest") {
+  std::mt19937 bits(3);
   for (int k = 0; k < 200; ++k) {
-    const std::vector<FaceCorners> faces = {random_face(bits, 1)};
-    const double exact =
-        std::max({shallow(faces[0][0]), shallow(faces[0][1]), shallow(faces[0][2])});
-    const double found = deepest_of({shallow, 1, 1e-3}, faces, -2);
-    CHECK(found >= exact);
-    CHECK(found <= exact + 1.0001e-3);
-    CHECK(deepest_of({shallow, 1, 1e-3}, faces, 3) == 3);
+    const auto [a, b, c] = random_face(bits, 1);
+    // the smallest that holds all corners, of the circles about two corners and through three
+    Eigen::Matrix3d planes;
+    planes << (b - a).transpose(), (c - a).transpose(), (b - a).cross(c - a).transpose();
+    const Vector3 through =
+        a + planes.inverse() * Vector3((b - a).squaredNorm(), (c - a).squaredNorm(), 0) / 2;
+    double smallest = 9;
+    for (const Vector3& centre :
+         {Vector3((a + b) / 2), Vector3((b + c) / 2), Vector3((c + a) / 2), through})
+      smallest = std::min(
+          smallest, std::max({(a - centre).norm(), (b - centre).norm(), (c - centre).norm()}));
+    CHECK(enclosing_radius(a, b, c) == Approx(smallest).epsilon(1e-8));
+    CHECK(enclosing_radius(c, a, b) == exactly(enclosing_radius(a, b, c)));
   }
 }
 
@@ -115,38 +195,49 @@ TEST_CASE("corners outside a round body bound the depth between them") {
   CHECK(closest > 0.9);
 }
 
-TEST_CASE("the enclosing circle is about the longest side unless all angles are acute") {
-  const Vector3 o(0, 0, 0), x(4, 0, 0);
-  CHECK(enclosing_radius(o, x, {1, 0.5, 0}) == 2);
-  CHECK(enclosing_radius(o, x, {0, 3, 0}) == 2.5);
-  CHECK(enclosing_radius(o, x, {2, 2 * std::sqrt(3.), 0}) == Approx(4 / std::sqrt(3.)));
-}
-
-TEST_CASE("faces_outside: a face passes through a ball that no particle enters") {
-  Scene scene = scene_with(Sphere{0.15});
-  const Solid moved = Sphere{0.15};
-  std::get<RigidObject>(scene.objects[0].object.body).place.translation = {0.15, 0.15, 0.1};
-  CHECK(faces_outside(scene) == Approx(0.15).epsilon(1e-14));
-  CHECK(value_at(*find_quantity("stays_outside"), scene, build_objects(scene, computing_provider()),
-                 start_state(scene)) == 0);
-  scene.prescribed.push_back({1, scene.x.col(1), {}});  // a corner of both triangles
-  CHECK(faces_outside(scene) == 0);
-  scene.prescribed.clear();
-  scene.x(0, 0) = NAN;
-  CHECK(std::isnan(faces_outside(scene)));
+TEST_CASE("bounds of faces: the chord of round bodies, and no more than the way to a corner") {
+  const double r = 1.25 * 0.25, d = 0.03;
+  const std::vector<Expectation> stated = {{"takes_steps", 9, ""}, {"stays_outside", d, "w"}};
+  const auto chord = [&](double R) { return R - std::sqrt((R - d) * (R - d) - r * r); };
+  for (const double R : {d + r + 1e-6, 0.6, 0.9, 2.5})
+    for (const std::vector<Solid>& solids : std::vector<std::vector<Solid>>{
+             {Sphere{R}}, {Capsule{R, 3}}, {Torus{7, R}}, {HalfSpace{}, Sphere{R}, HalfSpace{}}})
+      CHECK(bound_of(solids, stated) == exactly(chord(R)));
+  for (const double R : {0.02, 0.2, d + r - 1e-6})  // a chord would be deeper
+    CHECK(bound_of({Sphere{R}}, stated) == exactly(d + r));
+  CHECK(bound_of({Sphere{0.05}}, {{"stays_outside", 0.9, "w"}}) == exactly(0.9 + r));
+  CHECK(bound_of({Sphere{2.5}, Sphere{0.9}}, stated) == exactly(chord(0.9)));
+  CHECK(bound_of({Sphere{0.9}, Sphere{2.5}}, stated) == exactly(chord(0.9)));
 }
 
 TEST_CASE("faces_outside is expected of cases with objects, by what their bodies are") {
-  const Scene round = scene_with(Sphere{1}), flat = scene_with(HalfSpace{}),
-              edged = scene_with(Box{{1, 2, 3}});
+  const double r = 1.25 * 0.25;
   const std::vector<Expectation> depth = {{"stays_outside", 0.01, "w"}};
-  const double r = 1.25 * 0.3 / std::sqrt(2.);
-  CHECK(expected_faces_outside(flat, depth)->bound == 0.01);
-  CHECK(expected_faces_outside(round, depth)->bound == Approx(1 - std::sqrt(0.9801 - r * r)));
-  CHECK(expected_faces_outside(edged, depth)->bound == Approx(0.01 + r));
-  CHECK(expected_faces_outside(flat, {})->bound == Approx(r / 10));
-  CHECK(!expected_faces_outside(flat, {{"lies_inside", 0.01, "w"}}));
-  Scene bare = flat;
-  bare.objects.clear();
-  CHECK(!expected_faces_outside(bare, depth));
+  CHECK(bound_of({HalfSpace{}}, depth) == 0.01);
+  CHECK(bound_of({HalfSpace{}}, {{"lies_inside", 1, ""}, depth[0]}) == 0.01);
+  CHECK(bound_of({Sphere{1}}, depth) == exactly(1 - std::sqrt(0.9801 - r * r)));
+  CHECK(bound_of({Box{{1, 2, 3}}}, depth) == exactly(0.01 + r));
+  CHECK(bound_of({HalfSpace{}}, {}) == exactly(r / 10));
+  CHECK(!expected_faces_outside(scene_with({HalfSpace{}}), {{"lies_inside", 0.01, "w"}}));
+  CHECK(!expected_faces_outside(scene_with({}), depth));
+  Scene limited = scene_with({Box{{1, 2, 3}}});
+  limited.strain_limits = StrainLimits{0.12, 0.3};
+  CHECK(largest_enclosing_radius(limited) == exactly(1.12 * 0.25));
+  CHECK(usual_particle_depth(limited) == exactly(0.028));
+  CHECK(expected_faces_outside(limited, {})->bound == exactly(1.1 * 1.12 * 0.25));
+  CHECK(expected_faces_outside(limited, {})->key == "faces_outside");
+  CHECK_THAT(expected_faces_outside(limited, {})->why, Contains("stretched by 0.12."));
+}
+
+TEST_CASE("faces_outside: a face passes through a ball that no particle enters") {
+  Scene scene = scene_with({Sphere{0.14}});
+  std::get<RigidObject>(scene.objects[0].object.body).place.translation = {0.15, 0.2, 0};
+  const std::vector<Object> objects = build_objects(scene, computing_provider());
+  CHECK(faces_outside(scene, objects) == Approx(0.14).epsilon(1e-14));
+  CHECK(value_at(*find_quantity("stays_outside"), scene, objects, start_state(scene)) == 0);
+  scene.prescribed.push_back({1, scene.x.col(1), {}});  // a corner of both triangles
+  CHECK(faces_outside(scene, objects) == 0);
+  scene.prescribed.clear();
+  scene.x(0, 0) = NAN;
+  CHECK(std::isnan(faces_outside(scene, objects)));
 }

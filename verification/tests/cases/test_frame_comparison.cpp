@@ -1,46 +1,39 @@
 // Measures of `foldproof compare` on cloth of known distances, folds and depths.
-#include <catch2/catch.hpp>
-#include <cmath>
-
-#include "reference/bodies/level_set_provider.h"
 #include "reference/mesh/shapes.h"
 #include "verification/cases/frame_comparison.h"
+#include "verification/tests/cases/hand_made_frames.h"
 
 using namespace foldproof;
+using namespace foldproof::hand_made;
+using Catch::Matchers::Contains;
 
 namespace {
 
-constexpr const char* text = R"([cloth]
-shape = "sheet"
-pattern = "one_diagonal"
-width = 0.6
-height = 0.4
-columns = 6
-rows = 4
-density = 0.2
-[stretch]
-stiffness = 40
-[bending]
-stiffness = 1e-3
-[[object]]
-name = "ball"
-shape = "sphere"
-radius = 0.1
-move = [0.3, 0.2, 0.13]
-[time]
-end = 0.05
-frames_per_second = 100
-)";
+/// How the last frame differs, after one that matches.
+std::string difference(const std::vector<Triangle>& triangles, int vertices = 5) {
+  const std::vector<Triangle> faces = {{0, 1, 2}, {1, 3, 2}, {2, 3, 4}};
+  PerParticle3 x(3, 5);
+  x << 0, 1, 0, 1, 0, 0, 0, 1, 1, 2, 0, 0, 0, 0, 0;
+  const TriangleMesh cloth = make_triangle_mesh(x, faces);
+  const std::vector<TimedMesh> frames = {
+      {"first.obj", 0, x, {{3, 4, 2}, {2, 0, 1}, {1, 3, 2}}},
+      {"second.obj", 1, PerParticle3::Zero(3, vertices), triangles}};
+  const std::string said = mesh_difference(cloth, frames);
+  CHECK((matching_of(cloth, frames) == Matching::particles) == said.empty());
+  return said;
+}
 
-struct Trial {
-  Scene scene = read_scene_text(text, "trial.toml");
-  BuiltScene built = build(scene, computing_provider());
-  State start = built.start;
+struct Compared : Frames {
+  explicit Compared(const std::string& more = "")
+      : Frames(sheet("[stretch]\nstiffness = 40\n[bending]\nstiffness = 1e-3\n" + more)) {}
 
-  TimedMesh frame(const PerParticle3& x) const { return {"frame", 0, x, scene.mesh.triangles}; }
-  FrameComparison compare(const TimedMesh& frame) const {
-    return compare_frame({scene, built, matching_of(scene.mesh, std::span(&frame, 1))}, start,
-                         frame);
+  /// The cloth at its start and at `time`, with this frame.
+  FrameComparison with(const TimedMesh& frame, double time = 0) const {
+    const Matching matching = matching_of(of.scene.mesh, std::span(&frame, 1));
+    return compare_frame({of.scene, built, matching}, {time, of.scene.x, of.scene.v}, frame);
+  }
+  FrameComparison with(const PerParticle3& x) const {
+    return with({"frame", 0, x, of.scene.mesh.triangles});
   }
 };
 
@@ -49,95 +42,102 @@ PerParticle3 moved(PerParticle3 x, const Vector3& by) { return x.colwise() += by
 }  // namespace
 
 TEST_CASE("frames match by their faces, in any order") {
-  const Trial trial;
-  TimedMesh frame = trial.frame(trial.start.x);
-  std::reverse(frame.triangles.begin(), frame.triangles.end());
-  for (Triangle& t : frame.triangles) t = {t[1], t[2], t[0]};
-  CHECK(matching_of(trial.scene.mesh, std::span(&frame, 1)) == Matching::particles);
-  frame.triangles[0] = {frame.triangles[0][0], frame.triangles[0][2], frame.triangles[0][1]};
-  CHECK(matching_of(trial.scene.mesh, std::span(&frame, 1)) == Matching::surface);
-  const TriangleMesh finer = make_sheet({SheetPattern::one_diagonal, 0.6, 0.4, 12, 8});
-  const std::vector<TimedMesh> both = {trial.frame(trial.start.x),
-                                       {"finer", 0, finer.rest, finer.triangles}};
-  CHECK(matching_of(trial.scene.mesh, both) == Matching::surface);
+  CHECK(difference({{0, 1, 2}, {1, 3, 2}, {2, 3, 4}}) == "");
+  CHECK(difference({{4, 2, 3}, {2, 0, 1}, {3, 2, 1}}) == "");
 }
 
 TEST_CASE("frames of another mesh say which triangle differs first") {
-  const Trial trial;
-  const auto difference = [&](const TimedMesh& frame) {
-    return mesh_difference(trial.scene.mesh, std::span(&frame, 1));
-  };
-  TimedMesh frame = trial.frame(trial.start.x);
-  std::ranges::reverse(frame.triangles);
-  CHECK(difference(frame) == "");
-  const Triangle t = frame.triangles[3];
-  frame.triangles[3] = {t[1], t[0], t[2]};
-  CHECK(difference(frame).find("triangle 3, ") != std::string::npos);
-  CHECK(difference(frame).find("turned over") != std::string::npos);
-  frame.triangles[3] = {t[0], t[0], t[1]};
-  CHECK(difference(frame).find("none of the case's") != std::string::npos);
-  frame.triangles.pop_back(), frame.triangles[3] = t;
-  CHECK(difference(frame).find("triangles, the case") != std::string::npos);
-  frame.x.conservativeResize(3, 5);
-  CHECK(difference(frame).find("has 5 vertices, the case") != std::string::npos);
+  CHECK_THAT(difference({{0, 1, 2}, {1, 3, 2}, {2, 3, 4}}, 7),
+             Contains("second.obj has 7 vertices, the case 5"));
+  CHECK_THAT(difference({{0, 1, 2}, {3, 1, 2}, {4, 3, 2}}), Contains("second.obj: ") &&
+                                                                Contains("triangle 1, (3, 1, 2)") &&
+                                                                Contains("turned over"));
+  CHECK_THAT(difference({{0, 1, 2}, {1, 3, 2}, {2, 1, 4}}),
+             Contains("triangle 2, (2, 1, 4)") && Contains("none of the case's"));
+  CHECK_THAT(difference({{3, 1, 0}, {1, 2, 3}, {2, 3, 4}}),
+             Contains("triangle 0, (3, 1, 0)") && Contains("none of the case's"));
+  CHECK_THAT(difference({{0, 1, 2}, {1, 3, 2}}), Contains("has 2 triangles, the case 3"));
+  CHECK_THAT(difference({{0, 1, 2}, {1, 3, 2}, {2, 3, 4}, {1, 3, 2}}), Contains("4 triangles"));
 }
 
 TEST_CASE("cloth that is moved is as far away as it was moved") {
-  const Trial trial;
-  const FrameComparison c = trial.compare(trial.frame(moved(trial.start.x, {0.3, 0, 0.4})));
-  CHECK(c.distance.rms == Approx(0.5));
-  CHECK(c.distance.largest == Approx(0.5));
-  CHECK(c.distance.weighted == Approx(0.5));
+  const Compared cloth;
+  const PerParticle3& start = cloth.of.scene.x;
+  const FrameComparison c = cloth.with(moved(start, {0.3, 0, 0.4}));
+  for (const double distance : {c.distance.rms, c.distance.largest, c.distance.weighted})
+    CHECK(distance == Approx(0.5));
   CHECK(c.frame.stretch == Approx(c.run.stretch).margin(1e-12));
-  PerParticle3 x = trial.start.x;  // one corner particle alone, a third of two triangles' mass
+  PerParticle3 x = start;  // one corner particle alone, a third of two triangles' mass
   x(2, 0) += 0.7;
-  const FrameComparison one = trial.compare(trial.frame(x));
-  CHECK(one.distance.rms == Approx(0.7 / std::sqrt(35)));
+  const FrameComparison one = cloth.with(x);
+  const Energies e = energies(cloth.built.system, {0, x, PerParticle3::Zero(3, 12)});
+  CHECK(one.distance.rms == Approx(0.7 / std::sqrt(12)));
   CHECK(one.distance.largest == Approx(0.7));
-  const double share = 2.0 / 3 / 48;  // of the mass: 48 triangles
-  CHECK(one.distance.weighted == Approx(0.7 * std::sqrt(share)));
-  CHECK(one.frame.stretch > 1e-2);
+  CHECK(one.distance.weighted == Approx(0.7 * std::sqrt(2.0 / 3 / 12)));
+  CHECK(one.frame.stretch == exactly(e.stretch));
+  CHECK(one.frame.bending == exactly(e.bending));
   CHECK(one.frame.bending > one.run.bending);
+  CHECK(one.frame.folds == fold_spectrum(cloth.of.scene.mesh, x));
+  CHECK(cloth.with(crossed(start)).frame.crossings > 0);
+  CHECK(cloth.with(crossed(start)).run.crossings == 0);
 }
 
 TEST_CASE("another mesh is compared by the nearest points of both surfaces") {
-  const Trial trial;
-  const TriangleMesh half = make_sheet({SheetPattern::union_jack, 0.3, 0.4, 5, 7});
-  const FrameComparison c =
-      trial.compare({"half", 0, moved(half.rest, {0, 0, 0.03}), half.triangles});
-  CHECK(c.distance.largest == Approx(std::hypot(0.3, 0.03)));  // of the half that it lacks
-  CHECK(c.distance.rms > 0.03);
-  CHECK(std::isnan(c.frame.stretch));
-  CHECK(c.frame.folds[0] == Approx(1));
-  const TriangleMesh whole = make_sheet({SheetPattern::union_jack, 0.6, 0.4, 5, 7});
-  const FrameComparison d =
-      trial.compare({"whole", 0, moved(whole.rest, {0, 0, 0.03}), whole.triangles});
-  CHECK(d.distance.rms == Approx(0.03));
-  CHECK(d.distance.weighted == Approx(0.03));
+  const Compared cloth;
+  const auto above = [&](double width) {
+    const TriangleMesh mesh = make_sheet({SheetPattern::union_jack, width, 0.24, 5, 7});
+    return cloth.with({"above", 0, moved(mesh.rest, {0, 0, 0.03}), mesh.triangles});
+  };
+  const FrameComparison half = above(0.15), whole = above(0.3);
+  CHECK(half.distance.largest == Approx(std::hypot(0.15, 0.03)));  // of the half that it lacks
+  CHECK(half.distance.rms > 0.03);
+  CHECK(std::isnan(half.frame.stretch));
+  CHECK(half.frame.folds[0] == Approx(1));
+  CHECK(whole.distance.rms == Approx(0.03));
+  CHECK(whole.distance.weighted == Approx(0.03));
 }
 
-TEST_CASE("crossings, folds and depth are those of the frame") {
-  const Trial trial;
-  CHECK(trial.compare(trial.frame(trial.start.x)).frame.depth == 0);
-  const FrameComparison raised = trial.compare(trial.frame(moved(trial.start.x, {0, 0, 0.05})));
-  CHECK(raised.frame.depth == Approx(0.02));  // the ball's lowest point is at z = 0.03
-  CHECK(raised.run.depth == 0);
-  PerParticle3 folded = trial.start.x;  // the right half turned back by 100 degrees about x = 0.3
-  for (Eigen::Index i = 0; i < folded.cols(); ++i) {
-    const double along = folded(0, i) - 0.3;
-    if (along < 1e-9) continue;
-    folded(0, i) = 0.3 + along * std::cos(100 * pi / 180);
-    folded(2, i) = along * std::sin(100 * pi / 180);
-  }
-  const FrameComparison c = trial.compare(trial.frame(folded));
-  CHECK(c.run.folds[4] == 0);
-  CHECK(c.frame.folds[4] > 0.02);
-  CHECK(c.frame.folds[2] == 0);
-  CHECK(c.run.crossings == 0);
-  PerParticle3 pierced = trial.start.x;  // a corner brought through the sheet's middle
-  pierced.col(0) = Vector3(0.33, 0.21, -0.1);
-  pierced.col(7) += Vector3(0.33, 0.1, 0.02);
-  CHECK(trial.compare(trial.frame(pierced)).frame.crossings > 0);
+TEST_CASE("comparison: a surface that is not oriented has no folds, depths are at the time") {
+  const Compared cloth(
+      "[[object]]\nshape = \"sphere\"\nradius = 0.1\nmove = [0.1, 0.12, -0.5]\n"
+      "velocity = [0, 0, 1]\n[[object]]\nshape = \"sphere\"\nradius = 0.02\n"
+      "move = [0.2, 0.12, 0.01]\n");
+  TimedMesh frame{"f", 0.45, cloth.of.scene.x, cloth.of.scene.mesh.triangles};
+  std::swap(frame.triangles[3][0], frame.triangles[3][1]);
+  const FrameComparison c = cloth.with(frame, 0.43);
+  for (const double fraction : c.frame.folds) CHECK(std::isnan(fraction));
+  CHECK(std::isnan(c.frame.bending));
+  CHECK(c.run.folds[0] == exactly(1));
+  CHECK(c.time == 0.45);
+  CHECK(c.run.depth == exactly(0.03));  // both at the run's time
+  CHECK(c.frame.depth == exactly(0.03));
+  CHECK(cloth.with(frame, 0.1).run.depth == exactly(0.01));
+}
+
+TEST_CASE("comparison: each column and each curve of the evidence has its own numbers") {
+  const std::vector<FrameComparison> all = {
+      {"f", 1, {2, 3, 4}, {5, 7, {13, 14}, 9, 11}, {6, 8, {15, 16}, 10, 12}}};
+  const ComparisonEvidence evidence = evidence_of(all, Matching::particles);
+  double value = 0;
+  for (const char* column : {"time", "rms distance", "largest distance", "weighted rms",
+                             "stretch, run", "stretch, frame", "bending, run", "bending, frame",
+                             "crossings, run", "crossings, frame", "depth, run", "depth, frame"})
+    CHECK(evidence.tables.at(0).numbers(column) == std::vector<double>{++value});
+  const Table& folds = evidence.tables.at(1);
+  CHECK(folds.numbers("time") == std::vector<double>(5, 1));
+  CHECK(folds.texts("fold angle")[1] == "5 to 15 degrees");
+  CHECK(folds.numbers("share, run") == std::vector<double>{13, 14, 0, 0, 0});
+  CHECK(folds.numbers("share, frame") == std::vector<double>{15, 16, 0, 0, 0});
+  std::string drawn;
+  for (const Figure& figure : evidence.figures)
+    for (const Curve& curve : figure.curves)
+      drawn += curve.label + ": " + std::to_string(int(curve.y.at(0))) + "; ";
+  CHECK(drawn ==
+        "root mean square: 2; largest: 3; weighted with masses or areas: 4; stretch, run: 5; "
+        "stretch, frames: 6; bending, run: 7; bending, frames: 8; ");
+  CHECK_THAT(evidence.figures[0].caption, Contains("vertex by vertex"));
+  CHECK(evidence_of(all, Matching::surface).figures.size() == 1);
+  CHECK_THAT(evidence_of(all, Matching::surface).figures[0].caption, Contains("nearest points"));
 }
 
 TEST_CASE("between frames a cubic motion is met exactly") {
@@ -147,18 +147,25 @@ TEST_CASE("between frames a cubic motion is met exactly") {
     s.v.col(0) = Vector3(2 - 6 * t + 2.1 * t * t, 1, 0);
     return s;
   };
-  const State a = at(0.4), b = at(1.9);
   for (const double t : {0.4, 0.7, 1.3, 1.9})
-    CHECK((state_between(a, b, t).x - at(t).x).norm() < 1e-14);
+    CHECK((state_between(at(0.4), at(1.9), t).x - at(t).x).norm() < 1e-14);
 }
 
-TEST_CASE("a comparison is a study's evidence") {
-  const Trial trial;
-  const std::vector<FrameComparison> all(3, trial.compare(trial.frame(trial.start.x)));
-  const ComparisonEvidence evidence = evidence_of(all, Matching::particles);
-  REQUIRE(evidence.tables.size() == 2);
-  CHECK(evidence.tables[0].numbers("rms distance").size() == 3);
-  CHECK(evidence.tables[1].numbers("share, run").size() == 15);
-  CHECK(evidence.figures.size() == 2);
-  CHECK(evidence_of(all, Matching::surface).figures.size() == 1);
+TEST_CASE("between frames: velocities go evenly, and beyond the frames each stays") {
+  State a{0.4, PerParticle3::Constant(3, 2, 0.7), PerParticle3::Constant(3, 2, -3)};
+  State b{0.9, PerParticle3::Constant(3, 2, 1.9), PerParticle3::Constant(3, 2, 5)};
+  a.x(1, 1) = -0.3, b.v(2, 0) = 11;
+  a.bonds.resize(3), b.bonds.resize(2);
+  for (const double t : {0.41, 0.55, 0.7, 0.88}) {
+    const State now = state_between(a, b, t);
+    CHECK(now.time == t);
+    CHECK((now.v - a.v - (t - 0.4) / 0.5 * (b.v - a.v)).norm() < 1e-13);
+  }
+  for (const double t : {0.3, 0.4, 0.9, 1.5}) {
+    const State now = state_between(a, b, t), &end = t < 0.5 ? a : b;
+    CHECK(now.time == end.time);
+    CHECK(now.x == end.x);
+    CHECK(now.v == end.v);
+    CHECK(now.bonds.size() == end.bonds.size());
+  }
 }

@@ -1,60 +1,60 @@
-// All of an HDF5 file as texts, read through the library itself: for tests of what writes it.
+// All of an HDF5 file as texts, read through the library itself: for tests of what writes it. And
+// files that the project's classes would never write.
 #pragma once
 
 #include <fmt/format.h>
 #include <hdf5.h>
 
+#include <fstream>
 #include <functional>
 #include <map>
+#include <sstream>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <vector>
+
+#include "verification/tests/files/small_files.h"
 
 namespace foldproof {
 
 /// "GROUP/" without a value, "SET" with "[2 x 3] a | b | ...", "OBJECT@ATTRIBUTE" with its
 /// value or values.
 using Listing = std::map<std::string, std::string>;
+using Lengths = std::vector<hsize_t>;
 
-/// The values of a dataset or an attribute. `read` gets the type in memory, and where to read to.
-inline std::string values_in(hid_t type, hid_t space,
-                             const std::function<int(hid_t, void*)>& read) {
-  std::vector<hsize_t> shape(std::size_t(H5Sget_simple_extent_ndims(space)));
-  if (!shape.empty()) H5Sget_simple_extent_dims(space, shape.data(), nullptr);
-  const auto count = std::size_t(H5Sget_simple_extent_npoints(space));
-  std::vector<std::string> values;
-  const auto numbers = [&](auto one, hid_t in_memory) {
-    std::vector<decltype(one)> all(count);
-    if (read(in_memory, all.data()) < 0) throw std::runtime_error("a value cannot be read");
-    for (const auto& value : all) values.push_back(fmt::format("{}", value));
-  };
-  if (H5Tget_class(type) == H5T_STRING)
-    numbers(static_cast<const char*>(nullptr), type);
-  else if (H5Tget_class(type) == H5T_INTEGER)
-    numbers(0, H5T_NATIVE_INT);
-  else
-    numbers(0.0, H5T_NATIVE_DOUBLE);
+template <class Values>
+std::string array_text(const Lengths& shape, const Values& values) {
   const std::string joined = fmt::format("{}", fmt::join(values, " | "));
   return shape.empty() ? joined : fmt::format("[{}] {}", fmt::join(shape, " x "), joined);
 }
 
-inline void list_attributes(hid_t object, const std::string& name, Listing& listing) {
-  const auto count = hsize_t(H5Aget_num_attrs(object));
-  for (hsize_t k = 0; k < count; ++k) {
+/// The values of a dataset or an attribute. `read` gets the type in memory, and where to read to.
+inline std::string values_in(hid_t type, hid_t space,
+                             const std::function<int(hid_t, void*)>& read) {
+  Lengths shape(std::size_t(H5Sget_simple_extent_ndims(space)));
+  if (!shape.empty()) H5Sget_simple_extent_dims(space, shape.data(), nullptr);
+  const auto text = [&](auto one, hid_t in_memory) {
+    std::vector<decltype(one)> all(std::size_t(H5Sget_simple_extent_npoints(space)));
+    if (read(in_memory, all.data()) < 0) throw std::runtime_error("a value cannot be read");
+    return array_text(shape, all);
+  };
+  if (H5Tget_class(type) == H5T_STRING) return text(static_cast<const char*>(nullptr), type);
+  return H5Tget_class(type) == H5T_INTEGER ? text(0, H5T_NATIVE_INT) : text(0.0, H5T_NATIVE_DOUBLE);
+}
+
+/// Adds what is in an object; its name ends in '/' if it is a group.
+inline void list_object(hid_t object, const std::string& name, Listing& listing) {
+  char text[256];
+  for (hsize_t k = 0; k < hsize_t(H5Aget_num_attrs(object)); ++k) {
     const hid_t one =
         H5Aopen_by_idx(object, ".", H5_INDEX_NAME, H5_ITER_INC, k, H5P_DEFAULT, H5P_DEFAULT);
-    char text[256];
     H5Aget_name(one, sizeof text, text);
     const hid_t type = H5Aget_type(one), space = H5Aget_space(one);
     listing[name + "@" + text] = values_in(
         type, space, [&](hid_t in_memory, void* to) { return H5Aread(one, in_memory, to); });
     H5Sclose(space), H5Tclose(type), H5Aclose(one);
   }
-}
-
-/// Adds what is in an object; its name ends in '/' if it is a group.
-inline void list_object(hid_t object, const std::string& name, Listing& listing) {
-  list_attributes(object, name, listing);
   if (H5Iget_type(object) == H5I_DATASET) {
     const hid_t type = H5Dget_type(object), space = H5Dget_space(object);
     listing[name] = values_in(type, space, [&](hid_t in_memory, void* to) {
@@ -67,7 +67,6 @@ inline void list_object(hid_t object, const std::string& name, Listing& listing)
   H5G_info_t info;
   H5Gget_info(object, &info);
   for (hsize_t k = 0; k < info.nlinks; ++k) {
-    char text[256];
     H5Lget_name_by_idx(object, ".", H5_INDEX_NAME, H5_ITER_INC, k, text, sizeof text, H5P_DEFAULT);
     const hid_t child = H5Oopen(object, text, H5P_DEFAULT);
     const bool is_group = H5Iget_type(child) == H5I_GROUP;
@@ -86,17 +85,73 @@ inline Listing hdf5_listing(const std::string& path) {
   return listing;
 }
 
-/// The lines in which two listings differ, for a message: "" if they agree.
+/// Adds a group, and below it entries "NAME = VALUE" or "NAME", parted by "; " or by lines.
+inline void add_listed(Listing& all, const std::string& group, const std::string& text) {
+  all[group] = "";
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines >> std::ws, line);)
+    for (std::size_t at = 0, end = 0; at < line.size(); at = end + 2) {
+      end = std::min(line.find("; ", at), line.size());
+      const std::string entry = line.substr(at, end - at);
+      const std::size_t is = entry.find(" = ");
+      all[group + entry.substr(0, is)] = is == std::string::npos ? "" : entry.substr(is + 3);
+    }
+}
+
+/// The entries that only one of two listings has, for a message: "" if they agree.
 inline std::string difference_of(const Listing& is, const Listing& expected) {
   std::string lines;
-  for (const auto& [name, value] : is)
-    if (!expected.contains(name))
-      lines += "not expected: " + name + " = " + value + "\n";
-    else if (expected.at(name) != value)
-      lines += name + " = " + value + "; expected: " + expected.at(name) + "\n";
-  for (const auto& [name, value] : expected)
-    if (!is.contains(name)) lines += "missing: " + name + " = " + value + "\n";
+  for (const auto& [mine, others, what] :
+       {std::tuple(&is, &expected, "is: "), {&expected, &is, "expected: "}})
+    for (const auto& [name, value] : *mine)
+      if (!others->contains(name) || others->at(name) != value)
+        lines += what + name + " = " + value + "\n";
   return lines;
+}
+
+inline hid_t made(hid_t id) {
+  if (id < 0) throw std::runtime_error("HDF5 refuses what a test asks for");
+  return id;
+}
+
+/// A file, open by the C interface; closed when it goes out of scope.
+class RawFile {
+ public:
+  explicit RawFile(const std::string& path)
+      : id_(made(H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT))) {}
+  ~RawFile() { H5Fclose(id_); }
+  RawFile(const RawFile&) = delete;
+  RawFile& operator=(const RawFile&) = delete;
+  operator hid_t() const { return id_; }
+
+ private:
+  hid_t id_;
+};
+
+/// Changes one number of a dataset.
+inline void overwrite(hid_t file, const char* name, std::size_t at, double value) {
+  const hid_t set = made(H5Dopen2(file, name, H5P_DEFAULT)), space = H5Dget_space(set);
+  std::vector<double> values(std::size_t(H5Sget_simple_extent_npoints(space)));
+  made(H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
+  values.at(at) = value;
+  made(H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
+  H5Sclose(space), H5Dclose(set);
+}
+
+inline void overwrite_text(hid_t object, const char* attribute, const char* text) {
+  const hid_t id = made(H5Aopen(object, attribute, H5P_DEFAULT)), type = H5Aget_type(id);
+  made(H5Awrite(id, type, &text));
+  H5Tclose(type), H5Aclose(id);
+}
+
+/// Changes the byte where `text` ends in the file, the only place where it stands.
+inline void damage_after(const std::string& path, const std::string& text) {
+  std::string bytes = bytes_of_file(path);
+  const std::size_t at = bytes.find(text);
+  if (at == std::string::npos || bytes.find(text, at + 1) != std::string::npos)
+    throw std::runtime_error("a test's mark does not stand once in the file");
+  bytes[at + text.size() - 1] ^= 0x55;
+  std::ofstream(path, std::ios::binary | std::ios::in) << bytes;
 }
 
 }  // namespace foldproof

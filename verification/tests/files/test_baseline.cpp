@@ -1,18 +1,29 @@
-// Kept verdicts: what counts as worse, and which files are refused.
+// Kept verdicts: what counts as worse, and which files are refused; verdicts.json and junit.xml.
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
 
 #include "reference/mesh/text_file.h"
 #include "reference/types.h"
 #include "verification/files/baseline_file.h"
 #include "verification/files/verdicts_file.h"
 #include "verification/specimens/scratch_folder.h"
+#include "verification/tests/files/results_specimen.h"
 
 using namespace foldproof;
 
 namespace {
 
-Record record_of(const std::string& name, Outcome outcome, double measured, double bound = 1) {
+using Lines = std::vector<std::string>;
+using nlohmann::json;
+
+constexpr auto holds = Outcome::holds, fails = Outcome::fails, inconclusive = Outcome::inconclusive,
+               not_applicable = Outcome::not_applicable;
+const double no_number = std::nan("");
+
+Record record_of(const std::string& name, std::optional<Outcome> outcome, double measured,
+                 double bound = 1) {
   Record record;
   record.name = name;
   record.kind = "check";
@@ -36,13 +47,22 @@ BaselineChanges changes_between(const std::vector<KeptVerdict>& kept,
 char change(const KeptVerdict& kept, const Record& now) {
   const BaselineChanges changes = changes_between({kept}, {now});
   CHECK(changes.worse.size() + changes.better.size() + changes.other.size() <= 1);
+  CHECK(changes.worse_names.size() == changes.worse.size());
   if (!changes.worse.empty()) return 'w';
   if (!changes.better.empty()) return 'b';
   return changes.other.empty() ? '-' : 'o';
 }
 
-constexpr auto holds = Outcome::holds, fails = Outcome::fails, inconclusive = Outcome::inconclusive,
-               not_applicable = Outcome::not_applicable;
+std::string junit_in(const ScratchFolder& folder) {
+  return read_text_file(folder.file("junit.xml"), table_text_limits);
+}
+
+/// A finding of a kept file.
+std::string row_of(const std::string& name, const std::string& outcome,
+                   const std::string& kind = "check") {
+  return "{\"name\":\"" + name + "\",\"kind\":\"" + kind + "\",\"outcome\":\"" + outcome +
+         "\",\"measured\":3.5,\"bound\":7.25}";
+}
 
 }  // namespace
 
@@ -58,9 +78,8 @@ TEST_CASE("baseline: a change of the outcome is worse, better or neither") {
 }
 
 TEST_CASE("baseline: what no longer runs is worse, and what runs again is better") {
-  Record unrun = record_of("law", holds, std::nan(""));
-  unrun.outcome.reset();
-  const KeptVerdict kept{"law", "did not run", std::nan(""), std::nan("")};
+  const Record unrun = record_of("law", std::nullopt, no_number);
+  const KeptVerdict kept{"law", "did not run", no_number, no_number};
   for (const Outcome was : {holds, inconclusive, fails})
     CHECK(change(kept_of(was, 3), unrun) == 'w');
   CHECK(change(kept_of(not_applicable, 3), unrun) == 'o');  // it might not apply today, either
@@ -72,109 +91,196 @@ TEST_CASE("baseline: what no longer runs is worse, and what runs again is better
 }
 
 TEST_CASE("baseline: a failure is worse if it more than doubled or lost its number") {
-  const KeptVerdict kept = kept_of(fails, 30, 3);
-  CHECK(change(kept, record_of("law", fails, 60, 3)) == '-');
-  CHECK(change(kept, record_of("law", fails, 61, 3)) == 'w');
-  CHECK(change(kept, record_of("law", fails, 61, 4)) == '-');
-  CHECK(change(kept, record_of("law", fails, 14, 3)) == 'b');
-  CHECK(change(kept, record_of("law", fails, std::nan(""), std::nan(""))) == 'w');
-  const KeptVerdict crashed = kept_of(fails, std::nan(""), std::nan(""));
-  CHECK(change(crashed, record_of("law", fails, std::nan(""), std::nan(""))) == '-');
-  CHECK(change(crashed, record_of("law", fails, 61, 3)) == 'b');
-  CHECK(change(kept_of(fails, 3, 0), record_of("law", fails, 7, 0)) == 'w');
-}
-
-TEST_CASE("baseline: what only one run has is named and is not worse") {
-  const BaselineChanges changes =
-      changes_between({kept_of(fails, 3)}, {record_of("new", fails, 5, 2)});
-  CHECK(changes.worse.empty());
-  CHECK(changes.other ==
-        std::vector<std::string>{"new: fails, measured/bound 2.5; not in the baseline",
-                                 "law: not asked any more; was: fails, measured/bound 3"});
-}
-
-TEST_CASE("baseline: a written run is read as it was, and other files are refused") {
-  const ScratchFolder folder;
-  RunRecord run;
-  run.records = {record_of("a", holds, 0.25), record_of("b", fails, std::nan(""))};
-  run.declared = {1, "f8", 2, 0, {"held"}};
-  write_verdicts(folder.file("."), run);
-  const std::string path = folder.file("verdicts.json");
-  const Baseline baseline = read_baseline(path);
-  const std::vector<KeptVerdict>& kept = baseline.verdicts;
-  REQUIRE(baseline.declared);
-  CHECK((baseline.declared->precision == "f8" && baseline.declared->order == 2));
-  REQUIRE(kept.size() == 2);
-  CHECK((kept[0].name == "a" && kept[0].outcome == "holds" && kept[0].measured == 0.25));
-  CHECK(std::isnan(kept[1].measured));
-  CHECK(changes_since(baseline, run).worse.empty());
-  CHECK_THROWS_AS(read_baseline(folder.file("none.json")), InputError);
-  const char* const row = R"({"name":"a","kind":"check","outcome":"holds","measured":1,"bound":1})";
-  for (const std::string& text :
-       {std::string("{"), std::string("[]"), std::string(R"({"findings":[]})"),
-        std::string(R"({"findings":[{"name":"a"}]})"),
-        std::string(R"({"findings":[)") + row + "," + row + "]}",
-        std::string(R"({"findings":[{"name":"a","kind":"check","outcome":"did not run",)") +
-            R"("measured":null,"bound":null}]})"}) {
-    folder.write("verdicts.json", text);
-    CHECK_THROWS_AS(read_baseline(path), InputError);
+  struct Row {
+    double was, was_bound, is, is_bound;
+    char change;
+  };
+  const double none = no_number;  // without a bound above zero the numbers themselves are compared
+  const Row rows[] = {
+      {3, 0.5, 12, 1, '-'},     {3, 0.5, 12.01, 1, 'w'},   {3, 0.5, 9, 3, '-'},
+      {3, 0.5, 8.99, 3, 'b'},   {3, 0.5, none, none, 'w'}, {none, none, none, none, '-'},
+      {none, none, 61, 3, 'b'}, {3, 0, 6, 0, '-'},         {3, 0, 6.01, 0, 'w'},
+      {3, 0, 1.49, 0, 'b'},     {3, -4, 6, -4, '-'},       {3, none, 6.01, none, 'w'}};
+  for (const Row& row : rows) {
+    INFO(row.was << "/" << row.was_bound << " before, " << row.is << "/" << row.is_bound << " now");
+    CHECK(change(kept_of(fails, row.was, row.was_bound),
+                 record_of("law", fails, row.is, row.is_bound)) == row.change);
   }
+  CHECK(change(kept_of(holds, 4, 50), record_of("law", holds, 40, 50)) == '-');
+  CHECK(change(kept_of(inconclusive, 4, 50), record_of("law", inconclusive, 40, 50)) == 'w');
 }
 
 TEST_CASE("baseline: junit.xml fails where the exit code does") {
   const ScratchFolder folder;
-  const std::string path = folder.file("");
   RunRecord run;
   run.records = {record_of("known", fails, 3), record_of("worse", fails, 3),
                  record_of("new", fails, 3), record_of("lost", not_applicable, 0),
                  record_of("good", holds, 0)};
   Baseline kept;
-  for (const auto& [name, outcome] : {std::pair("known", fails), std::pair("worse", holds),
-                                      std::pair("lost", holds), std::pair("good", holds)})
+  for (const auto& [name, outcome] :
+       {std::pair("known", fails), {"worse", holds}, {"lost", holds}, {"good", holds}})
     kept.verdicts.push_back({name, std::string(name_of(outcome)), 3, 1});
-  write_verdicts_since(path, run, changes_since(kept, run));
-  const std::string xml = read_text_file(folder.file("junit.xml"), table_text_limits);
-  CHECK_THAT(xml, Catch::Matchers::Contains("failures=\"2\" errors=\"0\" skipped=\"2\""));
-  CHECK_THAT(xml, Catch::Matchers::Contains("no worse than the baseline"));
-  write_verdicts(path, run);
-  const std::string all = read_text_file(folder.file("junit.xml"), table_text_limits);
-  CHECK_THAT(all, Catch::Matchers::Contains("failures=\"3\" errors=\"0\" skipped=\"1\""));
+  write_verdicts_since(folder.file(""), run, changes_since(kept, run));
+  CHECK_THAT(junit_in(folder),
+             Catch::Matchers::Contains("failures=\"2\" errors=\"0\" skipped=\"2\"") &&
+                 Catch::Matchers::Contains("no worse than the baseline"));
+  write_verdicts(folder.file(""), run);
+  CHECK_THAT(junit_in(folder),
+             Catch::Matchers::Contains("failures=\"3\" errors=\"0\" skipped=\"1\""));
 }
 
 TEST_CASE("baseline: a declaration that widens bounds is worse, and fails junit.xml") {
   const Declared strict{2, "f8", 2, 1e-6, {"held", "planes"}};
   RunRecord run;
   run.records = {record_of("law", holds, 0)};
-  const auto against = [&](const Declared& now) {
+  const auto against = [&](const std::optional<Declared>& kept,
+                           const std::optional<Declared>& now) {
     run.declared = now;
-    return changes_since({{kept_of(holds, 0)}, strict}, run);
+    return changes_since({{kept_of(holds, 0)}, kept}, run);
   };
-  CHECK(against(strict).worse.empty());
-  CHECK(against({3, "f8", 4, 0, {"held", "planes", "spheres"}}).worse.empty());
-  const std::vector<std::string> wider{
-      "the solver declares f4; the baseline f8: bounds are wider",
-      "the solver declares order 1; the baseline order 2: bounds are wider",
-      "the solver declares solve_tolerance 0.01; the baseline 1e-06: bounds are wider"};
-  CHECK(against({2, "f4", 1, 0.01, {"held", "planes"}}).worse == wider);
-  const BaselineChanges poorer = against({1, "f8", 2, 1e-6, {"held"}});
+  const std::pair<std::optional<Declared>, std::optional<Declared>> none[] = {
+      {strict, strict},
+      {strict, Declared{3, "f8", 4, 0, {"held", "planes", "spheres"}}},
+      {Declared{2, "f4", 2, 0, {}}, Declared{2, "f4", 2, 0, {}}}};
+  for (const auto& [kept, now] : none) {
+    const BaselineChanges changes = against(kept, now);
+    CHECK((changes.worse.empty() && changes.looser.empty() && changes.other.empty()));
+  }
+  const BaselineChanges wider = against(strict, Declared{2, "f4", 1, 0.01, {"held", "planes"}});
+  CHECK(wider.looser ==
+        Lines{"the solver declares f4; the baseline f8: bounds are wider",
+              "the solver declares order 1; the baseline order 2: bounds are wider",
+              "the solver declares solve_tolerance 0.01; the baseline 1e-06: bounds are wider"});
+  CHECK((wider.worse == wider.looser && wider.worse_names.empty()));
+  const BaselineChanges poorer = against(strict, Declared{1, "f8", 2, 1e-6, {"held"}});
   CHECK(poorer.worse.empty());  // laws that no longer apply are counted one by one
-  CHECK(poorer.other.size() == 2);
+  REQUIRE(poorer.other.size() == 2);
+  CHECK_THAT(poorer.other[0], Catch::Matchers::Contains("level L1; the baseline L2"));
+  CHECK_THAT(poorer.other[1], Catch::Matchers::Contains("no longer declares 'planes'"));
   const ScratchFolder folder;
-  write_verdicts_since(folder.file(""), run, against({2, "f4", 2, 1e-6, {"held", "planes"}}));
-  const std::string xml = read_text_file(folder.file("junit.xml"), table_text_limits);
-  CHECK_THAT(xml, Catch::Matchers::Contains("tests=\"2\" failures=\"1\""));
-  CHECK_THAT(xml, Catch::Matchers::Contains("declares f4; the baseline f8"));
+  write_verdicts_since(folder.file(""), run,
+                       against(strict, Declared{2, "f4", 2, 1e-6, {"held", "planes"}}));
+  CHECK_THAT(junit_in(folder), Catch::Matchers::Contains("tests=\"2\" failures=\"1\"") &&
+                                   Catch::Matchers::Contains("declares f4; the baseline f8"));
 }
 
 TEST_CASE("junit.xml: without a number it says what was required, and lines stay lines") {
   const ScratchFolder folder;
   RunRecord run;
-  run.records = {record_of("law", fails, std::nan(""), std::nan(""))};
+  run.records = {record_of("law", fails, no_number, no_number)};
   run.records[0].finding.verdict.why_bound = "it must run to its end";
   run.records[0].finding.note = "its last words:\n    one\n    two";
   write_verdicts(folder.file(""), run);
-  const std::string xml = read_text_file(folder.file("junit.xml"), table_text_limits);
-  CHECK_THAT(xml, Catch::Matchers::Contains("no number; required: it must run to its end"));
-  CHECK_THAT(xml, Catch::Matchers::Contains("words:&#10;    one&#10;    two"));
-  CHECK_THAT(xml, !Catch::Matchers::Contains("nan"));
+  CHECK_THAT(junit_in(folder),
+             Catch::Matchers::Contains("no number; required: it must run to its end") &&
+                 Catch::Matchers::Contains("words:&#10;    one&#10;    two") &&
+                 !Catch::Matchers::Contains("nan"));
+}
+
+TEST_CASE("baseline file: findings and the declaration are read, claims are not") {
+  const ScratchFolder scratch;
+  std::string rows;
+  const char* const outcomes[] = {"holds", "fails", "inconclusive", "not applicable"};
+  for (const std::string outcome : outcomes) rows += row_of("law." + outcome, outcome) + ",";
+  for (int twice = 0; twice < 2; ++twice) rows += row_of("claim.a", "undecided", "claim") + ",";
+  rows += R"({"name":"b","kind":"bench","outcome":"did not run","measured":null,"bound":null})";
+  const std::string declaration =
+      R"(,"declaration":{"level":3,"precision":"f4","order":5,"solve_tolerance":1e-7,)"
+      R"("capabilities":["held","planes"]})";
+  const Baseline baseline =
+      read_baseline(scratch.write("a", "{\"findings\":[" + rows + "]" + declaration + "}"));
+  REQUIRE(baseline.verdicts.size() == 5);
+  for (size_t k = 0; k < 4; ++k) {
+    const KeptVerdict& kept = baseline.verdicts[k];
+    CHECK((kept.name == std::string("law.") + outcomes[k] && kept.outcome == outcomes[k]));
+    CHECK((kept.measured == 3.5 && kept.bound == 7.25));
+  }
+  const KeptVerdict& last = baseline.verdicts[4];
+  CHECK((last.name == "b" && std::isnan(last.measured) && std::isnan(last.bound)));
+  REQUIRE(baseline.declared);
+  CHECK((baseline.declared->level == 3 && baseline.declared->precision == "f4"));
+  CHECK((baseline.declared->order == 5 && baseline.declared->solve_tolerance == 1e-7));
+  CHECK(baseline.declared->capabilities == Lines{"held", "planes"});
+  CHECK_FALSE(
+      read_baseline(scratch.write("b", "{\"findings\":[" + row_of("a", "fails") + "]}")).declared);
+}
+
+TEST_CASE("baseline file: each refusal names the file and says why") {
+  const ScratchFolder scratch;
+  const std::string good = row_of("a", "holds"), path = scratch.file("kept.json");
+  CHECK_THROWS_AS(read_baseline(path), InputError);
+  const std::pair<std::string, const char*> rows[] = {
+      {"[]", "array"},
+      {"{\"findings\":[" + good + "," + good + "]}", "it has a twice"},
+      {"{\"findings\":[" + row_of("a", "measured") + "]}", "the outcome of a is 'measured'"},
+      {"{\"findings\":[" + row_of("a", "did not run") + "]}", "no findings"},
+      {"{\"findings\":[" + good + "],\"declaration\":{}}", "level"}};
+  for (const auto& [text, why] : rows) {
+    scratch.write("kept.json", text);
+    CHECK_THROWS_AS(read_baseline(path), InputError);
+    CHECK_THROWS_WITH(read_baseline(path),
+                      Catch::Matchers::StartsWith(path + ": ") && Catch::Matchers::Contains(why));
+  }
+}
+
+TEST_CASE("verdicts: verdicts.json has a run's findings and claims, and null for no number") {
+  RunRecord run = full_run();
+  run.records[0].finding.headline = "too far";
+  run.records[0].finding.verdict.measured = std::nan("");
+  run.records[1].finding.verdict.bound = std::numeric_limits<double>::infinity();
+  run.declared = Declared{3, "f4", 5, 1e-7, {"held", "planes"}};
+  const json is = json::parse(verdicts_json(run)), rows = is.at("findings");
+  CHECK((is.at("schema") == 1 && is.at("program").at("seed") == 37));
+  CHECK_THAT(is.at("program").at("parts").get<std::string>(), Catch::Matchers::Contains("day 2"));
+  CHECK(is.at("declaration") == json::parse(R"({"level": 3, "precision": "f4", "order": 5,
+    "solve_tolerance": 1e-7, "capabilities": ["held", "planes"]})"));
+  CHECK((rows.at(0).at("measured").is_null() && rows.at(0).at("headline") == "too far"));
+  CHECK((rows.at(0).at("basis") == "empirical" && rows.at(1).at("basis") == "reasoned"));
+  CHECK((rows.at(0).at("uncertainty") == 0.125 && rows.at(0).at("outcome") == "measured"));
+  CHECK((rows.at(1).at("bound").is_null() && !rows.at(1).contains("headline")));
+  const json& claim = rows.at(2);
+  CHECK((claim.at("name") == "claim.stiff" && claim.at("recorded") == "refuted"));
+  CHECK((claim.at("ruling") == "confirmed under a condition" && claim.at("outcome") == "fails"));
+  CHECK(claim.at("decided_by").at(1) == json::parse(R"({"finding": "law.bare",
+    "role": "contradicts", "outcome": "missing"})"));
+}
+
+TEST_CASE("verdicts: junit.xml counts what fails, what did not run and what is skipped") {
+  const ScratchFolder folder;
+  RunRecord run = full_run();
+  run.provenance.date = "a \"date\"";
+  Record bare = bare_record();
+  bare.outcome = fails, bare.finding.headline = "too far", bare.finding.note = "<once>";
+  run.records = {record_of("good", holds, 0.25),
+                 full_record(),
+                 record_of("unrun", std::nullopt, no_number),
+                 record_of("maybe", inconclusive, 4.5),
+                 record_of("other", not_applicable, 1e-9),
+                 bare};
+  for (const Ruling ruling : {Ruling::refuted, Ruling::undecided}) {
+    run.claims.push_back(full_claim());
+    run.claims.back().ruling = run.claims.back().claim.recorded = ruling;
+  }
+  write_verdicts(folder.file(""), run);
+  CHECK(read_text_file(folder.file("verdicts.json"), table_text_limits) == verdicts_json(run));
+  for (const char* part :
+       {R"(<testsuite name="foldproof" tests="9" failures="3" errors="1" skipped="2")",
+        R"(time="12.250" timestamp="a &quot;date&quot;">)",
+        R"(<testcase classname="check" name="good" time="0.000"/>)",
+        R"(<testcase classname="bench" name="law.full" time="6.500"/>)",
+        R"(<error message="did not run: no number. )",
+        R"(<failure message="inconclusive: measured 4.5, uncertainty 0, bound 1 [1]. )",
+        R"(<skipped message="not applicable: measured 1e-09, )",
+        R"("fails: too far; measured 0.375, uncertainty 0, bound 0.75 [1].  &lt;once&gt;"/>)",
+        R"("ruling: confirmed under a condition; recorded: refuted. it is &gt; stiff"/>)",
+        R"(<testcase classname="claim" name="stiff" time="0"/>)",
+        R"(<skipped message="ruling: undecided; recorded: undecided. it is &gt; stiff"/>)"})
+    CHECK_THAT(junit_in(folder), Catch::Matchers::Contains(part));
+}
+
+TEST_CASE("verdicts: text is escaped for XML, and keeps only what XML allows") {
+  CHECK(xml_text("a&b<c>d\"e'f\ng") == "a&amp;b&lt;c&gt;d&quot;e&apos;f&#10;g");
+  CHECK(xml_text(std::string("0\0|\x01|\t|\r|\x1f|\x20|\x7f|~", 16)) == "0 | |\t| | | |\x7f|~");
+  CHECK(xml_text("\u00e9\u4e2d\U0001F600\xff") == "\u00e9\u4e2d\U0001F600\uFFFD");
+  CHECK(xml_text("a\uFFFEb\uFFFE\uFFFEc\uFFFF\uFFFF") == "a\uFFFDb\uFFFD\uFFFDc\uFFFD\uFFFD");
 }

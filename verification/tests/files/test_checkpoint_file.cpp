@@ -1,26 +1,26 @@
-// Checkpoints: every number comes back, and one that is not what was written is left out.
+// Checkpoints: every number comes back, one that is not what was written is left out, and a folder
+// of them is used up to its first gap.
 #include <catch2/catch.hpp>
-#include <cmath>
+#include <fstream>
 
-#include "reference/bodies/content_key.h"
 #include "verification/files/checkpoint_file.h"
-#include "verification/files/hdf5_file.h"
 #include "verification/specimens/scratch_folder.h"
-#include "verification/tests/files/raw_hdf5.h"
+#include "verification/tests/files/hdf5_listing.h"
 
 namespace foldproof {
 
 namespace {
 
-using Catch::Equals;
+namespace fs = std::filesystem;
+using Catch::Contains;
+using Numbers = std::vector<double>;
 
-const RunIdentity mine{"a case", "0123456789abcdef", "foldproof 9.8 fedc"};
+const RunIdentity mine{"a case", "0123", "foldproof 9.8"};
 
-State state_specimen(double time, int particles, int bonds) {
+State state_specimen(double time, int bonds) {
   State s;
   s.time = time;
-  s.x = PerParticle3(3, particles);
-  s.v = PerParticle3(3, particles);
+  s.x = s.v = PerParticle3(3, 4);
   for (Eigen::Index i = 0; i < s.x.size(); ++i) {
     s.x.data()[i] = time + 10.5 + 1.0 / double(i + 3);
     s.v.data()[i] = -time - 20.5 - 1.0 / double(i + 7);
@@ -30,244 +30,206 @@ State state_specimen(double time, int particles, int bonds) {
   return s;
 }
 
+/// All numbers of a record but those of its states, in the order of its file.
+template <class Visit>
+void for_each_number(CheckpointRecord& record, const Visit& visit) {
+  Checkpoint& c = record.at;
+  for (long* count : {&c.frame, &c.steps}) visit(*count);
+  for (double* value :
+       {&c.start_time, &c.size, &c.event_time, &c.damping_work, &c.damping_power, &c.seconds})
+    visit(*value);
+  for_each_counter(c.work, visit);
+  for (Diagnostics& row : record.rows) {
+    for_each_value(row, visit);
+    visit(row.seconds);
+  }
+}
+
 /// Every number differs from all others.
 CheckpointRecord record_specimen(long frame) {
   CheckpointRecord record;
-  Checkpoint& c = record.at;
-  c.past = {state_specimen(1.25 + double(frame), 4, 2), state_specimen(1.75 + double(frame), 4, 1)};
-  c.frame = frame;
-  c.steps = 9007199254740991 - frame;  // 2^53 - 1
-  c.start_time = -0.1 - double(frame);
-  c.size = 1.0 / 3 + double(frame);
-  c.event_time = 1e-300;
-  c.damping_work = -1e300;
-  c.damping_power = 7.125;
-  c.seconds = 31.5;
-  double next = 1000.5;
-  for_each_counter(
-      c.work, [&](auto& number) { number = std::remove_reference_t<decltype(number)>(next += 3); });
-  for (int k = 0; k < 2 + int(frame); ++k) {
-    Diagnostics& row = record.rows.emplace_back();
-    for_each_value(
-        row, [&](auto& number) { number = std::remove_reference_t<decltype(number)>(next += 5); });
-    row.seconds = next += 7;
-  }
+  record.at.past = {state_specimen(1.25 + double(frame), 2),
+                    state_specimen(1.75 + double(frame), 1)};
+  record.rows.resize(2 + std::size_t(frame));
+  double next = 1000.1;
+  for_each_number(
+      record, [&](auto& number) { number = std::remove_reference_t<decltype(number)>(next += 3); });
+  record.at.frame = frame;
+  record.at.steps = 9007199254740991 - frame;  // 2^53 - 1
+  record.at.event_time = 1e-300, record.at.damping_work = -1e300;
   return record;
 }
 
-std::vector<double> numbers_of(CheckpointRecord record) {
-  const Checkpoint& c = record.at;
-  std::vector<double> numbers = {double(c.frame), double(c.steps), c.start_time,    c.size,
-                                 c.event_time,    c.damping_work,  c.damping_power, c.seconds};
-  for_each_counter(c.work, [&](const auto& number) { numbers.push_back(double(number)); });
-  for (const Diagnostics& row : record.rows) {
-    for_each_value(row, [&](const auto& number) { numbers.push_back(double(number)); });
-    numbers.push_back(row.seconds);
-  }
+Numbers numbers_of(CheckpointRecord record) {
+  Numbers numbers;
+  for_each_number(record, [&](const auto& number) { numbers.push_back(double(number)); });
   return numbers;
 }
 
-bool are_same(const State& a, const State& b) {
-  bool same = a.time == b.time && a.x == b.x && a.v == b.v && a.bonds.size() == b.bonds.size();
-  for (std::size_t k = 0; same && k < a.bonds.size(); ++k)
-    same = a.bonds[k].patch == b.bonds[k].patch && a.bonds[k].triangle == b.bonds[k].triangle &&
-           a.bonds[k].particle == b.bonds[k].particle && a.bonds[k].place == b.bonds[k].place;
-  return same;
+Numbers numbers_of(const State& s) {
+  Numbers numbers = {s.time};
+  for (const PerParticle3* x : {&s.x, &s.v})
+    numbers.insert(numbers.end(), x->data(), x->data() + x->size());
+  for (const Bond& b : s.bonds)
+    numbers.insert(numbers.end(), {double(b.patch), double(b.triangle), double(b.particle),
+                                   b.place[0], b.place[1], b.place[2]});
+  return numbers;
 }
 
 void check_same(const CheckpointRecord& a, const CheckpointRecord& b) {
   CHECK(numbers_of(a) == numbers_of(b));
-  CHECK(a.rows.size() == b.rows.size());
   REQUIRE(a.at.past.size() == b.at.past.size());
-  for (std::size_t k = 0; k < a.at.past.size(); ++k) CHECK(are_same(a.at.past[k], b.at.past[k]));
+  for (std::size_t k = 0; k < a.at.past.size(); ++k)
+    CHECK(numbers_of(a.at.past[k]) == numbers_of(b.at.past[k]));
 }
 
-/// What a checkpoint file holds, to be written as it is, sound or not.
-struct Parts {
-  std::string format = "foldproof checkpoint 2";
-  std::vector<double> numbers = numbers_of(record_specimen(0));
-  // numbers and bonds of each state
-  std::vector<std::pair<std::vector<double>, std::vector<int>>> past = {
-      {{0.5, 1, 2, 3, 4, 5, 6, 0.1, 0.2, 0.3}, {7, 8, 9}}};
+/// A folder of checkpoints of this run.
+struct RunFolder {
+  ScratchFolder scratch;
+  CheckpointFolder folder{scratch.file("run"), mine};
+
+  explicit RunFolder(long frames = 0) {
+    for (long frame = 0; frame < frames; ++frame) folder.write(record_specimen(frame));
+  }
+  std::string path(long frame) const { return scratch.file(fmt::format("run/{:06}.h5", frame)); }
+  void damage(long frame) const { std::ofstream(path(frame)) << "x"; }
+  bool has(long frame) const { return fs::exists(path(frame)); }
+
+  struct Replayed {
+    std::vector<CheckpointRecord> records;
+    std::string log;
+    std::optional<Checkpoint> last;
+  };
+  Replayed replay() const {
+    Replayed r;
+    r.last = folder.replay([&](const CheckpointRecord& one) { r.records.push_back(one); },
+                           [&](const std::string& line) { r.log += line; });
+    return r;
+  }
 };
-
-/// Writes the parts with a key that fits them.
-void write_parts(const std::string& path, const Parts& parts) {
-  ContentKey key;
-  for (const std::string& text : {mine.case_text, mine.meshes, mine.program})
-    key.add(std::vector<char>(text.begin(), text.end()));
-  key.add(parts.numbers);
-  write_hdf5(path, [&](const Hdf5& file) {
-    file.attribute("format", parts.format);
-    file.attribute("case_text", mine.case_text);
-    file.attribute("meshes", mine.meshes);
-    file.attribute("program", mine.program);
-    file.dataset("numbers", parts.numbers);
-    const Hdf5 past = file.group("past");
-    for (std::size_t k = 0; k < parts.past.size(); ++k) {
-      const auto& [numbers, bonds] = parts.past[k];
-      key.add(numbers);
-      key.add(bonds);
-      const Hdf5 state = past.group(std::to_string(k));
-      state.dataset("numbers", numbers);
-      state.array("bonds", {bonds.size()}, bonds.data());
-    }
-    file.attribute("content", key.text());
-  });
-}
-
-/// Why a folder whose only checkpoint is this file refuses it; "" if it does not.
-std::string refusal(const ScratchFolder& scratch, const std::string& name) {
-  const std::string folder = scratch.file(name), file = folder + "/000000.h5";
-  std::string why;
-  CheckpointFolder(folder, mine)
-      .replay([](const CheckpointRecord&) {}, [&](const std::string& line) { why += line; });
-  const std::string head = file + ": this checkpoint is damaged and left out: ";
-  if (why.starts_with(head)) return why.substr(head.size());
-  return why;
-}
-
-std::string refusal_of_parts(const Parts& parts) {
-  const ScratchFolder scratch;
-  std::filesystem::create_directory(scratch.file("run"));
-  write_parts(scratch.file("run/000000.h5"), parts);
-  return refusal(scratch, "run");
-}
-
-void overwrite(hid_t file, const char* name, std::size_t at, double value) {
-  const hid_t set = made(H5Dopen2(file, name, H5P_DEFAULT)), space = H5Dget_space(set);
-  std::vector<double> values(std::size_t(H5Sget_simple_extent_npoints(space)));
-  made(H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
-  values.at(at) = value;
-  made(H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
-  H5Sclose(space);
-  H5Dclose(set);
-}
-
-void overwrite_text(hid_t file, const char* name, const char* text) {
-  const hid_t id = made(H5Aopen(file, name, H5P_DEFAULT)), type = H5Aget_type(id);
-  made(H5Awrite(id, type, &text));
-  H5Tclose(type);
-  H5Aclose(id);
-}
-
-const std::string changed = "its content is not what was written";
 
 }  // namespace
 
 TEST_CASE("checkpoints: each frame's numbers, rows, states and bonds come back to the bit") {
-  const ScratchFolder scratch;
-  const CheckpointFolder folder(scratch.file("new/run"), mine);
-  for (const long frame : {0, 1, 2}) folder.write(record_specimen(frame));
-  std::vector<CheckpointRecord> visited;
-  const auto last = folder.replay([&](const CheckpointRecord& r) { visited.push_back(r); },
-                                  [](const std::string& line) { FAIL(line); });
-  REQUIRE(visited.size() == 3);
-  for (const long frame : {0, 1, 2})
-    check_same(visited[std::size_t(frame)], record_specimen(frame));
-  REQUIRE(last);
-  check_same({*last, {}}, {record_specimen(2).at, {}});
-  for (const char* name : {"000000.h5", "000001.h5", "000002.h5"})
-    CHECK(std::filesystem::exists(scratch.file("new/run/") + name));
-}
-
-TEST_CASE("checkpoints: a file holds the run's identity, the numbers, and arrays of each state") {
-  const ScratchFolder scratch;
-  const CheckpointRecord record = record_specimen(123456);
-  CheckpointFolder(scratch.file("run"), mine).write({record.at, record_specimen(1).rows});
-  const RawFile raw(scratch.file("run/123456.h5"));
-  CHECK(raw.text("/", "format") == "foldproof checkpoint 2");
-  CHECK(raw.text("/", "case_text") == mine.case_text);
-  CHECK(raw.text("/", "meshes") == mine.meshes);
-  CHECK(raw.text("/", "program") == mine.program);
-  CHECK(raw.numbers("numbers") == numbers_of({record.at, record_specimen(1).rows}));
-  for (const std::size_t k : {0, 1}) {
-    const State& s = record.at.past[k];
-    std::vector<double> numbers = {s.time}, bonds;
-    numbers.insert(numbers.end(), s.x.data(), s.x.data() + 12);
-    numbers.insert(numbers.end(), s.v.data(), s.v.data() + 12);
-    for (const Bond& bond : s.bonds) {
-      for (int i = 0; i < 3; ++i) numbers.push_back(bond.place[i]);
-      for (const int name : {bond.patch, bond.triangle, bond.particle}) bonds.push_back(name);
-    }
-    CHECK(raw.numbers("past/" + std::to_string(k) + "/numbers") == numbers);
-    CHECK(raw.numbers("past/" + std::to_string(k) + "/bonds") == bonds);
+  const RunFolder run(3);
+  const RunFolder::Replayed r = run.replay();
+  REQUIRE((r.log == "" && r.records.size() == 3 && r.last));
+  for (const long frame : {0, 1, 2}) {
+    check_same(r.records[std::size_t(frame)], record_specimen(frame));
+    CHECK(run.has(frame));
   }
-  CHECK_FALSE(raw.has("past/2"));
+  check_same({*r.last, {}}, {record_specimen(2).at, {}});
 }
 
 TEST_CASE("checkpoints: any number or text that is not what was written is found") {
-  using Change = std::function<void(hid_t)>;
-  const std::vector<Change> changes = {
-      [](hid_t f) { overwrite(f, "numbers", 0, 5); },
-      [](hid_t f) { overwrite(f, "numbers", 40, 5); },
-      [](hid_t f) { overwrite(f, "past/0/numbers", 7, 5); },
-      [](hid_t f) { overwrite(f, "past/1/numbers", 0, 5); },
-      [](hid_t f) { overwrite(f, "past/0/bonds", 4, 5); },
-      [](hid_t f) { overwrite(f, "past/1/bonds", 0, 5); },
-      [](hid_t f) { overwrite_text(f, "case_text", "another case"); },
-      [](hid_t f) { overwrite_text(f, "meshes", "other meshes"); },
-      [](hid_t f) { overwrite_text(f, "program", "another program"); },
-      [](hid_t f) { overwrite_text(f, "content", "0123456789abcdef"); },
-      [](hid_t f) { made(H5Ldelete(f, "past/1", H5P_DEFAULT)); }};
-  for (std::size_t k = 0; k < changes.size(); ++k) {
-    INFO(k);
-    const ScratchFolder scratch;
-    CheckpointFolder(scratch.file("run"), mine).write(record_specimen(0));
+  const std::pair<const char*, std::size_t> changes[] = {
+      {"numbers", 40}, {"past/1/numbers", 0}, {"past/0/bonds", 4}, {"@case_text", 0},
+      {"@meshes", 0},  {"@program", 0},       {"@content", 0},     {"past/1", 0}};
+  for (const auto& [name, at] : changes) {
+    INFO(name << " " << at);
+    const RunFolder run(1);
     {
-      const RawFile raw(scratch.file("run/000000.h5"), H5F_ACC_RDWR);
-      changes[k](raw);
+      const RawFile raw(run.path(0));
+      if (name[0] == '@')
+        overwrite_text(raw, name + 1, "another");
+      else if (std::string(name) == "past/1")
+        made(H5Ldelete(raw, name, H5P_DEFAULT));
+      else
+        overwrite(raw, name, at, 5);
     }
-    CHECK(refusal(scratch, "run") == changed);
+    CHECK_THAT(run.replay().log, Contains("damaged and left out: its content is not what was"));
+  }
+  const RunFolder run(2);
+  fs::rename(run.path(1), run.path(0));
+  CHECK_THAT(run.replay().log, Contains("another frame"));
+  run.folder.write({});
+  CHECK_THAT(run.replay().log, Contains("no state"));
+  run.folder.write(record_specimen(0));
+  overwrite_text(RawFile(run.path(0)), "format", "foldproof checkpoint 1");
+  CHECK_THAT(run.replay().log, Contains("another version"));
+}
+
+TEST_CASE("checkpoints: those of another case, other meshes or another program are named") {
+  const RunFolder run(2);
+  const std::string text = "another case text, or other overrides", meshes = "other meshes",
+                    program = "another program (foldproof 9.8, this is new)";
+  const std::vector<std::pair<RunIdentity, std::string>> others = {
+      {{"b", "0123", "foldproof 9.8"}, text},
+      {{"a case", "b", "foldproof 9.8"}, meshes},
+      {{"a case", "0123", "new"}, program},
+      {{"b", "b", "new"}, text + "; " + meshes + "; " + program}};
+  for (const auto& [identity, differs] : others) {
+    const CheckpointFolder folder(run.scratch.file("run"), identity);
+    CHECK_THROWS_AS(folder.replay({}, {}), InputError);
+    CHECK_THROWS_WITH(folder.replay({}, {}),
+                      Contains(run.path(0)) && Contains(" is of " + differs + ". "));
+    const auto kept = folder.kept_run();
+    REQUIRE(kept);
+    CHECK((kept->differs == differs && kept->frame == 1));
+  }
+  CHECK(run.has(1));
+}
+
+TEST_CASE(
+    "checkpoints: a folder is replayed up to the first damaged one, which goes with the rest") {
+  const RunFolder run(5);
+  run.damage(3);
+  const RunFolder::Replayed r = run.replay();
+  REQUIRE((r.records.size() == 3 && r.last));
+  CHECK_THAT(r.log, Catch::StartsWith(run.path(3) + ": ") && Contains("left out: HDF5"));
+  CHECK((r.last->frame == 2 && run.has(2) && !run.has(3) && !run.has(4)));
+  fs::remove(run.path(1));  // after a gap
+  CHECK(run.replay().records.size() == 1);
+  CHECK((run.has(0) && !run.has(2)));
+  fs::remove(run.path(0));
+  for (int twice = 0; twice < 2; ++twice) {
+    const RunFolder::Replayed none = run.replay();
+    CHECK((!none.last && none.log.empty()));
+    CHECK_FALSE(fs::exists(run.scratch.file("run")));
   }
 }
 
-TEST_CASE("checkpoints: a state of any number of particles is whole, even of none") {
-  CHECK(refusal_of_parts({}) == "");
-  Parts none;
-  none.past = {{{0.5, 0.1, 0.2, 0.3}, {7, 8, 9}}};
-  CHECK(refusal_of_parts(none) == "");
-  none.past = {{{0.5}, {}}};
-  CHECK(refusal_of_parts(none) == "");
-  Parts two;
-  two.past = {{std::vector<double>(13, 2.5), {}}};
-  CHECK(refusal_of_parts(two) == "");
-}
-
-TEST_CASE("checkpoints: a state whose numbers do not fit its particles and bonds is refused") {
-  const std::string why = "a state is not whole";
-  const auto with = [](std::size_t numbers, std::size_t bonds) {
-    Parts parts;
-    parts.past = {{std::vector<double>(numbers, 2.5), std::vector<int>(bonds, 3)}};
-    return refusal_of_parts(parts);
+TEST_CASE("checkpoints: the run that is kept is that of the last sound one before a gap") {
+  const RunFolder run;
+  CHECK_FALSE(run.folder.kept_run());
+  const auto check_kept = [&](long frame, double time) {
+    const auto kept = run.folder.kept_run();
+    REQUIRE(kept);
+    CHECK((kept->frame == frame && kept->time == time && kept->differs == ""));
   };
-  CHECK(with(10, 4) == why);  // one bond and a third
-  CHECK(with(10, 5) == why);
-  CHECK(with(9, 3) == why);
-  CHECK(with(11, 3) == why);
-  CHECK(with(13, 3) == why);
-  CHECK(with(0, 0) == why);
-  // fewer numbers than the bonds have: 3 - 7 is a multiple of 6 modulo 2^64
-  CHECK(with(3, 6) == why);
-  CHECK(with(6, 6) == why);
+  for (const long frame : {0, 1, 2, 3, 4}) run.folder.write(record_specimen(frame));
+  check_kept(4, 5.75);
+  run.damage(4), run.damage(3);
+  check_kept(2, 3.75);
+  fs::remove(run.path(2));
+  check_kept(1, 2.75);
+  for (const long frame : {0, 1}) run.damage(frame);
+  check_kept(-1, 0);
+  CHECK(run.has(4));
 }
 
-TEST_CASE("checkpoints: too few numbers, no state, another frame and another version are refused") {
-  Parts parts;
-  parts.numbers.pop_back();
-  CHECK(refusal_of_parts(parts) == "it holds too few numbers");
-  parts.numbers.resize(27);
-  CHECK(refusal_of_parts(parts) == "it holds too few numbers");
-  parts.numbers.resize(28);  // no rows, which is allowed
-  CHECK(refusal_of_parts(parts) == "");
-  parts.numbers[0] = 1;
-  CHECK(refusal_of_parts(parts) == "it is that of another frame");
-  parts = {};
-  parts.past.clear();
-  CHECK(refusal_of_parts(parts) == "it holds no state");
-  parts = {};
-  parts.format = "foldproof checkpoint 1";
-  CHECK(refusal_of_parts(parts) == "it is of another version");
+TEST_CASE(
+    "checkpoints: from one on they are removed, partial ones all, files of other names never") {
+  const RunFolder run;
+  fs::create_directory(run.scratch.file("run"));
+  // removed from 5 on are those that end in '+', from 0 on those in '-' too
+  std::istringstream names(
+      "000005.h5+ 1234567.h5+ 000000.h5.partial+ 000009.h5.partial+ 000000.h5- 000004.h5- "
+      "00007.h5 00008x.h5 x00007.h5 -00007.h5 000007.txt notes.partial 000007.partial 000007 "
+      "000007.txt.partial 99999999999999999999.h5 00007.h5.partial");
+  std::map<std::string, long> files;  // by name; the first one to remove so that it stays
+  for (std::string name; names >> name;) {
+    const char kind = name.back();
+    if (kind == '+' || kind == '-') name.pop_back();
+    files[run.scratch.write("run/" + name, "x")] = kind == '+' ? 9 : kind == '-' ? 5 : 0;
+  }
+  for (const long first : {5, 0}) {
+    run.folder.remove_from(first);
+    for (const auto& [path, stays_from] : files) {
+      INFO(path);
+      CHECK(fs::exists(path) == (first >= stays_from));
+    }
+  }
 }
 
 }  // namespace foldproof

@@ -1,341 +1,257 @@
-// HDF5 files: what is written is what the library itself reads, and all that cannot be is refused.
+// HDF5 files: what is written is what the library itself reads; damaged files, and ones that claim
+// more than they hold, are refused.
 #include <catch2/catch.hpp>
+#include <functional>
 #include <numeric>
 
 #include "verification/files/hdf5_file.h"
 #include "verification/specimens/scratch_folder.h"
-#include "verification/tests/files/raw_hdf5.h"
+#include "verification/tests/files/hdf5_listing.h"
 
 namespace foldproof {
 
 namespace {
 
 using Catch::Contains;
-using Catch::Equals;
-using Lengths = std::vector<hsize_t>;
+using Numbers = std::vector<double>;
+using Texts = std::vector<std::string>;
 
-std::vector<double> rising(std::size_t count) {
-  std::vector<double> values(count);
+Numbers rising(std::size_t count) {
+  Numbers values(count);
   std::iota(values.begin(), values.end(), 7.25);
   return values;
 }
 
-/// Objects of all open files that are open themselves.
-long open_objects() { return H5Fget_obj_count(H5F_OBJ_ALL, H5F_OBJ_ALL); }
+/// A new file, in a folder of its own.
+struct NewFile {
+  ScratchFolder scratch;
+  std::string path = scratch.file("a.h5");
+  Hdf5 file = Hdf5::create_file(path);
+};
 
-Lengths chunk_of(hid_t file, const std::string& name) {
-  const hid_t set = made(H5Dopen2(file, name.c_str(), H5P_DEFAULT)),
-              layout = H5Dget_create_plist(set);
-  Lengths chunk(32);
-  chunk.resize(std::size_t(H5Pget_chunk(layout, 32, chunk.data())));
-  H5Pclose(layout);
-  H5Dclose(set);
-  return chunk;
+/// A dataset is chunked if it has a length of chunks; chunks have a checksum, or are deflated.
+struct Layout {
+  Lengths chunk = {};
+  bool is_deflated = false;
+};
+
+/// Adds a dataset of this name, filled with these values if there are some.
+void add_set(hid_t file, const char* name, hid_t type, const Lengths& shape, const Layout& of,
+             const void* values = nullptr) {
+  const hid_t space = made(H5Screate_simple(int(shape.size()), shape.data(), nullptr)),
+              layout = made(H5Pcreate(H5P_DATASET_CREATE));
+  if (!of.chunk.empty()) {
+    made(H5Pset_chunk(layout, int(of.chunk.size()), of.chunk.data()));
+    made(of.is_deflated ? H5Pset_deflate(layout, 4) : H5Pset_fletcher32(layout));
+  }
+  const hid_t set = made(H5Dcreate2(file, name, type, space, H5P_DEFAULT, layout, H5P_DEFAULT));
+  if (values) made(H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values));
+  H5Dclose(set), H5Pclose(layout), H5Sclose(space);
+}
+
+/// A new file that `fill` fills by the C interface.
+std::string raw_file(const ScratchFolder& scratch, const std::function<void(hid_t)>& fill) {
+  const std::string path = scratch.file("raw.h5");
+  { const Hdf5 file = Hdf5::create_file(path); }
+  const RawFile raw(path);
+  fill(raw);
+  return path;
+}
+
+void check_damaged(const std::string& path) {
+  CHECK_THROWS_WITH(Hdf5::open_file(path), Contains(path + " (it is damaged)"));
+}
+
+/// The file is sound, and is refused when the byte where `mark` ends is another.
+void check_damage_found(const std::string& path, const std::string& mark) {
+  CHECK_NOTHROW(Hdf5::open_file(path));
+  damage_after(path, mark);
+  check_damaged(path);
 }
 
 }  // namespace
 
-TEST_CASE("hdf5: attributes are scalars of variable UTF-8 texts, doubles and ints") {
-  const long before = open_objects();
+TEST_CASE("hdf5: attributes and arrays have their shape, their type and their values") {
   const ScratchFolder scratch;
   const std::string path = scratch.file("a.h5");
-  {
-    const Hdf5 file = Hdf5::create_file(path);
-    const Hdf5 group = file.group("some");
-    group.attribute("text", std::string("caf\xc3\xa9 and more"));
-    group.attribute("number", -5.375);
-    group.attribute("count", -1234567);
-    group.attribute("texts", std::vector<std::string>{"first", "", "third one"});
-    group.attribute("none", std::vector<std::string>{});
-    CHECK(group.read_text("text") == "caf\xc3\xa9 and more");
-  }
-  CHECK(open_objects() == before);
-  const RawFile raw(path);
-  CHECK(raw.text("some", "text") == "caf\xc3\xa9 and more");
-  CHECK(raw.number("some", "number") == -5.375);
-  CHECK(raw.number("some", "count") == -1234567);
-  CHECK(raw.texts("some", "texts") == std::vector<std::string>{"first", "", "third one"});
-  CHECK(H5Aexists_by_name(raw, "some", "none", H5P_DEFAULT) == 0);
-  for (const auto& [name, rank] :
-       {std::pair("text", 0), {"number", 0}, {"count", 0}, {"texts", 1}}) {
-    INFO(name);
-    const hid_t id = made(H5Aopen_by_name(raw, "some", name, H5P_DEFAULT, H5P_DEFAULT)),
-                space = H5Aget_space(id), type = H5Aget_type(id);
-    CHECK(H5Sget_simple_extent_ndims(space) == rank);
-    CHECK(H5Sget_simple_extent_type(space) == (rank == 0 ? H5S_SCALAR : H5S_SIMPLE));
-    const bool is_text = std::string(name).starts_with("text");
-    CHECK(H5Tget_class(type) == (is_text                         ? H5T_STRING
-                                 : std::string(name) == "number" ? H5T_FLOAT
-                                                                 : H5T_INTEGER));
-    if (is_text) {
-      CHECK(H5Tis_variable_str(type) == 1);
-      CHECK(H5Tget_cset(type) == H5T_CSET_UTF8);
-    }
-    H5Tclose(type);
-    H5Sclose(space);
-    H5Aclose(id);
-  }
-}
-
-TEST_CASE("hdf5: arrays have their shape, row by row, their type, and units of their own") {
-  const long before = open_objects();
-  const ScratchFolder scratch;
-  const std::string path = scratch.file("a.h5");
-  const std::vector<double> values = rising(24);
   const std::vector<int> counts = {-3, 5, 1 << 30, 7, 11, -13};
   const std::vector<unsigned char> marks = {255, 3, 128, 7};
-  {
-    const Hdf5 file = Hdf5::create_file(path);
-    file.array("cube", {4, 3, 2}, values.data()).attribute("unit", std::string("kg/s"));
+  write_hdf5(path, [&](const Hdf5& file) {
+    file.attribute("text", std::string("caf\xc3\xa9 and more"));
+    file.attribute("number", -5.375);
+    file.attribute("count", -1234567);
+    file.attribute("texts", Texts{"first", "", "third one"});
+    file.attribute("none", Texts{});
+    CHECK(file.read_text("text") == "caf\xc3\xa9 and more");
+    file.array("cube", {4, 3, 2}, rising(24).data()).attribute("unit", std::string("kg/s"));
     file.array("counts", {2, 3}, counts.data());
     file.array("marks", {4}, marks.data());
-    file.array("one", {}, &values[5]);
-    file.dataset("list", std::vector<double>{2.5, -7, 1e-300});
-    file.dataset("single", std::vector<double>{-42.5});
-    file.dataset("empty", std::vector<double>{});
-    file.dataset("words", std::vector<std::string>{"some", "more words"});
-    file.dataset("no words", std::vector<std::string>{});
-    file.array("flat", {3, 0}, values.data());
-  }
-  CHECK(open_objects() == before);
-  {
-    const RawFile raw(path);
-    CHECK(raw.shape("cube") == Lengths{4, 3, 2});
-    CHECK(raw.numbers("cube") == values);
-    CHECK(raw.text("cube", "unit") == "kg/s");
-    CHECK(raw.shape("counts") == Lengths{2, 3});
-    CHECK(raw.numbers("counts") == std::vector<double>(counts.begin(), counts.end()));
-    CHECK(raw.numbers("marks") == std::vector<double>(marks.begin(), marks.end()));
-    CHECK(raw.shape("one").empty());
-    CHECK(raw.numbers("one") == std::vector<double>{12.25});
-    CHECK(raw.shape("empty") == Lengths{0});
-    CHECK(raw.shape("no words") == Lengths{0});
-    CHECK(raw.shape("words") == Lengths{2});
-    CHECK(raw.shape("flat") == Lengths{3, 0});
-    const hid_t set = made(H5Dopen2(raw, "words", H5P_DEFAULT)), type = H5Dget_type(set);
-    char* words[2] = {};
-    made(H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, words));
-    CHECK(std::string(words[0]) == "some");
-    CHECK(std::string(words[1]) == "more words");
-    for (char* word : words) H5free_memory(word);
-    H5Tclose(type);
-    H5Dclose(set);
-  }
-  {
-    const Hdf5 file = Hdf5::open_file(path);
-    CHECK(file.read_doubles("cube") == values);
-    CHECK(file.read_ints("counts") == counts);
-    CHECK(file.read_doubles("one") == std::vector<double>{12.25});
-    CHECK(file.read_doubles("list") == std::vector<double>{2.5, -7, 1e-300});
-    CHECK(file.read_doubles("single") == std::vector<double>{-42.5});
-    CHECK(file.read_doubles("empty").empty());
-    CHECK(file.read_doubles("flat").empty());
-  }
-  CHECK(open_objects() == before);
+    file.array("one", {}, rising(1).data());
+    file.dataset("list", Numbers{2.5, -7, 1e-300});
+    file.dataset("empty", Numbers{});
+    file.dataset("words", Texts{"some", "more words"});
+    file.dataset("no words", Texts{});
+    file.array("flat", {3, 0}, rising(1).data());
+  });
+  Listing expected;
+  add_listed(expected, "/", R"(@text = café and more; @number = -5.375; @count = -1234567
+    @texts = [3] first |  | third one; cube@unit = kg/s
+    counts = [2 x 3] -3 | 5 | 1073741824 | 7 | 11 | -13; marks = [4] 255 | 3 | 128 | 7
+    one = 7.25; list = [3] 2.5 | -7 | 1e-300; words = [2] some | more words)");
+  expected["/cube"] = array_text({4, 3, 2}, rising(24));
+  expected["/empty"] = expected["/no words"] = "[0] ";
+  expected["/flat"] = "[3 x 0] ";
+  CHECK(difference_of(hdf5_listing(path), expected) == "");
+  const Hdf5 file = Hdf5::open_file(path);
+  CHECK((file.read_doubles("cube") == rising(24) && file.read_ints("counts") == counts));
+  CHECK((file.read_doubles("one") == Numbers{7.25} && file.read_doubles("empty").empty()));
 }
 
 TEST_CASE("hdf5: a slash in a name becomes a division slash, in groups and datasets") {
-  const ScratchFolder scratch;
-  const Hdf5 file = Hdf5::create_file(scratch.file("a.h5"));
-  const Hdf5 group = file.group("km/h/s");
-  group.dataset("to/day", std::vector<double>{3.5});
+  const NewFile made;
+  const Hdf5 group = made.file.group("km/h/s");
+  group.dataset("to/day", Numbers{3.5});
   group.array("by/two", {1}, std::vector<int>{9}.data());
-  CHECK(file.has("km/h/s"));
-  CHECK_FALSE(file.has("km"));
-  CHECK(group.read_doubles("to/day") == std::vector<double>{3.5});
-  CHECK(file.open_group("km/h/s").read_ints("by/two") == std::vector<int>{9});
-  file.flush();
-  const RawFile raw(scratch.file("a.h5"));
-  CHECK(raw.has("km\u2215h\u2215s"));
-  CHECK(raw.has("km\u2215h\u2215s/to\u2215day"));
+  CHECK((made.file.has("km/h/s") && !made.file.has("km")));
+  CHECK(group.read_doubles("to/day") == Numbers{3.5});
+  CHECK(made.file.open_group("km/h/s").read_ints("by/two") == std::vector<int>{9});
+  made.file.flush();
+  CHECK(hdf5_listing(made.path).contains("/km\u2215h\u2215s/to\u2215day"));
 }
 
-TEST_CASE("hdf5: what cannot be made is named") {
-  const ScratchFolder scratch;
-  const std::string nowhere = scratch.file("missing/a.h5");
-  CHECK_THROWS_WITH(Hdf5::create_file(nowhere),
-                    Equals(nowhere + ": cannot be written; is the folder there and writable?"));
-  const Hdf5 file = Hdf5::create_file(scratch.file("a.h5"));
-  const double value = 2.5;
+TEST_CASE("hdf5: what cannot be made or read is named") {
+  const NewFile made_file;
+  const Hdf5& file = made_file.file;
+  const std::string nowhere = made_file.scratch.file("missing/a.h5");
+  CHECK_THROWS_WITH(Hdf5::create_file(nowhere), Contains(nowhere));
+  CHECK_THROWS_WITH(Hdf5::open_file(nowhere), Contains(nowhere + " (it is not there)"));
   file.group("twice");
-  CHECK_THROWS_WITH(file.group("twice"), Equals("HDF5: cannot make twice"));
-  CHECK_THROWS_WITH(file.array("twice", {1}, &value), Equals("HDF5: cannot make twice"));
-  CHECK_THROWS_WITH(file.dataset("twice", std::vector<std::string>{"a"}),
-                    Equals("HDF5: cannot make twice"));
-  CHECK_THROWS_WITH(GrowingDataset(file, "twice", "m", {3}), Equals("HDF5: cannot make twice"));
-  // more dimensions than the library knows
-  CHECK_THROWS_WITH(file.array("deep", Shape(33, 1), &value),
-                    Equals("HDF5: cannot make a description"));
-  file.attribute("again", 3);
-  CHECK_THROWS_WITH(file.attribute("again", 4), Equals("HDF5: cannot make a description"));
-}
-
-TEST_CASE("hdf5: what cannot be read is named") {
-  const ScratchFolder scratch;
-  const std::string path = scratch.file("a.h5");
-  const Hdf5 file = Hdf5::create_file(path);
-  file.dataset("numbers", std::vector<double>{3, 4});
   file.array("counts", {1}, std::vector<int>{9}.data());
+  file.dataset("numbers", Numbers{3, 4});
   file.attribute("number", 3.5);
-  file.attribute("texts", std::vector<std::string>{"one", "two"});
-  CHECK_THROWS_WITH(file.read_doubles("missing"), Equals("HDF5: cannot read missing"));
-  CHECK_THROWS_WITH(file.open_group("no group"), Equals("HDF5: cannot read no group"));
-  CHECK_THROWS_WITH(file.open_group("numbers"), Equals("HDF5: cannot read numbers"));
-  CHECK_THROWS_WITH(file.read_text("no text"), Equals("HDF5: cannot read no text"));
-  CHECK_THROWS_WITH(file.read_text("number"), Equals("HDF5: cannot read number: it is no text"));
-  CHECK_THROWS_WITH(file.read_text("texts"), Equals("HDF5: cannot read texts: it is no text"));
-  CHECK_THROWS_WITH(file.read_ints("numbers"),
-                    Equals("HDF5: cannot read numbers: it has another type"));
-  CHECK_THROWS_WITH(file.read_doubles("counts"),
-                    Equals("HDF5: cannot read counts: it has another type"));
-  const RawFile raw(path, H5F_ACC_RDWR);
-  const hid_t type = H5Tcopy(H5T_C_S1), space = H5Screate(H5S_SCALAR);
-  H5Tset_size(type, 5);
-  hid_t id = made(H5Acreate2(raw, "fixed", type, space, H5P_DEFAULT, H5P_DEFAULT));
-  made(H5Awrite(id, type, "four"));
-  H5Aclose(id);
-  H5Tset_size(type, H5T_VARIABLE);
-  H5Tset_cset(type, H5T_CSET_UTF8);
-  const char* nothing = nullptr;
-  id = made(H5Acreate2(raw, "nothing", type, space, H5P_DEFAULT, H5P_DEFAULT));
-  made(H5Awrite(id, type, &nothing));
-  H5Aclose(id);
-  H5Sclose(space);
-  H5Tclose(type);
-  CHECK_THROWS_WITH(file.read_text("fixed"), Equals("HDF5: cannot read fixed: it is no text"));
-  CHECK_THROWS_WITH(file.read_text("nothing"), Equals("HDF5: cannot read nothing"));
-}
-
-TEST_CASE("hdf5: the library's own messages are silent once a file is made or opened") {
-  const ScratchFolder scratch;
-  const std::string path = scratch.file("a.h5");
-  { Hdf5::create_file(path).attribute("a", 3); }
-  const auto prints = [] {
-    H5E_auto2_t print = nullptr;
-    void* data = nullptr;
-    H5Eget_auto2(H5E_DEFAULT, &print, &data);
-    return print != nullptr;
-  };
-  const auto speak = [] {
-    H5Eset_auto2(
-        H5E_DEFAULT, [](hid_t, void*) { return herr_t(0); }, nullptr);
-  };
-  speak();
-  REQUIRE(prints());
-  { const Hdf5 opened = Hdf5::open_file(path); }
-  CHECK_FALSE(prints());
-  speak();
-  { const Hdf5 file = Hdf5::create_file(path); }
-  CHECK_FALSE(prints());
+  file.attribute("texts", Texts{"one", "two"});
+  const std::pair<const char*, std::function<void()>> rows[] = {
+      {"make twice", [&] { file.group("twice"); }},
+      {"make a description", [&] { file.attribute("number", 4); }},
+      {"read missing", [&] { file.read_doubles("missing"); }},
+      {"read number: it is no text", [&] { file.read_text("number"); }},
+      {"read texts: it is no text", [&] { file.read_text("texts"); }},
+      {"read numbers: it has another type", [&] { file.read_ints("numbers"); }},
+      {"read counts: it has another type", [&] { file.read_doubles("counts"); }}};
+  for (const auto& [why, act] : rows)
+    CHECK_THROWS_WITH(act(), Catch::Equals(std::string("HDF5: cannot ") + why));
 }
 
 TEST_CASE("hdf5: a growing dataset holds every row, in chunks that suit its row, with its unit") {
-  const long before = open_objects();
   const ScratchFolder scratch;
   const std::string path = scratch.file("a.h5");
-  struct Grown {
-    const char* name;
-    Shape row;
-    Lengths chunk;
-  };
-  const std::vector<Grown> sets = {{"number", {}, {1024}},
-                                   {"vector", {3}, {1024, 3}},
-                                   {"quaternion", {4}, {1, 4}},
-                                   {"places", {3, 5}, {1, 3, 5}},
-                                   {"cube", {2, 3, 4}, {1, 2, 3, 4}}};
-  const auto size_of = [](const Shape& row) {
-    std::size_t size = 1;
-    for (const auto length : row) size *= length;
-    return size;
-  };
+  const std::vector<std::pair<Shape, Lengths>> sets = {{{}, {1024}},
+                                                       {{3}, {1024, 3}},
+                                                       {{4}, {1, 4}},
+                                                       {{3, 5}, {1, 3, 5}},
+                                                       {{2, 3, 4}, {1, 2, 3, 4}}};
+  Listing expected = {{"/", ""}, {"/empty", "[0 x 3] "}, {"/empty@unit", "J"}};
   {
     const Hdf5 file = Hdf5::create_file(path);
     std::vector<GrowingDataset> grown;
-    for (const Grown& set : sets)
-      grown.emplace_back(file, set.name, std::string("m/") + set.name, set.row);
+    for (const auto& [row, chunk] : sets)
+      grown.emplace_back(file, std::to_string(grown.size()), "m", row);
     for (std::size_t k = 0; k < sets.size(); ++k) {
-      const std::vector<double> rows = rising(5 * size_of(sets[k].row));
-      for (int i = 0; i < 5; ++i) grown[k].add(rows.data() + std::size_t(i) * size_of(sets[k].row));
+      std::size_t size = 1;
+      for (const auto length : sets[k].first) size *= length;
+      const Numbers rows = rising(5 * size);
+      for (std::size_t i = 0; i < 5; ++i) grown[k].add(rows.data() + i * size);
+      Lengths shape = {5};
+      shape.insert(shape.end(), sets[k].first.begin(), sets[k].first.end());
+      expected["/" + std::to_string(k)] = array_text(shape, rows);
+      expected["/" + std::to_string(k) + "@unit"] = "m";
     }
     GrowingDataset(file, "empty", "J", {3});
   }
-  CHECK(open_objects() == before);
+  CHECK(difference_of(hdf5_listing(path), expected) == "");
   const RawFile raw(path);
-  for (const Grown& set : sets) {
-    INFO(set.name);
-    Lengths shape(set.row.begin(), set.row.end());
-    shape.insert(shape.begin(), 5);
-    CHECK(raw.shape(set.name) == shape);
-    CHECK(raw.numbers(set.name) == rising(5 * size_of(set.row)));
-    CHECK(raw.text(set.name, "unit") == std::string("m/") + set.name);
-    CHECK(chunk_of(raw, set.name) == set.chunk);
-    const hid_t id = made(H5Dopen2(raw, set.name, H5P_DEFAULT)), space = H5Dget_space(id);
-    Lengths most(shape.size());
+  for (std::size_t k = 0; k < sets.size(); ++k) {
+    const hid_t set = made(H5Dopen2(raw, std::to_string(k).c_str(), H5P_DEFAULT)),
+                layout = H5Dget_create_plist(set), space = H5Dget_space(set);
+    Lengths most(sets[k].second.size()), chunk = most;
     H5Sget_simple_extent_dims(space, nullptr, most.data());
     CHECK(most[0] == H5S_UNLIMITED);
-    most[0] = 5;
-    CHECK(most == shape);
-    H5Sclose(space);
-    H5Dclose(id);
+    CHECK(H5Pget_chunk(layout, int(chunk.size()), chunk.data()) == int(chunk.size()));
+    CHECK(chunk == sets[k].second);
+    H5Pclose(layout), H5Sclose(space), H5Dclose(set);
   }
-  CHECK(raw.shape("empty") == Lengths{0, 3});
 }
 
-TEST_CASE("hdf5: what was flushed lies in the file, though it is still open") {
+TEST_CASE(
+    "hdf5: a file that is written whole takes the place of the one before, but of no folder") {
   const ScratchFolder scratch;
-  const std::string path = scratch.file("a.h5"), copy = scratch.file("copy.h5");
-  const Hdf5 file = Hdf5::create_file(path);
-  file.dataset("numbers", rising(9));
-  file.flush();
-  std::filesystem::copy_file(path, copy);
-  CHECK(Hdf5::open_file(copy).read_doubles("numbers") == rising(9));
-}
-
-TEST_CASE("hdf5: a write that fails names the file") {
-  const ScratchFolder scratch;
-  {
-    const Hdf5 file = Hdf5::create_file(scratch.file("a.h5"));
-    GrowingDataset rows(file, "rows", "m", {200000});  // a chunk that is too large to be buffered
-    const FileSizeLimit limit(60000);
-    CHECK_THROWS_WITH(file.dataset("many", rising(20000)), Equals("HDF5: cannot write many"));
-    CHECK_THROWS_WITH(rows.add(rising(200000).data()), Equals("HDF5: cannot write rows"));
-  }
-  Hdf5 buffered = Hdf5::create_file(scratch.file("b.h5"));
-  for (int k = 0; k < 40; ++k) buffered.group("group " + std::to_string(k));
-  const FileSizeLimit limit(900);
-  CHECK_THROWS_WITH(buffered.flush(), Equals("HDF5: cannot write what was buffered"));
-  CHECK_THROWS_WITH(buffered.close(), Equals("HDF5: cannot write what was buffered"));
-}
-
-TEST_CASE("hdf5: a file that is written whole takes the place of the one before") {
-  const ScratchFolder scratch;
-  const std::string path = scratch.file("a.h5"), partial = path + ".partial";
-  for (const double value : {3.5, 4.5}) {
-    write_hdf5(path, [&](const Hdf5& file) {
-      CHECK(std::filesystem::exists(partial));
-      CHECK(std::filesystem::exists(path) == (value == 4.5));
-      file.dataset("numbers", std::vector<double>{value});
-    });
-    CHECK(RawFile(path).numbers("numbers") == std::vector<double>{value});
-    CHECK_FALSE(std::filesystem::exists(partial));
-  }
-  CHECK_THROWS_WITH(write_hdf5(path,
-                               [&](const Hdf5& file) {
-                                 file.group("new");
-                                 throw std::runtime_error("the reason");
-                               }),
-                    Equals(path + ": cannot be written (the reason)"));
+  const std::string path = scratch.file("a.h5"), partial = path + ".partial",
+                    folder = scratch.file("folder");
+  scratch.write("a.h5", "as it was");
+  write_hdf5(path, [&](const Hdf5& file) {
+    CHECK((std::filesystem::exists(partial) && bytes_of_file(path) == "as it was"));
+    file.dataset("numbers", Numbers{4.5});
+  });
+  const auto fail = [](const Hdf5& file) {
+    file.group("new");
+    throw std::runtime_error("the reason");
+  };
+  CHECK_THROWS_WITH(write_hdf5(path, fail), Contains(path) && Contains("(the reason)"));
   CHECK_FALSE(std::filesystem::exists(partial));
-  CHECK(RawFile(path).numbers("numbers") == std::vector<double>{4.5});
+  CHECK(hdf5_listing(path).at("/numbers") == "[1] 4.5");
+  std::filesystem::create_directory(folder);
+  CHECK_THROWS_WITH(write_hdf5(folder, [](const Hdf5&) { FAIL("it is written"); }),
+                    Contains(folder) && Contains("what is there is no file"));
 }
 
-TEST_CASE("hdf5: no file is written in place of a folder") {
+TEST_CASE("hdf5: a dataset may claim no more than its file can hold, packed 2^28 values") {
+  const NewFile whole;
+  const RawFile raw(whole.path);
+  add_set(raw, "flat", H5T_NATIVE_INT, {3, 5, 800}, {});
+  add_set(raw, "packed", H5T_NATIVE_INT, {(1ULL << 28) + 1}, {{1024}});
+  for (const char* name : {"flat", "packed"})
+    CHECK_THROWS_WITH(whole.file.read_ints(name), Contains("claims more than the file can hold"));
+  const std::vector<int> same(50000, 77);  // is larger than the file
+  add_set(raw, "same", H5T_NATIVE_INT, {50000}, {{50000}, true}, same.data());
+  CHECK(whole.file.read_ints("same") == same);
+  check_damaged(raw_file(whole.scratch, [&](hid_t to) {
+    add_set(to, "claim", H5T_NATIVE_INT, {1ULL << 40, 1ULL << 40}, {{1024, 16}});
+  }));
+}
+
+TEST_CASE("hdf5: every row of a large dataset is read before the file is trusted") {
   const ScratchFolder scratch;
-  const std::string path = scratch.file("a.h5");
-  std::filesystem::create_directory(path);
-  CHECK_THROWS_WITH(write_hdf5(path, [](const Hdf5&) {}),
-                    Contains(path) && Contains("what is there is no file"));
-  CHECK_FALSE(std::filesystem::exists(path + ".partial"));
+  const hsize_t width = 1 << 20;  // 16 rows are read at once
+  const std::string bytes = "the marked row" + std::string(width, '.');
+  for (const hsize_t row : {0, 15, 16, 31, 32}) {
+    const std::string path = raw_file(scratch, [&](hid_t raw) {
+      add_set(raw, "rows", H5T_NATIVE_UCHAR, {33, width}, {{1, width}});
+      const hid_t set = made(H5Dopen2(raw, "rows", H5P_DEFAULT)), space = H5Dget_space(set);
+      const hsize_t start[] = {row, 0}, count[] = {1, width};
+      H5Sselect_hyperslab(space, H5S_SELECT_SET, start, nullptr, count, nullptr);
+      const hid_t memory = made(H5Screate_simple(2, count, nullptr));
+      made(H5Dwrite(set, H5T_NATIVE_UCHAR, memory, space, H5P_DEFAULT, bytes.data()));
+      H5Sclose(memory), H5Sclose(space), H5Dclose(set);
+    });
+    check_damage_found(path, "the marked row");
+  }
+}
+
+TEST_CASE(
+    "hdf5: attributes are read before the file is trusted, of groups too and after empty ones") {
+  for (const bool is_in_group : {false, true}) {
+    const ScratchFolder scratch;
+    const std::string path = scratch.file("a.h5");
+    {
+      const Hdf5 file = Hdf5::create_file(path), first = file.group("a"), group = file.group("b");
+      const RawFile raw(path);
+      const hid_t nothing = H5Screate(H5S_NULL);
+      H5Aclose(made(H5Acreate2(raw, "a", H5T_NATIVE_INT, nothing, H5P_DEFAULT, H5P_DEFAULT)));
+      H5Sclose(nothing);
+      (is_in_group ? group : file).attribute("b", std::string("a text"));
+    }
+    check_damage_found(path, "GCOL");  // the place of texts
+  }
 }
 
 }  // namespace foldproof

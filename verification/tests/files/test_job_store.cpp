@@ -1,15 +1,13 @@
 // The store of a campaign's jobs: shards are the truth, the index only finds what they say.
-#include <sys/resource.h>
-
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <csignal>
 #include <filesystem>
 #include <fstream>
-#include <thread>
+#include <nlohmann/json.hpp>
 
 #include "reference/types.h"
 #include "verification/files/job_store.h"
+#include "verification/files/sqlite_file.h"
 #include "verification/specimens/scratch_folder.h"
 #include "verification/tests/files/small_files.h"
 
@@ -18,195 +16,194 @@ namespace foldproof {
 namespace {
 
 namespace fs = std::filesystem;
+using Catch::Matchers::Contains;
+using Starts = std::map<std::string, int>;
+using Keys = std::set<std::string>;
 
 JobResult job_specimen() {
-  JobResult result;
-  result.end = JobEnd::fails;
-  result.reason = "a \"word\", and\nanother";
-  result.values = {{"height", 1.0 / 3}, {"lowest", std::nan("")}, {"tiny", 5e-324}};
-  result.digest = "00ff";
-  result.seconds = 2.5;
-  result.host = "one";
-  return result;
+  const std::map<std::string, double> values = {
+      {"height", 1.0 / 3}, {"lowest", std::nan("")}, {"tiny", 5e-324}};
+  return {JobEnd::stopped, "\u00e9",  values,   "00ff",   2.5, 3.25,
+          1234567890123,   "kept/k1", "a host", "a date", "c4"};
 }
 
-std::string shard_path(const ScratchFolder& scratch, const std::string& name) {
-  return scratch.file("store/batches/batch/shards/0007/" + name + ".jsonl");
+/// A line of a result with this end and nothing else.
+std::string line_with(const std::string& key, const std::string& end,
+                      const std::string& rest = "") {
+  return "{\"result\":\"" + key + "\",\"content\":{\"end\":\"" + end +
+         "\",\"reason\":\"\",\"digest\":\"\",\"values\":{}}" + rest + "}\n";
 }
 
-void append_text(const std::string& path, const std::string& text) {
-  std::ofstream(path, std::ios::app) << text;
-}
+struct Store {
+  ScratchFolder scratch;
+  std::string folder = scratch.file("store"), index = folder + "/index.sqlite";
+
+  std::string shard(const std::string& name) const {
+    return folder + "/batches/batch/shards/" + name + ".jsonl";
+  }
+  /// file: below the folder of batches.
+  void add(const std::string& file, const std::string& text) const {
+    const std::string path = folder + "/batches/" + file;
+    fs::create_directories(fs::path(path).parent_path());
+    std::ofstream(path, std::ios::app) << text;
+  }
+  void add_to_a(const std::string& text) const { add("batch/shards/a.jsonl", text); }
+};
 
 }  // namespace
 
-TEST_CASE("job store: a result is found as it was written, by this index and by a new one") {
-  const ScratchFolder scratch;
-  JobShard shard(shard_path(scratch, "a"));
-  shard.start("k1", "label");
-  shard.end("k1", job_specimen(), {{"height", "m"}});
-  {
-    JobIndex index(scratch.file("store"));
-    CHECK(index.merge() == 1);
-    CHECK(index.merge() == 0);
-  }
+TEST_CASE("job store: all of a result but the clock is found, by this index and by a new one") {
+  const Store store;
+  JobResult expected = job_specimen();
+  JobShard shard(store.shard("a"));
+  shard.start("k1", "first \xff");
+  for (const char* unit : {"m", "km"}) shard.end("k1", expected, {{"height", unit}});
+  const std::string line =
+      R"({"bytes":1234567890123,"clock":3.25,"commit":"c4","content":{"digest":"00ff",)"
+      R"("end":"stopped","reason":"é","values":{"height":0.3333333333333333,"lowest":null,)"
+      R"("tiny":5e-324}},"date":"a date","host":"a host","kept":"kept/k1","result":"k1",)"
+      "\"seconds\":2.5}\n";
+  CHECK(bytes_of_file(store.shard("a")) ==
+        "{\"label\":\"first \uFFFD\",\"start\":\"k1\"}\n{\"units\":{\"height\":\"m\"}}\n" + line +
+            line);
+  store.add_to_a("{\"units\":{\"height\":\"km\"}}\n" + line_with("k2", "out of memory"));
+  expected.clock = 0;
   for (const bool is_rebuilt : {false, true}) {
-    if (is_rebuilt) fs::remove(scratch.file("store/index.sqlite"));
-    JobIndex index(scratch.file("store"));
-    CHECK(index.merge() == (is_rebuilt ? 1 : 0));
-    const auto found = index.find("k1");
-    REQUIRE(found);
-    CHECK(found->end == JobEnd::fails);
-    CHECK(found->reason == job_specimen().reason);
-    CHECK(found->values.at("height") == 1.0 / 3);
-    CHECK(found->values.at("tiny") == 5e-324);
-    CHECK(std::isnan(found->values.at("lowest")));
-    CHECK(found->seconds == 2.5);
-    CHECK(index.units().at("height") == "m");
-    CHECK(index.contains("k1"));
-    CHECK_FALSE(index.contains("k2"));
-    CHECK(index.open_starts().empty());
-    CHECK(index.repeated() == 0);
+    if (is_rebuilt) fs::remove(store.index);
+    JobIndex index(store.folder);
+    CHECK(index.merge() == 2);
+    CHECK(index.units() == Units{{"height", "m"}});
+    for (int again = 0; again < 2; ++again)
+      CHECK(JobShard::line_of("k1", index.find("k1").value()) == JobShard::line_of("k1", expected));
+    CHECK(std::isnan(index.find("k1").value().values.at("lowest")));
+    CHECK(index.find("k2").value().end == JobEnd::out_of_memory);
+    CHECK((!index.find("k3").has_value() && !index.contains("k3")));
   }
 }
 
 TEST_CASE("job store: a torn tail is ignored, and read when it is whole") {
-  const ScratchFolder scratch;
-  JobShard(shard_path(scratch, "a")).end("k1", job_specimen(), {});
-  const std::string line = JobShard::line_of("k2", job_specimen());
-  append_text(shard_path(scratch, "a"), line.substr(0, line.size() / 2));
-  JobIndex index(scratch.file("store"));
+  const Store store;
+  const std::string line = line_with("k2", "holds");
+  store.add_to_a(line_with("k1", "holds") + line.substr(0, line.size() / 2));
+  JobIndex index(store.folder);
   CHECK(index.merge() == 1);
   CHECK_FALSE(index.contains("k2"));
-  append_text(shard_path(scratch, "a"), line.substr(line.size() / 2));
-  CHECK(index.merge() == 1);
-  CHECK(index.contains("k2"));
-  CHECK(index.repeated() == 0);
+  store.add_to_a(line.substr(line.size() / 2));
+  CHECK((index.merge() == 1 && index.merge() == 0 && index.contains("k2")));
+  CHECK(index.repeated() == 0);  // the first line was not read again
 }
 
 TEST_CASE("job store: damaged lines between whole ones are no results") {
-  const ScratchFolder scratch;
-  const std::string path = shard_path(scratch, "a");
-  JobShard(path).end("k1", job_specimen(), {});
-  append_text(path, "{\"result\": \"k2\", \"content\": {\"end\": \"ho\n");
-  append_text(path, "{\"result\": \"k3\", \"content\": {\"end\": \"holds\"}}\n[1]\n7\n\n");
-  append_text(path, JobShard::line_of("k4", job_specimen()));
-  JobIndex index(scratch.file("store"));
+  const Store store;
+  store.add_to_a(line_with("k1", "holds") + "{\"result\": \"k2\", \"content\": {\"end\": \"ho\n");
+  store.add_to_a("{\"result\": \"k3\", \"content\": {\"end\": \"holds\"}}\n[1]\n7\n\n");
+  store.add_to_a(line_with("k4", "holds"));
+  JobIndex index(store.folder);
   CHECK(index.merge() == 2);
-  for (const char* key : {"k2", "k3"}) CHECK_FALSE(index.contains(key));
-  CHECK(index.contains("k4"));
+  CHECK((!index.contains("k2") && !index.contains("k3") && index.contains("k4")));
+}
+
+TEST_CASE("job lines: an invalid line of a result leaves the others to be read") {
+  const Store store;
+  store.add_to_a("{\"start\":\"bad\",\"label\":\"\"}\n");
+  for (const char* rest :
+       {",\"seconds\":\"x\"", ",\"bytes\":[]", ",\"host\":null", ",\"commit\":7"})
+    store.add_to_a(line_with("bad", "holds", rest));
+  store.add_to_a(line_with("bad", "no such end"));
+  for (const char* bad : {"{\"interrupted\":7}", "{\"start\":7}", "{\"units\":{\"a\":7}}",
+                          "{\"units\":7}", "{}", "{\"result\":7}"})
+    store.add_to_a(std::string(bad) + "\n");
+  store.add_to_a(line_with("good", "holds"));
+  JobIndex index(store.folder);
+  CHECK(index.merge() == 1);
+  CHECK((index.contains("good") && !index.contains("bad")));
+  CHECK(index.open_starts() == Starts{{"bad", 1}});
+  CHECK(index.units().empty());
 }
 
 TEST_CASE("job store: a repetition that finds the same is counted, another one is a conflict") {
-  const ScratchFolder scratch;
-  JobResult first = job_specimen(), same = job_specimen(), other = job_specimen();
+  const Store store;
+  JobResult same = job_specimen(), other = job_specimen();
   same.seconds = 9, same.host = "two", same.date = "later", same.commit = "other";
   other.values["height"] = std::nextafter(1.0 / 3, 1.0);
-  JobShard(shard_path(scratch, "a")).end("k1", first, {});
-  JobShard(shard_path(scratch, "b")).end("k1", same, {});
-  JobIndex index(scratch.file("store"));
-  CHECK(index.merge() == 1);
-  CHECK(index.repeated() == 1);
-  CHECK(index.conflicts().empty());
-  JobShard(shard_path(scratch, "c")).end("k1", other, {});
-  CHECK(index.merge() == 0);
-  CHECK(index.repeated() == 2);
+  JobShard(store.shard("a")).end("k1", job_specimen(), {});
+  for (int twice = 0; twice < 2; ++twice) {
+    store.add("batch/shards/b.jsonl", JobShard::line_of("k1", same));
+    store.add("batch/shards/d.jsonl", line_with("other", "holds"));
+  }
+  JobIndex index(store.folder);
+  CHECK(index.merge() == 2);
+  CHECK((index.repeated() == 2 && index.conflicts().empty()));  // once a shard
+  JobShard(store.shard("c")).end("k1", other, {});
+  CHECK((index.merge() == 0 && index.repeated() == 3));
   REQUIRE(index.conflicts().size() == 1);
-  CHECK(index.conflicts()[0].key == "k1");
-  CHECK(index.conflicts()[0].shard == "batch/c");
+  const JobIndex::Conflict conflict = index.conflicts()[0];
+  CHECK((conflict.key == "k1" && conflict.shard == "batch/c"));
+  CHECK(nlohmann::json::parse(conflict.content).at("values").at("height") ==
+        other.values["height"]);
+  CHECK(index.find("k1").value().values.at("height") == 1.0 / 3);
 }
 
 TEST_CASE("job store: starts without an end are counted, ends and interruptions take them back") {
-  const ScratchFolder scratch;
+  const Store store;
   for (const char* name : {"a", "b", "c"}) {
-    JobShard shard(shard_path(scratch, name));
+    JobShard shard(store.shard(name));
     for (const char* key : {"cut off", "ended", "stopped on request"}) shard.start(key, key);
+    shard.start("cut off", "again");
     shard.end("ended", job_specimen(), {});
     shard.interrupt("stopped on request");
   }
-  JobIndex index(scratch.file("store"));
+  store.add("batch two/shards/a.jsonl", "{\"start\":\"ended\"}\n");
+  JobIndex index(store.folder);
   index.merge();
-  CHECK(index.open_starts() == std::map<std::string, int>{{"cut off", 3}});
-  CHECK(index.open_starts_in("batch") == std::set<std::string>{"cut off"});
-  CHECK(index.open_starts_in("bat").empty());
-  const ShardState state = read_shard_state({shard_path(scratch, "a"), shard_path(scratch, "b")});
-  CHECK(state.results == std::set<std::string>{"ended"});
-  CHECK(state.open_starts == std::map<std::string, int>{{"cut off", 2}});
+  CHECK(index.open_starts() == Starts{{"cut off", 3}, {"ended", 1}});
+  CHECK(index.open_starts_in("batch") == Keys{"cut off"});
+  CHECK(index.open_starts_in("batch two") == Keys{"ended"});
+  for (const char* other : {"bat", ""}) CHECK(index.open_starts_in(other).empty());
+  store.add("batch/shards/b.jsonl",
+            "{\"result\":\"never started\"}\n[1]\n7\nno JSON\n\n{\"start\":5}\n{\"result\":5}\n"
+            "{\"interrupted\":[]}\n{\"other\":\"key\"}\n{\"start\":\"torn");
+  const ShardState state =
+      read_shard_state({store.shard("a"), store.shard("b"), store.shard("missing")});
+  CHECK(state.results == Keys{"ended", "never started"});
+  CHECK(state.open_starts == Starts{{"cut off", 4}});
+}
+
+TEST_CASE("job store: shards are the .jsonl files at any depth below a batch's folder of shards") {
+  const Store store;
+  CHECK(JobIndex(store.folder).merge() == 0);  // makes the folder
+  store.add("one/shards/a.jsonl", line_with("k1", "holds"));
+  store.add("one/shards/0003/deep/b.jsonl", line_with("k2", "holds") + line_with("k1", "fails"));
+  store.add("two/shards/a.jsonl", line_with("k3", "holds"));
+  store.add("one/shards/c.json", line_with("other ending", "holds"));
+  store.add("one/d.jsonl", line_with("beside", "holds"));
+  JobIndex index(store.folder);
+  CHECK(index.merge() == 3);
+  REQUIRE(index.conflicts().size() == 1);
+  CHECK_THAT(index.conflicts()[0].shard, Catch::StartsWith("one/"));
 }
 
 TEST_CASE("job store: an index that is damaged, or of another layout, is made anew") {
-  const ScratchFolder scratch;
-  const std::string path = scratch.file("store/index.sqlite");
-  JobShard(shard_path(scratch, "a")).end("k1", job_specimen(), {});
-  std::ofstream(path) << std::string(5000, 'x');
-  {
-    JobIndex index(scratch.file("store"));
-    CHECK(index.merge() == 1);
-    CHECK(index.contains("k1"));
+  const Store store;
+  JobShard(store.shard("a")).end("k1", job_specimen(), {});
+  for (const bool is_damaged : {true, false}) {
+    if (is_damaged) std::ofstream(store.index) << std::string(5000, 'x');
+    if (!is_damaged) SqliteFile(store.index).run("update layout set version = 1000");
+    JobIndex index(store.folder);
+    CHECK((index.merge() == 1 && index.contains("k1")));
   }
-  SqliteFile(path).run("update layout set version = 1000");
-  JobIndex index(scratch.file("store"));
-  CHECK(index.merge() == 1);
-  CHECK(index.contains("k1"));
 }
 
 TEST_CASE("job store: an index that the disk cannot take says so, and is whole afterwards") {
-  const ScratchFolder scratch;
-  const std::string store = scratch.file("store");
-  JobShard shard(shard_path(scratch, "a"));
+  const Store store;
+  JobShard shard(store.shard("a"));
   for (int k = 0; k < 400; ++k) shard.end("k" + std::to_string(k), job_specimen(), {});
-  JobIndex index(store);
+  JobIndex index(store.folder);
   {
-    const SmallFiles limit(fs::file_size(store + "/index.sqlite") + 8192);
-    CHECK_THROWS_WITH(index.merge(), Catch::Contains("disk"));
+    const FileSizeLimit limit(fs::file_size(store.index) + 8192);
+    CHECK_THROWS_WITH(index.merge(), Contains("disk"));
   }
   CHECK(index.merge() == 400);
-}
-
-TEST_CASE("job store: two programs may merge at a time") {
-  const ScratchFolder scratch;
-  for (int k = 0; k < 20; ++k) {
-    JobShard shard(shard_path(scratch, "s" + std::to_string(k)));
-    for (int i = 0; i < 50; ++i) shard.end("k" + std::to_string(50 * k + i), job_specimen(), {});
-  }
-  long added[2] = {0, 0};
-  {
-    std::jthread one([&] { added[0] = JobIndex(scratch.file("store")).merge(); });
-    std::jthread two([&] { added[1] = JobIndex(scratch.file("store")).merge(); });
-  }
-  CHECK(added[0] + added[1] == 1000);
-  CHECK(JobIndex(scratch.file("store")).repeated() == 0);
-}
-
-TEST_CASE("shard file: a line after a torn one is whole") {
-  const ScratchFolder scratch;
-  const std::string path = scratch.file("s.jsonl");
-  append_text(path, "whole\ntorn");
-  std::vector<std::string> lines;
-  const auto read = [&](std::uint64_t from) {
-    return read_whole_lines(path, from, [&](const std::string& line) { lines.push_back(line); });
-  };
-  CHECK(read(0) == 6);
-  CHECK(lines == std::vector<std::string>{"whole"});
-  append_text(path, " no more\n");
-  CHECK(read(6) == 19);
-  CHECK(lines == std::vector<std::string>{"whole", "torn no more"});
-  CHECK_THROWS_WITH(ShardFile("/dev/full").append("x"), Catch::Contains("/dev/full"));
-}
-
-TEST_CASE("shard file: a line after one that the disk could not take is whole") {
-  const ScratchFolder scratch;
-  const std::string path = scratch.file("s.jsonl");
-  ShardFile shard(path);
-  shard.append("first");
-  {
-    const SmallFiles limit(9);  // room for three letters more
-    CHECK_THROWS_WITH(shard.append("second"), Catch::Contains("the disk is full"));
-  }
-  shard.append("third");
-  std::vector<std::string> lines;
-  read_whole_lines(path, 0, [&](const std::string& line) { lines.push_back(line); });
-  CHECK(lines == std::vector<std::string>{"first", "sec", "third"});
 }
 
 }  // namespace foldproof

@@ -1,20 +1,29 @@
-// The store of results: what was kept is found, what is damaged was never there.
+// The store of results, its shards, and files that are complete or absent: what was kept is found,
+// what is damaged was never there, and cannot crash its reader.
+#include <fcntl.h>
+#include <unistd.h>
+#include <sys/stat.h>
+
 #include <catch2/catch.hpp>
-#include <atomic>
+#include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <thread>
 
 #include "reference/types.h"
+#include "verification/files/atomic_file.h"
+#include "verification/files/isolated_reader.h"
 #include "verification/files/result_store.h"
+#include "verification/files/shard_file.h"
 #include "verification/specimens/scratch_folder.h"
+#include "verification/tests/files/small_files.h"
 
 namespace foldproof {
 
-using Catch::Matchers::Contains;
-
 namespace {
 
+using Catch::Matchers::Contains;
 namespace fs = std::filesystem;
 
 const StoredResult specimen{{{"x", {1.25, -3e-300, 7}}, {"none", {}}}, {{"why", "a \"word\"\n"}}};
@@ -26,168 +35,287 @@ std::vector<fs::path> files_in(const std::string& folder, const std::string& ext
   return found;
 }
 
+struct Kept {
+  ScratchFolder scratch;
+  std::string folder = scratch.file("store");
+};
+
+/// Of the whole lines from a byte on: each with its end; and the byte after them.
+std::string lines_from(std::uint64_t byte, const std::string& path) {
+  std::string lines;
+  const auto end =
+      read_whole_lines(path, byte, [&](const std::string& line) { lines += line + "\n"; });
+  return lines + std::to_string(end);
+}
+
+/// "PATH: cannot be written (WHY); ..."
+auto refusal(const std::string& path, const std::string& why) {
+  return Catch::StartsWith(path + ": cannot be written (" + why + ");");
+}
+
+/// A file that is there.
+struct SmallFile {
+  ScratchFolder scratch;
+  std::string path = scratch.write("a.txt", "as it was"), partial = path + ".partial";
+
+  void check_untouched() const {
+    CHECK(bytes_of_file(path) == "as it was");
+    CHECK_FALSE(fs::exists(fs::symlink_status(partial)));
+  }  /// The failure that is reported of it when this reads it.
+  std::string failure(const std::function<bool()>& read) const {
+    return failure_in_isolation(path, read);
+  }
+};
+
 }  // namespace
 
 TEST_CASE("a result is found again, by this store and by the next") {
-  const ScratchFolder scratch;
-  const std::string folder = scratch.file("store");
-  ResultStore store(folder);
-  CHECK_FALSE(fs::exists(folder));
-  CHECK_FALSE(store.find("abc").has_value());
-  CHECK_FALSE(store.contains("abc"));
+  const Kept kept;
+  ResultStore store(kept.folder);
+  CHECK_FALSE(fs::exists(kept.folder));
   store.start("abc", "first");
   store.keep("abc", specimen);
-  const ResultStore next(folder);
+  store.keep("k1", {{}, {{"a", "b"}}});
+  const ResultStore next(kept.folder);
   for (const ResultStore* one : {&std::as_const(store), &next}) {
     const auto found = one->find("abc");
     REQUIRE(found);
     CHECK(found->arrays.at("x") == specimen.arrays.at("x"));
     CHECK(found->texts == specimen.texts);
-    CHECK(one->starts("abc") == 1);
-    CHECK(one->contains("abc"));
-    CHECK_FALSE(one->find("abd").has_value());
+    CHECK(one->find("k1").value().arrays.empty());
+    CHECK((one->starts("abc") == 1 && one->contains("abc")));
+    CHECK((!one->find("abd").has_value() && !one->contains("abd")));
   }
-}
-
-TEST_CASE("a store without a folder keeps nothing") {
-  ResultStore store;
-  store.start("abc", "x");
-  store.keep("abc", specimen);
-  CHECK_FALSE(store.find("abc").has_value());
-  CHECK(store.starts("abc") == 0);
+  ResultStore nameless;  // keeps nothing
+  nameless.start("abc", "x");
+  nameless.keep("abc", specimen);
+  CHECK((!nameless.find("abc").has_value() && nameless.starts("abc") == 0));
 }
 
 TEST_CASE("a run that was started and did not end has no result") {
-  const ScratchFolder scratch;
-  const std::string folder = scratch.file("store");
-  for (int k = 0; k < 3; ++k) ResultStore(folder).start("abc", "cut off");
-  const ResultStore store(folder);
+  const Kept kept;
+  fs::create_directory(kept.folder);
+  for (int k = 0; k < 3; ++k) ResultStore(kept.folder).start("abc", "cut off");
+  fs::copy_file(files_in(kept.folder, ".jsonl").at(0), kept.folder + "/shards/copy.txt");
+  const ResultStore store(kept.folder);
   CHECK(store.starts("abc") == 3);
-  CHECK_FALSE(store.contains("abc"));
-  CHECK_FALSE(store.find("abc").has_value());
+  CHECK((!store.contains("abc") && !store.find("abc").has_value()));
 }
 
 TEST_CASE("a torn last line, and lines of others, are as if they were not there") {
-  const ScratchFolder scratch;
-  const std::string folder = scratch.file("store");
-  ResultStore(folder).keep("abc", specimen);
-  {
-    std::ofstream shard(files_in(folder, ".jsonl").at(0), std::ios::app);
-    shard << "[1]\n5\nnull\n{\"start\": 5}\n{\"result\": {}}\n{\"result\": \"abe\"}\n"
-          << "{\"result\": \"abf\", \"texts\": 7, \"arrays\": {}}\n"
-          << "{\"result\": \"abg\", \"texts\": {}, \"arrays\": {\"x\": \"y\"}}\n"
-          << "{\"result\": \"abd\", \"texts\": {\"why";
-  }
-  const ResultStore store(folder);
+  const Kept kept;
+  ResultStore(kept.folder).keep("abc", specimen);
+  std::ofstream(files_in(kept.folder, ".jsonl").at(0), std::ios::app)
+      << "[1]\n5\nnull\n{\"start\": 5}\n{\"result\": {}}\n{\"result\": \"abe\"}\n"
+      << "{\"result\": \"abf\", \"texts\": 7, \"arrays\": {}}\n"
+      << "{\"result\": \"abg\", \"texts\": {}, \"arrays\": {\"x\": \"y\"}}\n"
+      << "{\"start\":\"s\",\"result\":\"r\",\"texts\":{},\"arrays\":{}}\n"
+      << "{\"result\": \"abd\", \"texts\": {\"why";
+  const ResultStore store(kept.folder);
   CHECK(store.find("abc").has_value());
-  for (const char* key : {"abd", "abe", "abf", "abg", "5"}) {
-    CHECK_FALSE(store.contains(key));
-    CHECK(store.starts(key) == 0);
-  }
+  for (const char* key : {"abd", "abe", "abf", "abg", "5"})
+    CHECK((!store.contains(key) && store.starts(key) == 0));
+  CHECK((store.starts("s") == 1 && store.contains("r")));
 }
 
 TEST_CASE("arrays that cannot be read, or are another length, are no result") {
-  for (const char* damage : {"", "no HDF5 at all", "gone"}) {
-    const ScratchFolder scratch;
-    const std::string folder = scratch.file("store");
-    ResultStore(folder).keep("abc", specimen);
-    const fs::path arrays = files_in(folder, ".h5").at(0);
-    if (std::string(damage) == "gone")
-      fs::remove(arrays);
-    else
-      std::ofstream(arrays) << damage;
-    ResultStore store(folder);
+  const Kept longer;
+  ResultStore(longer.folder).keep("abc", {{{"x", {1, 2, 3, 4}}, {"none", {}}}, {}});
+  for (const std::string damage : {"no HDF5", "gone", "longer"}) {
+    const Kept kept;
+    ResultStore(kept.folder).keep("abc", specimen);
+    const fs::path arrays = files_in(kept.folder, ".h5").at(0);
+    fs::remove(arrays);
+    if (damage == "longer") fs::copy_file(files_in(longer.folder, ".h5").at(0), arrays);
+    if (damage == "no HDF5") std::ofstream(arrays) << damage;
+    ResultStore store(kept.folder);
     CHECK_FALSE(store.find("abc").has_value());
     store.keep("abc", specimen);  // made again
-    CHECK(store.find("abc").has_value());
-    CHECK(ResultStore(folder).find("abc").has_value());
+    CHECK((store.find("abc") && ResultStore(kept.folder).find("abc")));
   }
-  const ScratchFolder scratch;
-  const std::string folder = scratch.file("store");
-  ResultStore(folder).keep("abc", {{{"x", {1, 2}}}, {}});
-  const fs::path shorter = files_in(folder, ".h5").at(0);
-  const std::string other = scratch.file("other");
-  ResultStore(other).keep("abc", {{{"x", {1}}}, {}});
-  fs::copy_file(files_in(other, ".h5").at(0), shorter, fs::copy_options::overwrite_existing);
-  CHECK_FALSE(ResultStore(folder).find("abc").has_value());
 }
 
 TEST_CASE("an earlier copy serves where a later one is damaged") {
-  const ScratchFolder scratch;
-  const std::string folder = scratch.file("store");
-  ResultStore(folder).keep("abc", specimen);
-  const fs::path first = files_in(folder, ".h5").at(0);
-  ResultStore second(folder);
+  const Kept kept;
+  ResultStore(kept.folder).keep("abc", specimen);
+  const fs::path first = files_in(kept.folder, ".h5").at(0);
+  ResultStore second(kept.folder);
   second.keep("abc", specimen);
-  for (const fs::path& arrays : files_in(folder, ".h5"))
+  for (const fs::path& arrays : files_in(kept.folder, ".h5"))
     if (arrays != first) fs::remove(arrays);
-  CHECK(second.find("abc").has_value());
-  CHECK(ResultStore(folder).find("abc").has_value());
+  CHECK((second.find("abc") && ResultStore(kept.folder).find("abc")));
 }
 
 TEST_CASE("two writers of one folder lose nothing and mix nothing") {
-  const ScratchFolder scratch;
-  const std::string folder = scratch.file("store");
+  const Kept kept;
   constexpr int results = 40;
-  std::atomic<int> failed = 0;
+  const auto key_of = [](int k, int writer) {
+    return (k % 2 ? "shared" : "own" + std::to_string(writer)) + std::to_string(k);
+  };
   const auto write = [&](int writer) {
-    ResultStore store(folder);
-    for (int k = 0; k < results; ++k) try {
-        const std::string key =
-            (k % 2 ? "shared" : "own" + std::to_string(writer)) + std::to_string(k);
-        store.start(key, std::string(300, 'x'));
-        store.keep(key, {{{"x", {double(k)}}}, {}});
-      } catch (const std::exception&) {
-        ++failed;
-      }
+    ResultStore store(kept.folder);
+    for (int k = 0; k < results; ++k) {
+      store.start(key_of(k, writer), std::string(300, 'x'));
+      store.keep(key_of(k, writer), {{{"x", {double(k)}}}, {}});
+    }
   };
   std::thread first(write, 1), second(write, 2);
-  first.join();
-  second.join();
-  CHECK(failed == 0);
-  const ResultStore store(folder);
+  first.join(), second.join();
+  const ResultStore store(kept.folder);
   for (int k = 0; k < results; ++k)
-    for (const std::string writer : {"1", "2"}) {
-      const std::string key = (k % 2 ? std::string("shared") : "own" + writer) + std::to_string(k);
-      REQUIRE(store.find(key).has_value());
-      CHECK(store.find(key)->arrays.at("x") == std::vector<double>{double(k)});
-      CHECK(store.starts(key) == (k % 2 ? 2 : 1));
+    for (const int writer : {1, 2}) {
+      const auto found = store.find(key_of(k, writer));
+      REQUIRE(found.has_value());
+      CHECK(found->arrays.at("x") == std::vector<double>{double(k)});
+      CHECK(store.starts(key_of(k, writer)) == (k % 2 ? 2 : 1));
     }
-  CHECK(files_in(folder, ".jsonl").size() == 2);
-  CHECK(files_in(folder, ".partial").empty());
-  CHECK(files_in(folder, ".h5").size() == 2 * results);  // each writer has its own
-}
-
-TEST_CASE("a store may be used by several threads") {
-  const ScratchFolder scratch;
-  ResultStore store(scratch.file("store"));
-  std::vector<std::thread> threads;
-  for (int t = 0; t < 4; ++t)
-    threads.emplace_back([&store, t] {
-      for (int k = 0; k < 10; ++k) {
-        const std::string key = "key" + std::to_string(10 * t + k);
-        store.start(key, "");
-        store.keep(key, {{{"x", {double(t), double(k)}}}, {}});
-      }
-    });
-  for (std::thread& thread : threads) thread.join();
-  for (int n = 0; n < 40; ++n)
-    CHECK(store.find("key" + std::to_string(n))->arrays.at("x") ==
-          std::vector<double>{double(n / 10), double(n % 10)});
+  CHECK((files_in(kept.folder, ".jsonl").size() == 2 && files_in(kept.folder, ".partial").empty()));
+  CHECK(files_in(kept.folder, ".h5").size() == 2 * results);  // each writer has its own
 }
 
 TEST_CASE("a store that is a file, or cannot be written, is refused by its name") {
-  const ScratchFolder scratch;
-  const std::string path = scratch.file("store");
-  std::ofstream(path) << "a file";
+  const Kept kept;
+  const std::string path = kept.scratch.write("file", "text");
   CHECK_THROWS_WITH(ResultStore(path), Contains(path) && Contains("folder"));
   CHECK_THROWS_AS(ResultStore(path), InputError);
-  const std::string blocked = scratch.file("blocked");
-  fs::create_directory(blocked);
-  std::ofstream(blocked + "/arrays") << "a file where a folder is to be";
-  ResultStore store(blocked);
-  CHECK_THROWS_WITH(store.keep("abc", specimen), Contains(blocked));
-  CHECK_FALSE(store.contains("abc"));
+  fs::create_directory(kept.folder);
+  std::ofstream(kept.folder + "/arrays") << "a file where a folder is to be";
+  CHECK_THROWS_WITH(ResultStore(kept.folder).keep("abc", specimen), Contains(kept.folder));
+}
+
+TEST_CASE("shards: a name is made of host, process, microseconds and a count") {
+  char host[256] = {};
+  gethostname(host, sizeof host - 1);
+  CHECK(host_name() == host);
+  const std::string begin = host_name() + "-" + std::to_string(getpid()) + "-";
+  const auto microseconds = [] {
+    const auto now = std::chrono::system_clock::now().time_since_epoch();
+    return std::chrono::duration_cast<std::chrono::microseconds>(now).count();
+  };
+  const auto before = microseconds();
+  long long counts[2] = {};
+  for (long long& count : counts) {
+    const std::string name = new_shard_name();
+    REQUIRE(name.starts_with(begin));
+    long long time = 0;
+    REQUIRE(std::sscanf(name.c_str() + begin.size(), "%lld-%lld", &time, &count) == 2);
+    CHECK((before <= time && time <= microseconds()));
+  }
+  CHECK(counts[1] == counts[0] + 1);
+}
+
+TEST_CASE("shards: a program without standard input may get its descriptor, 0") {
+  const ScratchFolder scratch;
+  const std::string path = scratch.file("s.jsonl");
+  const int input = dup(0);
+  close(0);
+  int first = -1;
+  {
+    ShardFile shard(path);
+    shard.append("first");
+    first = shard.descriptor();
+    CHECK(fcntl(0, F_GETFD) == FD_CLOEXEC);
+    shard.append("second");
+    CHECK_NOTHROW(shard.flush_to_disk());
+  }
+  const int end = fcntl(0, F_GETFD);
+  {
+    ShardFile null("/dev/null");  // which cannot be flushed
+    null.append("x");
+    CHECK_THROWS_WITH(null.flush_to_disk(), Contains("/dev/null") && Contains("Invalid argument"));
+  }
+  dup2(input, 0);
+  close(input);
+  CHECK((first == 0 && end == -1));
+  CHECK(bytes_of_file(path) == "first\nsecond\n");
+}
+
+TEST_CASE("shard file: a line after a torn one is whole") {
+  const ScratchFolder scratch;
+  const std::string path = scratch.write("s.jsonl", "one\nthree\n\ntorn");
+  CHECK(lines_from(0, path) == "one\nthree\n\n11");
+  CHECK(lines_from(4, path) == "three\n\n11");
+  CHECK(lines_from(11, path) == "11");
+  scratch.write("s.jsonl", "one\nthree\n\ntorn no more\n");
+  CHECK(lines_from(11, path) == "torn no more\n24");
+  CHECK(lines_from(7, scratch.file("missing")) == "7");
+  for (const std::string unwritable : {"/dev/full", "/dev"})
+    CHECK_THROWS_WITH(ShardFile(unwritable).append(""), Contains(unwritable));
+}
+
+TEST_CASE("shard file: a line after one that the disk could not take is whole") {
+  const ScratchFolder scratch;
+  const std::string path = scratch.file("s.jsonl");
+  ShardFile shard(path);
+  shard.append("first");
+  {
+    const FileSizeLimit limit(9);  // room for three letters more
+    CHECK_THROWS_WITH(shard.append("second"), Contains(path) && Contains("the disk is full"));
+    CHECK_THROWS_WITH(shard.append("third"), Contains(path) && Contains("File too large"));
+  }
+  shard.append("fourth");
+  shard.append("fifth");
+  CHECK(bytes_of_file(path) == "first\nsec\nfourth\nfifth\n");
+}
+
+TEST_CASE("atomic file: a text replaces what was there, and leaves no other file") {
+  const SmallFile file;
+  file.scratch.write("a.txt.partial", "what a crash left, which was longer, too");
+  const FileSizeLimit limit(100'000);  // what writes without end stops soon
+  const std::string text("some \0 text\n\xff", 13);
+  for (const std::string& one : {text, std::string()}) {
+    write_text(file.path, one);
+    CHECK(bytes_of_file(file.path) == one);
+    CHECK_FALSE(fs::exists(file.partial));
+  }
+}
+
+TEST_CASE("atomic file: a text that is not on the disk for certain leaves what was there") {
+  const SmallFile file;
+  {
+    const FileSizeLimit limit(1000);
+    CHECK_THROWS_WITH(write_text(file.path, std::string(3000, 'x')),
+                      refusal(file.path, "File too large"));
+    file.check_untouched();
+    CHECK_NOTHROW(write_text(file.scratch.file("b"), std::string(1000, 'y')));
+  }
+  for (const auto& [device, why] : {std::pair("/dev/full", "No space left on device"),
+                                    {"/dev/null", "Invalid argument"}}) {  // it keeps nothing
+    fs::create_symlink(device, file.partial);
+    CHECK_THROWS_WITH(write_text(file.path, "new"), refusal(file.path, why));
+    file.check_untouched();
+  }
+  const std::string pipe = file.scratch.file("pipe"), folder = file.scratch.file("folder");
+  CHECK_THROWS_WITH(durable_rename(pipe, file.path),
+                    refusal(file.path, "No such file or directory"));
+  fs::create_symlink("/dev/null", pipe);
+  CHECK_THROWS_WITH(durable_rename(pipe, file.path), refusal(file.path, "Invalid argument"));
+  file.check_untouched();
+  fs::create_directories(folder + "/full");
+  CHECK_THROWS_WITH(write_text(folder, "x"), refusal(folder, "Is a directory"));
+  fs::remove(pipe);
+  REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+  for (const std::string& good : {file.path, file.scratch.file("nothing")})
+    CHECK_NOTHROW(require_replaceable(good));
+  for (const std::string& other : {folder, pipe})
+    CHECK_THROWS_WITH(require_replaceable(other), Contains(other) && Contains("is no file"));
+}
+
+TEST_CASE("isolated reader: it reports what the reader says, and how the reader ended") {
+  const SmallFile file;
+  bool was_called = false;
+  const auto read = [&] { return was_called = true; };
+  CHECK(file.failure(read) == "");
+  CHECK(failure_in_isolation(file.partial, read) == "it is not there");
+  const std::string folder = file.scratch.file("");
+  CHECK_THROWS_WITH(failure_in_isolation(folder, read), Contains(folder + ": cannot be read"));
+  CHECK_THROWS_AS(failure_in_isolation(folder, read), InputError);
+  CHECK_FALSE(was_called);  // in another process
+  CHECK(file.failure([] { return false; }) == "it is damaged");
+  CHECK(file.failure([]() -> bool { throw 7; }) == "it is damaged");
+  for (const int signal : {SIGKILL, SIGUSR1})
+    CHECK(file.failure([&] { return std::raise(signal) == 0; }) ==
+          "it is damaged: reading it ended with signal " + std::to_string(signal));
 }
 
 }  // namespace foldproof

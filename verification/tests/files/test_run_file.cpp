@@ -1,283 +1,174 @@
 // A run's HDF5 file, read back through the library itself: nothing is missing, nothing is added.
+// And the results of one job, kept and read again.
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "verification/files/baseline_file.h"
 #include "verification/files/findings_file.h"
 #include "verification/files/hdf5_file.h"
+#include "verification/files/part_file.h"
 #include "verification/files/results_file.h"
 #include "verification/files/studies_file.h"
 #include "verification/specimens/scratch_folder.h"
 #include "verification/tests/files/hdf5_listing.h"
+#include "verification/tests/files/results_specimen.h"
+#include "verification/tests/files/small_files.h"
 
 namespace foldproof {
 
 namespace {
 
+using Json = nlohmann::json;
+
 Listing written_by(const std::function<void(const Hdf5&)>& write) {
   const ScratchFolder folder;
-  {
-    Hdf5 file = Hdf5::create_file(folder.file("a.h5"));
-    write(file);
-    file.close();
-  }
+  write_hdf5(folder.file("a.h5"), write);
   return hdf5_listing(folder.file("a.h5"));
-}
-
-/// A finding with all that a record can hold.
-Record full_record() {
-  Record record;
-  record.name = "law.full", record.kind = "bench", record.study = "of-steps";
-  record.claim = "it is so", record.source = "BMF03 section 7";
-  record.finding.verdict = {3.25, 4.5, 0.125, "steps", "empirical: twice the largest"};
-  record.finding.evidence = Table{{"step", "s"}, {"case", ""}, {"error", "m"}};
-  record.finding.evidence.row(0.5, "drape", -2.75);
-  record.finding.evidence.row(0.25, "twist", 1e-9);
-  record.finding.note = "a note", record.finding.headline = "three and a quarter";
-  record.better = "lower", record.seconds = 6.5;
-  record.faults = {"first-fault", "second-fault"};
-  return record;
-}
-
-/// One without all that may be missing.
-Record bare_record() {
-  Record record;
-  record.name = "law.bare", record.kind = "check";
-  record.finding.verdict = {0.375, 0.75, 0, "1", "by hand"};
-  record.outcome = Outcome::not_applicable;
-  return record;
-}
-
-const Listing full_finding{{"@order", "0"},
-                           {"@kind", "bench"},
-                           {"@study", "of-steps"},
-                           {"@claim", "it is so"},
-                           {"@source", "BMF03 section 7"},
-                           {"@measured", "3.25"},
-                           {"@bound", "4.5"},
-                           {"@uncertainty", "0.125"},
-                           {"@unit", "steps"},
-                           {"@why_bound", "empirical: twice the largest"},
-                           {"@basis", "empirical"},
-                           {"@scope", "specific"},
-                           {"@certainty", "estimated"},
-                           {"@outcome", "measured"},
-                           {"@note", "a note"},
-                           {"@headline", "three and a quarter"},
-                           {"@seconds", "6.5"},
-                           {"@faults", "[2] first-fault | second-fault"},
-                           {"@better", "lower"},
-                           {"", ""},
-                           {"evidence/", ""},
-                           {"evidence/step", "[2] 0.5 | 0.25"},
-                           {"evidence/step@order", "0"},
-                           {"evidence/step@unit", "s"},
-                           {"evidence/case", "[2] drape | twist"},
-                           {"evidence/case@order", "1"},
-                           {"evidence/case@unit", ""},
-                           {"evidence/error", "[2] -2.75 | 1e-09"},
-                           {"evidence/error@order", "2"},
-                           {"evidence/error@unit", "m"}};
-
-const Listing bare_finding{{"@order", "1"},
-                           {"@kind", "check"},
-                           {"@study", ""},
-                           {"@claim", ""},
-                           {"@source", ""},
-                           {"@measured", "0.375"},
-                           {"@bound", "0.75"},
-                           {"@uncertainty", "0"},
-                           {"@unit", "1"},
-                           {"@why_bound", "by hand"},
-                           {"@basis", "reasoned"},
-                           {"@scope", "specific"},
-                           {"@certainty", "computed"},
-                           {"@outcome", "not applicable"},
-                           {"@note", ""},
-                           {"@seconds", "0"},
-                           {"", ""}};
-
-/// The entries of `part` under the name of a group.
-void add_below(const std::string& group, const Listing& part, Listing& all) {
-  for (const auto& [name, value] : part) all[group + name] = value;
-}
-
-Listing both_findings() {
-  Listing all{{"/findings/", ""}};
-  add_below("/findings/law.full/", full_finding, all);
-  add_below("/findings/law.bare/", bare_finding, all);
-  return all;
-}
-
-/// A run with two of everything, but one study.
-RunRecord full_run() {
-  RunRecord run;
-  run.provenance = {"v3", "c4", "dirty", "gcc", "-O7", "Odd", "a cpu", "a date", "a command", 5};
-  run.tier = "full", run.subject = "a solver", run.subject_version = "v8";
-  run.seed = 37, run.seconds = 12.25;
-  run.records = {full_record(), bare_record()};
-  run.studies = {{"lone-study", "so it is", "theory", "about it", 9.5, {}, {}, {}}};
-  run.cases = {{"drape", "drape.h5", "Drape", "of a sheet", 3.5, "it diverged"},
-               {"twist", "twist.h5", "Twist", "of a rope", 4.25, ""}};
-  run.faults = {{"sign", "a.cpp", "+ b", "- b", "sum", {"law.full", "law.bare"}, {}, "caught"},
-                {"size", "c.cpp", "3", "4", "count", {}, {"test one", "test two"}, "SURVIVED"}};
-  Claim claim{"BMF03", "stiff", "7.3", "it is stiff", {}, Ruling::refuted, "if dry", "because"};
-  claim.decided_by = {{"law.full", Role::limits}, {"law.bare", Role::contradicts}};
-  claim.cited = {4, "We saw", "a + b", "a - b"};
-  claim.missing = "a lab", claim.paper_title = "Folds (2003)";
-  Claim other{"BFA02", "soft", "abstract", "it is soft", {}, Ruling::undecided, "", ""};
-  run.claims = {{claim, {"holds", "missing"}, Ruling::conditional}, {other, {}, Ruling::undecided}};
-  run.origins = {{"0123456789abcdef", "clean", "day 1", 12},
-                 {"fedcba9876543", "dirty", "day 2", 1}};
-  return run;
 }
 
 const char* const both_origins =
     "12 jobs on 0123456789 (clean), begun day 1; 1 job on fedcba9876 (dirty), begun day 2";
 
-const Listing provenance_and_run{{"/", ""},
-                                 {"/@schema", "1"},
-                                 {"/@program", "foldproof"},
-                                 {"/@version", "v3"},
-                                 {"/@commit", "c4"},
-                                 {"/@tree", "dirty"},
-                                 {"/@compiler", "gcc"},
-                                 {"/@flags", "-O7"},
-                                 {"/@build_type", "Odd"},
-                                 {"/@cpu", "a cpu"},
-                                 {"/@cores", "5"},
-                                 {"/@date", "a date"},
-                                 {"/@command", "a command"},
-                                 {"/@tier", "full"},
-                                 {"/@seed", "37"},
-                                 {"/@subject", "a solver"},
-                                 {"/@subject_version", "v8"},
-                                 {"/@seconds", "12.25"},
-                                 {"/@parts", both_origins}};
+void add_findings(Listing& all) {
+  add_listed(all, "/findings/", "");
+  add_listed(all, "/findings/law.full/", R"(
+    @order = 0; @kind = bench; @study = of-steps; @claim = it is so; @source = BMF03 section 7
+    @measured = 3.25; @bound = 4.5; @uncertainty = 0.125; @unit = steps
+    @why_bound = empirical: twice the largest; @basis = empirical; @scope = specific
+    @certainty = estimated; @outcome = measured; @note = a <note>; @seconds = 6.5; @better = lower
+    @headline = three and a quarter; @faults = [2] first-fault | second-fault; evidence/
+    evidence/step = [2] 0.5 | 0.25; evidence/step@order = 0; evidence/step@unit = s
+    evidence/case = [2] drape | twist; evidence/case@order = 1; evidence/case@unit
+    evidence/error = [2] -2.75 | 1e-09; evidence/error@order = 2; evidence/error@unit = m)");
+  add_listed(all, "/findings/law.bare/", R"(
+    @order = 1; @kind = check; @study; @claim; @source; @measured = 0.375; @bound = 0.75
+    @uncertainty = 0; @unit = 1; @why_bound = by hand; @basis = reasoned; @scope = specific
+    @certainty = computed; @outcome = not applicable; @note; @seconds = 0)");
+}
 
-const Listing study_and_cases{{"/studies/", ""},
-                              {"/studies/lone-study/", ""},
-                              {"/studies/lone-study/@order", "0"},
-                              {"/studies/lone-study/@claim", "so it is"},
-                              {"/studies/lone-study/@source", "theory"},
-                              {"/studies/lone-study/@about", "about it"},
-                              {"/studies/lone-study/@seconds", "9.5"},
-                              {"/studies/lone-study/figures/", ""},
-                              {"/studies/lone-study/maps/", ""},
-                              {"/studies/lone-study/tables/", ""},
-                              {"/cases/", ""},
-                              {"/cases/drape/", ""},
-                              {"/cases/drape/@order", "0"},
-                              {"/cases/drape/@file", "drape.h5"},
-                              {"/cases/drape/@title", "Drape"},
-                              {"/cases/drape/@about", "of a sheet"},
-                              {"/cases/drape/@seconds", "3.5"},
-                              {"/cases/drape/@stopped", "it diverged"},
-                              {"/cases/twist/", ""},
-                              {"/cases/twist/@order", "1"},
-                              {"/cases/twist/@file", "twist.h5"},
-                              {"/cases/twist/@title", "Twist"},
-                              {"/cases/twist/@about", "of a rope"},
-                              {"/cases/twist/@seconds", "4.25"},
-                              {"/cases/twist/@stopped", ""}};
+void add_studies(Listing& all) {
+  add_listed(all, "/studies/", "");
+  add_listed(all, "/studies/bare/", R"(@order = 1; @claim = a claim; @source = a source
+    @about = an about; @seconds = 2.25; figures/; maps/; tables/)");
+  const std::string study = "/studies/steps/", figure = study + "figures/convergence/",
+                    bare_curve = "@label = bare; @floor = nan; x = [2] 1.5 | 2.5; y = [2] -4 | 6.5";
+  add_listed(all, study, R"(@order = 0; @claim = they converge; @source = theory
+    @about = about it; @seconds = 9.5; figures/; maps/; tables/)");
+  add_listed(all, figure, R"(@order = 0; @title = A title; @x_label = step; @x_unit = ms
+    @x_scale = log; @y_label = damping; @y_unit = kg/s; @y_scale = linear; @slope = 4.5
+    @caption = as expected.; curves/)");
+  add_listed(all, figure + "curves/curve-00/", R"(@order = 0; @label = marked; @floor = 1e-12
+    @slope = 3.5; x = [3] 0.5 | 0.25 | 0.125; y = [3] 7 | 9 | nan; pair_orders = [2] 1.75 | 2.5
+    marks = [3] unfinished | measured | diverged)");
+  add_listed(all, figure + "curves/curve-01/", "@order = 1; " + bare_curve);
+  add_listed(all, study + "figures/empty/", R"(@order = 1; @title = Nothing; @x_label = damping
+    @x_unit = kg/s; @x_scale = linear; @y_label = step; @y_unit = ms; @y_scale = log
+    @slope = nan; @caption; curves/)");
+  add_listed(all, study + "maps/stability/", R"(@order = 0; @title = Where it is; @x_label = damping
+    @x_unit = kg/s; @x_scale = linear; @y_label = step; @y_unit = ms; @y_scale = log
+    @quantity = growth; @unit = 1/s; @scale = log; @caption = of one mode.; curves/
+    x = [3] 0.25 | 0.5 | 0.75; x@unit = kg/s; y = [2] 10 | 20; y@unit = ms
+    values = [2 x 3] 1.5 | 2.5 | 3.5 | 4.5 | 5.5 | 6.5; values@unit = 1/s)");
+  add_listed(all, study + "maps/stability/curves/curve-00/", "@order = 0; " + bare_curve);
+  add_listed(all, study + "tables/first/", R"(@order = 0; @title = One; case = [1] c
+    case@order = 0; case@unit; length = [1] 0.875; length@order = 1; length@unit = m)");
+}
 
-const Listing both_claims{{"/claims/", ""},
-                          {"/claims/stiff/", ""},
-                          {"/claims/stiff/@order", "0"},
-                          {"/claims/stiff/@paper", "BMF03"},
-                          {"/claims/stiff/@paper_title", "Folds (2003)"},
-                          {"/claims/stiff/@section", "7.3"},
-                          {"/claims/stiff/@paragraph", "4"},
-                          {"/claims/stiff/@begins", "We saw"},
-                          {"/claims/stiff/@printed", "a + b"},
-                          {"/claims/stiff/@restored", "a - b"},
-                          {"/claims/stiff/@statement", "it is stiff"},
-                          {"/claims/stiff/@ruling", "confirmed under a condition"},
-                          {"/claims/stiff/@recorded", "refuted"},
-                          {"/claims/stiff/@condition", "if dry"},
-                          {"/claims/stiff/@why", "because"},
-                          {"/claims/stiff/@missing", "a lab"},
-                          {"/claims/stiff/@decided_by", "[2] law.full | law.bare"},
-                          {"/claims/stiff/@roles", "[2] limits | contradicts"},
-                          {"/claims/stiff/@outcomes", "[2] holds | missing"},
-                          {"/claims/soft/", ""},
-                          {"/claims/soft/@order", "1"},
-                          {"/claims/soft/@paper", "BFA02"},
-                          {"/claims/soft/@paper_title", ""},
-                          {"/claims/soft/@section", "abstract"},
-                          {"/claims/soft/@paragraph", "0"},
-                          {"/claims/soft/@begins", ""},
-                          {"/claims/soft/@printed", ""},
-                          {"/claims/soft/@restored", ""},
-                          {"/claims/soft/@statement", "it is soft"},
-                          {"/claims/soft/@ruling", "undecided"},
-                          {"/claims/soft/@recorded", "undecided"},
-                          {"/claims/soft/@condition", ""},
-                          {"/claims/soft/@why", ""},
-                          {"/claims/soft/@missing", ""}};
+const PartOf of_job{"strain-sweeps", "0123", "full", 7};
+const RunOrigin origin{"89abcdef", "dirty", "a date", 5};
 
-/// The columns of the table of faults, each with its order and without a unit.
-Listing fault_columns() {
-  const std::pair<const char*, const char*> columns[] = {
-      {"name", "sign | size"},
-      {"file", "a.cpp | c.cpp"},
-      {"find", "+ b | 3"},
-      {"replace", "- b | 4"},
-      {"law", "sum | count"},
-      {"caught_by", "law.full, law.bare | "},
-      {"caught_by_tests", " | test one\ntest two"},
-      {"outcome", "caught | SURVIVED"}};
-  Listing all{{"/faults/", ""}};
-  int order = 0;
-  for (const auto& [name, values] : columns) {
-    const std::string path = std::string("/faults/") + name;
-    all[path] = std::string("[2] ") + values;
-    all[path + "@order"] = std::to_string(order++);
-    all[path + "@unit"] = "";
-  }
-  return all;
+/// All of a run's records, studies and cases, as they stand in its file.
+Listing listing_of(const RunRecord& run) {
+  const ScratchFolder scratch;
+  RunRecord part;
+  part.records = run.records, part.studies = run.studies, part.cases = run.cases;
+  write_run(scratch.file("run.h5"), part);
+  return hdf5_listing(scratch.file("run.h5"));
+}
+
+/// With numbers that a text would not keep, and outcomes of all kinds.
+RunRecord part_specimen() {
+  struct Estimate {
+    double value, uncertainty;
+  };
+  RunRecord part = full_run();
+  Record& record = part.records[0];
+  record.finding.verdict = {0.1 + 0.2, 1e-300, -0.0, "m", "why"};
+  Table evidence("e.name", "e.title", Table{{"estimate", "m"}});
+  evidence.row(Estimate{std::nan(""), 0.25});
+  record.finding.evidence = evidence;
+  part.records.resize(3);
+  part.records[2].name = "law.third", part.records[2].outcome = Outcome::holds;
+  part.studies[0].figures[0].curves[0].floor = -INFINITY;
+  return part;
 }
 
 }  // namespace
 
 TEST_CASE("run file: a finding is written with all that it has, and with nothing that it lacks") {
-  const Listing is = written_by([](const Hdf5& file) {
-    write_findings(file, {full_record(), bare_record()});
+  Record full = full_record();
+  full.faults = {"first-fault", "second-fault"};
+  full.finding.headline = "three and a quarter";
+  Listing expected = {{"/", ""}};
+  add_findings(expected);
+  const Listing is = written_by([&](const Hdf5& file) {
+    write_findings(file, {full, bare_record()});
   });
-  Listing expected = both_findings();
-  expected["/"] = "";
   CHECK(difference_of(is, expected) == "");
 }
 
-TEST_CASE("run file: a run is written whole") {
-  const ScratchFolder folder;
-  write_run(folder.file("run.h5"), full_run());
-  Listing expected = both_findings();
-  for (const Listing& part : {provenance_and_run, study_and_cases, both_claims, fault_columns()})
-    expected.insert(part.begin(), part.end());
-  CHECK(difference_of(hdf5_listing(folder.file("run.h5")), expected) == "");
+TEST_CASE("studies file: figures, maps and tables are written with all that they have") {
+  Listing expected = {{"/", ""}};
+  add_studies(expected);
+  std::vector<StudyRecord> studies = full_run().studies;
+  const auto write = [&](const Hdf5& file) { write_studies(file, studies); };
+  CHECK(difference_of(written_by(write), expected) == "");
+  studies[0].maps[0].values.pop_back();
+  CHECK_THROWS_WITH(written_by(write), Catch::Contains("'stability': 5 values for 3 x 2 points"));
 }
 
-TEST_CASE("run file: a run of nothing has its groups, but no parts and no faults") {
+TEST_CASE("run file: a run is written whole, without faults and parts if it has none") {
   const ScratchFolder folder;
+  const std::string path = folder.file("run.h5");
   RunRecord run = full_run();
-  run.records.clear(), run.studies.clear(), run.cases.clear(), run.claims.clear();
-  run.faults.clear(), run.origins.clear();
-  write_run(folder.file("run.h5"), run);
-  Listing expected = provenance_and_run;
-  expected.erase("/@parts");
-  for (const char* group : {"/findings/", "/studies/", "/cases/", "/claims/"}) expected[group] = "";
-  CHECK(difference_of(hdf5_listing(folder.file("run.h5")), expected) == "");
-}
-
-TEST_CASE("run file: the parts of a resumed run stand in their order") {
-  RunRecord run;
-  CHECK(origins_text(run) == "");
-  run.origins = {{"0123456789abcdef", "clean", "day 1", 12},
-                 {"fedcba9876543", "dirty", "day 2", 1}};
-  CHECK(origins_text(run) == both_origins);
-  CHECK(RunOrigin{"short", "unknown", "day 3", 0}.text() ==
-        "0 jobs on short (unknown), begun day 3");
+  run.records.clear(), run.studies.clear();
+  Listing root;
+  add_listed(root, "/", R"(@schema = 1; @program = foldproof; @version = v3; @commit = c4
+    @tree = dirty; @compiler = gcc; @flags = -O7; @build_type = Odd; @cpu = a cpu; @cores = 5
+    @date = a date; @command = a command; @tier = full; @seed = 37; @subject = a solver
+    @subject_version = v8; @seconds = 12.25; findings/; studies/; cases/; claims/)");
+  Listing all = root;
+  all["/@parts"] = both_origins;
+  add_listed(all, "/cases/drape/", R"(@order = 0; @file = drape.h5; @title = Drape
+    @about = of a sheet; @seconds = 3.5; @stopped = it diverged)");
+  add_listed(all, "/cases/twist/", R"(@order = 1; @file = twist.h5; @title = Twist
+    @about = of a rope; @seconds = 4.25; @stopped)");
+  add_listed(all, "/claims/stiff/", R"(@order = 0; @paper = BMF03; @paper_title = Folds (2003)
+    @section = 7.3; @paragraph = 4; @begins = We saw; @printed = a + b; @restored = a - b
+    @statement = it is > stiff; @ruling = confirmed under a condition; @recorded = refuted
+    @condition = if dry; @why = because; @missing = a lab
+    @decided_by = [2] law.full | law.bare; @roles = [2] limits | contradicts
+    @outcomes = [2] fails | missing)");
+  write_run(path, run);
+  CHECK(difference_of(hdf5_listing(path), all) == "");
+  run.cases.clear(), run.claims.clear(), run.origins.clear();
+  write_run(path, run);
+  CHECK(difference_of(hdf5_listing(path), root) == "");
+  run.faults = {{"sign", "a.cpp", "+ b", "- b", "sum", {"law.full", "law.bare"}, {}, "caught"},
+                {"size", "c.cpp", "3", "4", "count", {}, {"test one", "test two"}, "SURVIVED"}};
+  add_listed(root, "/faults/", R"(name = [2] sign | size; file = [2] a.cpp | c.cpp
+    find = [2] + b | 3; replace = [2] - b | 4; law = [2] sum | count
+    caught_by = [2] law.full, law.bare | ; outcome = [2] caught | SURVIVED)");
+  root["/faults/caught_by_tests"] = "[2]  | test one\ntest two";
+  add_listed(root, "/faults/", R"(name@order = 0; file@order = 1; find@order = 2; law@order = 4
+    replace@order = 3; caught_by@order = 5; caught_by_tests@order = 6; outcome@order = 7
+    name@unit; file@unit; find@unit; law@unit; replace@unit; caught_by@unit
+    caught_by_tests@unit; outcome@unit)");
+  write_run(path, run);
+  CHECK(difference_of(hdf5_listing(path), root) == "");
+  CHECK_THROWS_WITH(write_run(folder.file("none/run.h5"), run), Catch::Contains("none/run.h5"));
 }
 
 TEST_CASE("run file: numbers that nothing was entered for are zero") {
@@ -290,10 +181,57 @@ TEST_CASE("run file: numbers that nothing was entered for are zero") {
   CHECK((kept.measured == 0 && kept.bound == 0));
 }
 
-TEST_CASE("run file: a file that cannot be written is named") {
-  const ScratchFolder folder;
-  CHECK_THROWS_WITH(write_run(folder.file("none/run.h5"), full_run()),
-                    Catch::Contains("none/run.h5"));
+TEST_CASE("kept results: what is read and written again is the same to the bit") {
+  const ScratchFolder scratch;
+  const std::string path = scratch.file("part"), again = scratch.file("again");
+  const RunRecord part = part_specimen();
+  write_part(path, of_job, origin, part);
+  const std::optional<RunRecord> read = read_part(path, of_job);
+  REQUIRE(read);
+  CHECK(difference_of(listing_of(*read), listing_of(part)) == "");
+  REQUIRE(read->origins.size() == 1);
+  CHECK(read->origins.front().text() == "1 job on 89abcdef (dirty), begun a date");
+  CHECK((!read->records[0].outcome && read->records[2].outcome == Outcome::holds));
+  CHECK(std::signbit(read->records[0].finding.verdict.uncertainty));
+  const Table& evidence = read->records[0].finding.evidence;
+  CHECK((evidence.name == "e.name" && evidence.title == "e.title"));
+  CHECK(evidence.columns()[0].uncertainty == 0.25);
+  write_part(again, of_job, origin, *read);
+  CHECK(bytes_of_file(again) == bytes_of_file(path));
+}
+
+TEST_CASE("kept results: those of another program, tier, seed or job, and damaged ones, are none") {
+  const ScratchFolder scratch;
+  const std::string path = scratch.file("part");
+  CHECK(!read_part(path, of_job));
+  write_part(path, of_job, origin, part_specimen());
+  for (const PartOf& other : {PartOf{"other", "0123", "full", 7},
+                              {"strain-sweeps", "1", "full", 7},
+                              {"strain-sweeps", "0123", "quick", 7},
+                              {"strain-sweeps", "0123", "full", 8}})
+    CHECK(!read_part(path, other));
+  const std::string bytes = bytes_of_file(path);
+  const auto is_part = [&](const std::string& text) {
+    std::ofstream(path, std::ios::binary) << text;
+    return read_part(path, of_job).has_value();
+  };
+  const Json whole = Json::from_cbor(bytes);
+  const auto is_json_part = [&](const Json& json) {
+    const std::vector<std::uint8_t> cbor = Json::to_cbor(json);
+    return is_part({cbor.begin(), cbor.end()});
+  };
+  CHECK((is_part(bytes) && !is_part(bytes + "x")));
+  for (const size_t length : {size_t(0), size_t(1), bytes.size() / 2, bytes.size() - 1})
+    CHECK(!is_part(bytes.substr(0, length)));
+  CHECK((!is_json_part(Json::array({1, 2})) && !is_json_part(Json::object())));
+  for (const char* key : {"of", "origin", "records", "studies", "cases"}) {
+    Json odd = whole;
+    odd[key] = 7;
+    CHECK(!is_json_part(odd));
+  }
+  Json newer = whole;
+  newer["of"]["layout"] = 2;
+  CHECK(!is_json_part(newer));
 }
 
 }  // namespace foldproof

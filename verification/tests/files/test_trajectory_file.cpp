@@ -1,237 +1,390 @@
-// A simulation's file, read by the library itself: each number in its place, with its unit.
+// A simulation's file, read by the library itself; and simulations read back from their files,
+// which other programs may have written.
 #include <catch2/catch.hpp>
+#include <numeric>
 
+#include "reference/types.h"
 #include "verification/files/hdf5_file.h"
+#include "verification/files/stored_run_file.h"
 #include "verification/files/trajectory_file.h"
 #include "verification/specimens/scratch_folder.h"
-#include "verification/tests/files/raw_hdf5.h"
-#include "verification/tests/files/trajectory_specimen.h"
+#include "verification/tests/files/hdf5_listing.h"
+#include "verification/tests/files/small_files.h"
 
 namespace foldproof {
 
 namespace {
 
-using Catch::Equals;
-using Lengths = std::vector<hsize_t>;
+using Numbers = std::vector<double>;
+using Catch::StartsWith;
 
-Diagnostics diagnostics_specimen(double first) {
-  Diagnostics d;
-  double next = first;
-  for_each_value(
-      d, [&](auto& number) { number = std::remove_reference_t<decltype(number)>(next += 3); });
-  d.seconds = first + 0.5;
-  return d;
+/// first, first + 1, ...: as numbers, as positions of particles, and as the library lists them.
+Numbers ramp(size_t count, double first = 1) {
+  Numbers values(count);
+  std::iota(values.begin(), values.end(), first);
+  return values;
+}
+PerParticle3 counted(int particles, double first) {
+  return Eigen::Map<const PerParticle3>(ramp(3 * size_t(particles), first).data(), 3, particles);
+}
+std::string counted_text(const Lengths& shape, double first) {
+  hsize_t count = 1;
+  for (const hsize_t length : shape) count *= length;
+  return array_text(shape, ramp(count, first));
 }
 
-/// How often a text stands in another.
-int count(const std::string& text, const std::string& part) {
-  int found = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
-    ++found;
-  return found;
+Scene bare_scene() {
+  PerParticle3 rest = counted(4, 70);
+  rest(2, 0) = rest(1, 3) = 0;
+  Scene scene = scene_at_rest(make_triangle_mesh(rest, {{0, 1, 2}, {1, 3, 2}}), 0.4);
+  scene.name = "a case";
+  scene.title = "A title";
+  scene.about = "About it";
+  scene.integrator = "B";
+  return scene;
 }
 
-/// The root attribute of the number of frames that a file of a run with this schedule has.
-double frames_wanted(double end, double interval) {
-  const ScratchFolder scratch;
+const Eigen::Quaterniond turn = Eigen::Quaterniond(5, -3, 7, 2).normalized();
+
+/// Moves from (1, 2, 3) to (5, -2, 9) between 0 s and 2 s, always turned alike.
+RigidMotion drifting() { return make_keyframes({{0, {turn, {1, 2, 3}}}, {2, {turn, {5, -2, 9}}}}); }
+
+/// A ball that drifts, a surface that deforms, and patches of a surface and of cloth.
+Scene full_scene() {
   Scene scene = bare_scene();
-  scene.schedule.end = end;
-  scene.schedule.frame_interval = interval;
-  TrajectoryFile(scratch.file("a.h5"), scene, system_specimen(), {}, {}).finish("", 0, {});
-  return RawFile(scratch.file("a.h5")).number("/", "frames_wanted");
+  scene.gravity = Vector3(0.5, -9.75, 0.25);
+  SceneObject ball, body;
+  ball.object = {"a ball", RigidObject{Sphere{0.5}, {}, drifting()}, 0.375};
+  ball.shape = "a sphere";
+  ball.vertices = counted(5, 10);
+  ball.triangles = {{0, 1, 2}, {1, 4, 3}, {2, 3, 4}};
+  body.object = {"a body", DeformingObject{}, 0.625};
+  body.shape = "a mesh";
+  body.vertices = counted(3, 20);
+  body.triangles = {{2, 0, 1}};
+  body.animation = std::make_shared<const MeshSequence>(
+      MeshSequence{{{2, 0, 1}}, {0, 2}, {counted(3, 20), counted(3, 38)}});
+  scene.objects = {ball, body};
+  StickyPatch of_surface, of_cloth;
+  of_surface.name = "a palm";
+  of_surface.triangles = {{0, 1, 2}, {2, 1, 3}};
+  of_surface.place = [](double) { return counted(4, 0); };
+  of_surface.particles = {3, 1, 2};
+  of_cloth.name = "a seam";
+  of_cloth.triangles = {{1, 3, 2}};
+  of_cloth.particles = {0};
+  scene.sticky = {of_surface, of_cloth};
+  return scene;
 }
+
+/// A file of a scene, and what the library finds in it.
+struct Trajectory {
+  ScratchFolder scratch;
+  std::string path = scratch.file("a&b.h5"), partial = path + ".partial";
+  Scene scene;
+  System system = make_system(PerParticle{{0.25, 0.5, 0.75, 1.5}});
+  std::vector<Object> solids = {
+      {"drifts", RigidObject{Sphere{0.5}, {}, drifting()}},
+      {"rests", RigidObject{Sphere{1.25}, {turn, {104, 2, 200}}, Motion{}}}};
+  std::unique_ptr<TrajectoryFile> file;
+
+  explicit Trajectory(const Scene& of) : scene(of) {
+    if (scene.objects.empty()) solids.clear();
+    prescribe(system, {2, Vector3(1, 2, 3), {}});
+    file = std::make_unique<TrajectoryFile>(path, scene, system, solids, Provenance());
+  }
+  /// Frames at 0.5 s and 1.5 s, all numbers of which differ.
+  void add_frames() {
+    for (const int k : {0, 1}) {
+      State s{0.5 + k, counted(4, 100 + 12 * k), counted(4, 200 + 12 * k)};
+      if (k == 0) s.bonds = {{0, 1, 3, {0.125, 0.25, 0.5}}, {1, 7, 0, {3.5, 0.375, -0.75}}};
+      file->add_frame(s);
+      Diagnostics d;
+      d.time = 1, d.step = 2, d.damping_work = 9, d.step_over_elastic_limit = 12;
+      d.energy = {3, 4, 5, 6, 7, 8};
+      d.linear_momentum = {20, 21, 22}, d.angular_momentum = {30, 31, 32};
+      d.work.cg_iterations = 10, d.work.object_contacts = 13, d.work.close_pairs = 15;
+      d.work.crossings = 16, d.work.zone_particles = 17, d.work.bonds = 18;
+      d.work.worst_residual = 11, d.work.strain_left = 14;
+      for_each_value(d, [&](auto& number) { number += 100 * k; });
+      d.seconds = 50.5 + k;
+      file->add_diagnostics(d);
+    }
+  }
+  Listing finished() {
+    Record record;
+    record.name = "a finding";
+    file->finish("the reason", 12.75, {record});
+    return hdf5_listing(path);
+  }
+};
+
+std::string difference_below(const std::string& group, Listing all, const Listing& expected) {
+  std::erase_if(all, [&](const auto& entry) { return !entry.first.starts_with(group); });
+  return difference_of(all, expected);
+}
+
+const Listing& full_listing() {
+  static const Listing all = [] {
+    Trajectory run(full_scene());
+    run.add_frames();
+    return run.finished();
+  }();
+  return all;
+}
+
+/// A sheet of 4 x 3 particles.
+const std::string small_case =
+    "[cloth]\nshape = \"sheet\"\nwidth = 0.75\nheight = 0.5\ncolumns = 3\nrows = 2\n"
+    "density = 0.2\n# --set cloth.density=0.7\n[time]\nend = 0.7\n";
+
+/// A stored simulation of two frames of 12 particles, the sheet of its case.
+struct RunFile {
+  ScratchFolder scratch;
+  std::string path = scratch.file("run.h5"), text = small_case;
+  std::vector<int> corners{3, 1, 4, 2, 0, 11};
+  Numbers times{0.25, 0.75}, positions = ramp(72), velocities = ramp(72, 101);
+
+  void write() const {
+    const Hdf5 file = Hdf5::create_file(path);
+    file.attribute("case_folder", std::string("some/folder"));
+    file.attribute("case_name", std::string("small"));
+    file.attribute("case_text", text);
+    file.attribute("title", std::string("A title of its own"));
+    file.group("mesh").array("triangles", {corners.size()}, corners.data());
+    const Hdf5 frames = file.group("frames");
+    frames.dataset("time", times);
+    frames.dataset("positions", positions);
+    frames.dataset("velocities", velocities);
+  }
+  StoredRun read() const {
+    write();
+    return read_stored_run(path);
+  }
+  /// By the reader of frames and, where it says why, by the reader of runs.
+  void check_refused(const std::string& frames_why, const std::string& run_why = "") const {
+    write();
+    CHECK_THROWS_WITH(read_stored_frames(path), Catch::StartsWith(path + ": " + frames_why));
+    CHECK_THROWS_AS(read_stored_frames(path), InputError);
+    if (!run_why.empty())
+      CHECK_THROWS_WITH(read_stored_run(path), Catch::StartsWith(path + ": " + run_why));
+  }
+};
 
 }  // namespace
 
 TEST_CASE("trajectory: the root tells of the case and of the run, and where its meshes lie") {
-  const ScratchFolder scratch;
-  const std::string path = scratch.file("a.h5");
-  const System system = system_specimen();
   for (const bool is_read : {false, true}) {
     Scene scene = full_scene();
     scene.text = is_read ? "the text" : "";
     scene.folder = "some/folder";
-    Provenance provenance;
-    provenance.version = "9.8";
-    provenance.cores = 77;
-    Record record;
-    record.name = "a finding";
-    TrajectoryFile file(path, scene, system, {}, provenance);
-    file.finish("the reason", 12.75, {record});
-    const RawFile raw(path);
-    CHECK(raw.text("/", "case_name") == "a case");
-    CHECK(raw.text("/", "title") == "A title");
-    CHECK(raw.text("/", "about") == "About it");
-    CHECK(raw.text("/", "case_text") == scene.text);
-    CHECK(raw.text("/", "case_folder") ==
-          (is_read ? std::filesystem::current_path().string() + "/some/folder" : ""));
-    CHECK(raw.text("/", "integrator") == "B");
-    CHECK(raw.texts("/", "built") == describe_parts(scene, system));
-    CHECK(raw.text("/", "version") == "9.8");
-    CHECK(raw.number("/", "cores") == 77);
-    CHECK(raw.text("/", "stopped") == "the reason");
-    CHECK(raw.number("/", "seconds") == 12.75);
-    CHECK(raw.has("findings/a finding"));
-    CHECK(raw.numbers("gravity") == Numbers{0.5, -9.75, 0.25});
-    CHECK(raw.text("gravity", "unit") == "m/s^2");
+    Trajectory run(scene);
+    const Listing is = run.finished();
+    Listing expected;
+    add_listed(expected, "/", R"(@case_name = a case; @title = A title; @about = About it
+      @integrator = B; @program = foldproof; @stopped = the reason; @seconds = 12.75
+      gravity = [3] 0.5 | -9.75 | 0.25; gravity@unit = m/s^2; findings/a finding/)");
+    expected["/@case_text"] = scene.text;
+    expected["/@case_folder"] =
+        is_read ? std::filesystem::current_path().string() + "/some/folder" : "";
+    const std::vector<std::string> built = describe_parts(scene, run.system);
+    expected["/@built"] = array_text({built.size()}, built);
+    for (const auto& [name, value] : expected) CHECK(is.at(name) == value);
   }
 }
 
 TEST_CASE("trajectory: frames are wanted at the start, each whole interval, and the end") {
-  CHECK(frames_wanted(1, 0.3) == 5);
-  CHECK(frames_wanted(1.1, 0.1) == 12);  // 1.1/0.1 is rounded to more than 11
-  CHECK(frames_wanted(0.3, 0.1) == 4);   // and this to less than 3
-  CHECK(frames_wanted(3 + 1e-7, 1) == 5);
-  CHECK(frames_wanted(7, 3.5) == 3);
-}
-
-TEST_CASE("trajectory: the mesh has triangles, rest positions, masses and marks of what is held") {
-  const ScratchFolder scratch;
-  const std::string path = scratch.file("a.h5");
-  const Scene scene = bare_scene();
-  TrajectoryFile(path, scene, system_specimen(), {}, {}).finish("", 0, {});
-  const RawFile raw(path);
-  CHECK(raw.shape("mesh/triangles") == Lengths{2, 3});
-  CHECK(raw.numbers("mesh/triangles") == Numbers{0, 1, 2, 1, 3, 2});
-  CHECK(raw.shape("mesh/rest_positions") == Lengths{4, 3});
-  CHECK(raw.numbers("mesh/rest_positions") == numbers_of(scene.mesh.rest));
-  CHECK(raw.text("mesh/rest_positions", "unit") == "m");
-  CHECK(raw.numbers("mesh/mass") == Numbers{0.25, 0.5, 0.75, 1.5});
-  CHECK(raw.text("mesh/mass", "unit") == "kg");
-  CHECK(raw.numbers("mesh/held") == Numbers{0, 0, 1, 0});
-  for (const char* absent : {"objects", "sticky", "gravity", "frames/object_distance"})
-    CHECK_FALSE(raw.has(absent));
+  const auto frames_wanted = [](double end, double interval) {
+    Scene scene = bare_scene();
+    scene.schedule.end = end, scene.schedule.frame_interval = interval;
+    return Trajectory(scene).finished().at("/@frames_wanted");
+  };
+  CHECK(frames_wanted(1, 0.3) == "5");
+  CHECK(frames_wanted(1.1, 0.1) == "12");  // 1.1/0.1 is rounded to more than 11
+  CHECK(frames_wanted(0.3, 0.1) == "4");   // and this to less than 3
+  CHECK(frames_wanted(3 + 1e-7, 1) == "5");
 }
 
 TEST_CASE("trajectory: frames and rows of diagnostics lie in it with their units") {
-  const ScratchFolder scratch;
-  const std::string path = scratch.file("a.h5");
-  const Diagnostics one = diagnostics_specimen(100), two = diagnostics_specimen(1000);
-  {
-    TrajectoryFile file(path, bare_scene(), system_specimen(), {}, {});
-    file.add_frame(state_at(0.5, 1));
-    file.add_diagnostics(one);
-    file.add_frame(state_at(1.5, 2));
-    file.add_diagnostics(two);
-    file.finish("", 0, {});
-  }
-  const RawFile raw(path);
-  CHECK(raw.numbers("frames/time") == Numbers{0.5, 1.5});
-  CHECK(raw.text("frames/time", "unit") == "s");
-  for (const std::string name : {"positions", "velocities"}) {
-    const double sign = name == "positions" ? 1 : -1;
-    Numbers expected = numbers_of(rising(4, sign));
-    const Numbers second = numbers_of(rising(4, 2 * sign));
-    expected.insert(expected.end(), second.begin(), second.end());
-    CHECK(raw.shape("frames/" + name) == Lengths{2, 4, 3});
-    CHECK(raw.numbers("frames/" + name) == expected);
-    CHECK(raw.text("frames/" + name, "unit") == (name == "positions" ? "m" : "m/s"));
-  }
-  const auto check = [&](const std::string& name, const char* unit, double first, double second) {
-    INFO(name);
-    CHECK(raw.numbers("diagnostics/" + name) == Numbers{first, second});
-    CHECK(raw.text("diagnostics/" + name, "unit") == unit);
-  };
-  check("time", "s", one.time, two.time);
-  check("step", "s", one.step, two.step);
-  check("kinetic_energy", "J", one.energy.kinetic, two.energy.kinetic);
-  check("stretch_energy", "J", one.energy.stretch, two.energy.stretch);
-  check("bending_energy", "J", one.energy.bending, two.energy.bending);
-  check("gravity_energy", "J", one.energy.gravity, two.energy.gravity);
-  check("custom_energy", "J", one.energy.custom, two.energy.custom);
-  check("sticking_energy", "J", one.energy.sticking, two.energy.sticking);
-  check("damping_work", "J", one.damping_work, two.damping_work);
-  check("cg_iterations", "1", double(one.work.cg_iterations), double(two.work.cg_iterations));
-  check("cg_residual", "1", one.work.worst_residual, two.work.worst_residual);
-  check("step_over_elastic_limit", "1", one.step_over_elastic_limit, two.step_over_elastic_limit);
-  check("object_contacts", "1", double(one.work.object_contacts), double(two.work.object_contacts));
-  check("strain_left", "1", one.work.strain_left, two.work.strain_left);
-  check("close_pairs", "1", double(one.work.close_pairs), double(two.work.close_pairs));
-  check("crossings", "1", double(one.work.crossings), double(two.work.crossings));
-  check("zone_particles", "1", double(one.work.zone_particles), double(two.work.zone_particles));
-  check("bonds", "1", double(one.work.bonds), double(two.work.bonds));
-  check("seconds", "s", 100.5, 1000.5);
-  const Vector3 p[] = {one.linear_momentum, two.linear_momentum},
-                l[] = {one.angular_momentum, two.angular_momentum};
-  CHECK(raw.shape("diagnostics/linear_momentum") == Lengths{2, 3});
-  CHECK(raw.shape("diagnostics/angular_momentum") == Lengths{2, 3});
-  CHECK(raw.numbers("diagnostics/linear_momentum") ==
-        Numbers{p[0][0], p[0][1], p[0][2], p[1][0], p[1][1], p[1][2]});
-  CHECK(raw.numbers("diagnostics/angular_momentum") ==
-        Numbers{l[0][0], l[0][1], l[0][2], l[1][0], l[1][1], l[1][2]});
-  CHECK(raw.text("diagnostics/linear_momentum", "unit") == "kg m/s");
-  CHECK(raw.text("diagnostics/angular_momentum", "unit") == "kg m^2/s");
+  Listing diagnostics, frames, mesh;
+  add_listed(diagnostics, "/diagnostics/", R"(
+    time = [2] 1 | 101; time@unit = s; step = [2] 2 | 102; step@unit = s
+    kinetic_energy = [2] 3 | 103; kinetic_energy@unit = J; stretch_energy = [2] 4 | 104
+    stretch_energy@unit = J; bending_energy = [2] 5 | 105; bending_energy@unit = J
+    gravity_energy = [2] 6 | 106; gravity_energy@unit = J; custom_energy = [2] 7 | 107
+    custom_energy@unit = J; sticking_energy = [2] 8 | 108; sticking_energy@unit = J
+    damping_work = [2] 9 | 109; damping_work@unit = J; cg_iterations = [2] 10 | 110
+    cg_iterations@unit = 1; cg_residual = [2] 11 | 111; cg_residual@unit = 1
+    step_over_elastic_limit = [2] 12 | 112; step_over_elastic_limit@unit = 1
+    object_contacts = [2] 13 | 113; object_contacts@unit = 1; strain_left = [2] 14 | 114
+    strain_left@unit = 1; close_pairs = [2] 15 | 115; close_pairs@unit = 1
+    crossings = [2] 16 | 116; crossings@unit = 1; zone_particles = [2] 17 | 117
+    zone_particles@unit = 1; bonds = [2] 18 | 118; bonds@unit = 1; seconds = [2] 50.5 | 51.5
+    seconds@unit = s; linear_momentum = [2 x 3] 20 | 21 | 22 | 120 | 121 | 122
+    linear_momentum@unit = kg m/s; angular_momentum = [2 x 3] 30 | 31 | 32 | 130 | 131 | 132
+    angular_momentum@unit = kg m^2/s)");
+  CHECK(difference_below("/diagnostics/", full_listing(), diagnostics) == "");
+  add_listed(frames, "/frames/", R"(time = [2] 0.5 | 1.5; time@unit = s; positions@unit = m
+    velocities@unit = m/s)");
+  frames["/frames/positions"] = counted_text({2, 4, 3}, 100);
+  frames["/frames/velocities"] = counted_text({2, 4, 3}, 200);
+  Trajectory bare(bare_scene());
+  bare.add_frames();
+  const Listing all = bare.finished();
+  CHECK(difference_below("/frames/", all, frames) == "");
+  add_listed(mesh, "/mesh/", R"(triangles = [2 x 3] 0 | 1 | 2 | 1 | 3 | 2; mass@unit = kg
+    mass = [4] 0.25 | 0.5 | 0.75 | 1.5; held = [4] 0 | 0 | 1 | 0; rest_positions@unit = m
+    rest_positions = [4 x 3] 70 | 71 | 0 | 73 | 74 | 75 | 76 | 77 | 78 | 79 | 0 | 81)");
+  CHECK(difference_below("/mesh/", all, mesh) == "");
+  for (const char* absent : {"/objects/", "/sticky/", "/gravity"}) CHECK(!all.contains(absent));
 }
 
-TEST_CASE("trajectory: a file for ParaView names each frame of the arrays") {
-  const ScratchFolder scratch;
-  const std::string path = scratch.file("a&b.h5");
-  {
-    TrajectoryFile file(path, bare_scene(), system_specimen(), {}, {});
-    for (const double time : {0.5, 1.0 / 3, 2.75}) file.add_frame(state_at(time, 1));
-    file.finish("", 0, {});
+TEST_CASE("trajectory: objects have their surface, and their pose or vertices in each frame") {
+  Listing expected;
+  add_listed(expected, "/objects/", "0/; 1/");
+  add_listed(expected, "/objects/0/", R"(@name = a ball; @shape = a sphere; @friction = 0.375
+    triangles = [3 x 3] 0 | 1 | 2 | 1 | 4 | 3 | 2 | 3 | 4; vertices@unit = m; rotation@unit = 1
+    translation = [2 x 3] 2 | 1 | 4.5 | 4 | -1 | 7.5; translation@unit = m)");
+  add_listed(expected, "/objects/1/", R"(@name = a body; @shape = a mesh; @friction = 0.625
+    triangles = [1 x 3] 2 | 0 | 1; vertices@unit = m; positions@unit = m)");
+  expected["/objects/0/vertices"] = counted_text({5, 3}, 10);
+  expected["/objects/1/vertices"] = counted_text({3, 3}, 20);
+  expected["/objects/1/positions"] = counted_text({2, 3, 3}, 24.5);
+  const Eigen::Quaterniond q = pose_at(drifting(), 0.5).rotation;
+  CHECK(q.isApprox(turn));
+  expected["/objects/0/rotation"] =
+      array_text({2, 4}, Numbers{q.w(), q.x(), q.y(), q.z(), q.w(), q.x(), q.y(), q.z()});
+  CHECK(difference_below("/objects/", full_listing(), expected) == "");
+}
+
+TEST_CASE("trajectory: each particle's distance is that to the nearest solid at the frame's time") {
+  Trajectory run(full_scene());
+  run.add_frames();
+  CHECK(run.finished().at("/frames/object_distance@unit") == "m");
+  const Numbers phi =
+      Hdf5::open_file(run.path).open_group("frames").read_doubles("object_distance");
+  for (int k = 0; k < 8; ++k) {
+    const double time = k < 4 ? 0.5 : 1.5, first = 100 + 3 * k;
+    const Vector3 x(first, first + 1, first + 2), centre(1 + 2 * time, 2 - 2 * time, 3 + 3 * time);
+    CHECK(phi.at(std::size_t(k)) ==
+          Approx(std::min((x - centre).norm() - 0.5, (x - Vector3(104, 2, 200)).norm() - 1.25)));
   }
-  const std::string text = bytes_of_file(scratch.file("a&b.xdmf"));
-  CHECK_THAT(text,
-             Catch::StartsWith("<?xml version=\"1.0\" ?>\n<Xdmf Version=\"3.0\">\n  <Domain>\n"));
-  CHECK_THAT(text, Catch::EndsWith("      </Grid>\n    </Grid>\n  </Domain>\n</Xdmf>\n"));
-  CHECK(count(text, "<Grid Name=\"frame ") == 3);
-  CHECK(count(text, "CollectionType=\"Temporal\"") == 1);
-  for (const auto& [frame, time] :
-       {std::pair("0", "0.5"), {"1", "0.33333333333333331"}, {"2", "2.75"}}) {
-    const std::string k = frame;
-    CHECK(count(text, "<Grid Name=\"frame " + k +
-                          "\" GridType=\"Uniform\">\n        <Time Value=\"" + time + "\"/>") == 1);
-    CHECK(count(text, ">" + k + " 0 0 1 1 1 1 4 3</DataItem>") == 2);
-  }
-  CHECK(count(text, "TopologyType=\"Triangle\" NumberOfElements=\"2\"") == 3);
-  CHECK(count(text, "Dimensions=\"2 3\"") == 3);
-  CHECK(count(text, "Format=\"HDF\">a&amp;b.h5:/mesh/triangles<") == 3);
-  CHECK(count(text, "ItemType=\"HyperSlab\" Dimensions=\"4 3\"") == 6);
-  CHECK(count(text,
-              "Dimensions=\"3 4 3\" NumberType=\"Float\" Precision=\"8\" "
-              "Format=\"HDF\">a&amp;b.h5:/frames/positions<") == 3);
-  CHECK(count(text, "Format=\"HDF\">a&amp;b.h5:/frames/velocities<") == 3);
+}
+
+TEST_CASE("trajectory: sticky patches are stored, and the bonds of all frames one after another") {
+  Listing expected;
+  add_listed(expected, "/sticky/", R"(bond_counts = [2] 2 | 0; bond_counts@unit = 1; 0/; 1/
+    bonds = [2 x 3] 0 | 1 | 3 | 1 | 7 | 0; bonds@unit = 1; places@unit = 1, 1, m
+    places = [2 x 3] 0.125 | 0.25 | 0.5 | 3.5 | 0.375 | -0.75
+    0/@name = a palm; 0/@is_cloth = 0; 0/triangles = [2 x 3] 0 | 1 | 2 | 2 | 1 | 3
+    0/particles = [3] 3 | 1 | 2; 1/@name = a seam; 1/@is_cloth = 1
+    1/triangles = [1 x 3] 1 | 3 | 2; 1/particles = [1] 0)");
+  CHECK(difference_below("/sticky/", full_listing(), expected) == "");
 }
 
 TEST_CASE("trajectory: until it is finished each frame lies in a partial file") {
-  const long before = H5Fget_obj_count(H5F_OBJ_ALL, H5F_OBJ_ALL);
-  const ScratchFolder scratch;
-  const std::string path = scratch.write("a.h5", "older"), partial = path + ".partial";
-  TrajectoryFile file(path, bare_scene(), system_specimen(), {}, {});
-  for (const double time : {0.5, 1.5}) {
-    file.add_frame(state_at(time, 1));
-    std::filesystem::copy_file(partial, scratch.file("copy" + std::to_string(time)));
-    const Hdf5 copy = Hdf5::open_file(scratch.file("copy" + std::to_string(time)));
-    CHECK(copy.open_group("frames").read_doubles("time").back() == time);
-  }
-  CHECK(bytes_of_file(path) == "older");
-  file.finish("", 0, {});
-  CHECK(H5Fget_obj_count(H5F_OBJ_ALL, H5F_OBJ_ALL) == before);
-  CHECK_FALSE(std::filesystem::exists(partial));
-  CHECK(RawFile(path).numbers("frames/time") == Numbers{0.5, 1.5});
+  const State s{0.5, counted(4, 1), counted(4, 2)};
+  Trajectory run(bare_scene());
+  run.file->add_frame(s);
+  std::filesystem::copy_file(run.partial, run.scratch.file("copy"));
+  CHECK(hdf5_listing(run.scratch.file("copy")).at("/frames/time") == "[1] 0.5");
+  CHECK_FALSE(std::filesystem::exists(run.path));
+  run.finished();
+  CHECK_FALSE(std::filesystem::exists(run.partial));
+  const Trajectory full(bare_scene());
+  const FileSizeLimit limit(900);
+  CHECK_THROWS_WITH(full.file->add_frame(s), Catch::Contains(full.path));
 }
 
-TEST_CASE("trajectory: a write that fails names the file") {
-  const ScratchFolder scratch;
-  const std::string path = scratch.file("a.h5");
-  {
-    TrajectoryFile file(path, bare_scene(), system_specimen(), {}, {});
-    const FileSizeLimit limit(900);
-    CHECK_THROWS_WITH(
-        file.add_frame(state_at(0.5, 1)),
-        Equals(path +
-               ": cannot be written (HDF5: cannot write what was buffered); is the disk full?"));
-    CHECK_THROWS_WITH(
-        file.finish("", 0, {}),
-        Equals(path +
-               ": cannot be written (HDF5: cannot write what was buffered); is the disk full?"));
+TEST_CASE("trajectory: a file for ParaView names each frame of the arrays") {
+  Trajectory run(bare_scene());
+  for (const double time : {0.5, 1.0 / 3, 2.75})
+    run.file->add_frame({time, counted(4, 1), counted(4, 2)});
+  run.finished();
+  const std::string text = bytes_of_file(run.scratch.file("a&b.xdmf"));
+  const auto count = [&](const std::string& part) {
+    int found = 0;
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+      ++found;
+    return found;
+  };
+  CHECK_THAT(text, Catch::StartsWith("<?xml version=\"1.0\" ?>\n<Xdmf Version=\"3.0\">\n"));
+  CHECK_THAT(text, Catch::EndsWith("      </Grid>\n    </Grid>\n  </Domain>\n</Xdmf>\n"));
+  int k = 0;
+  for (const char* time : {"0.5", "0.33333333333333331", "2.75"}) {
+    const std::string frame = std::to_string(k++);
+    CHECK(count("<Grid Name=\"frame " + frame + "\" GridType=\"Uniform\">\n        <Time Value=\"" +
+                time + "\"/>") == 1);
+    CHECK(count(">" + frame + " 0 0 1 1 1 1 4 3</DataItem>") == 2);
   }
-  CHECK_FALSE(std::filesystem::exists(path));
-  std::filesystem::create_directory(path);
-  CHECK_THROWS_WITH(TrajectoryFile(path, bare_scene(), system_specimen(), {}, {}),
-                    Equals(path + ": cannot be written: what is there is no file"));
-  CHECK_FALSE(std::filesystem::exists(scratch.file("a.h5.partial.partial")));
+  const std::string array = R"(Dimensions="3 4 3" NumberType="Float" Precision="8" Format="HDF">)";
+  const std::pair<std::string, int> parts[] = {
+      {"<Grid Name=\"frame ", 3},
+      {"TopologyType=\"Triangle\" NumberOfElements=\"2\"", 3},
+      {"Dimensions=\"2 3\"", 3},
+      {"Format=\"HDF\">a&amp;b.h5:/mesh/triangles<", 3},
+      {"ItemType=\"HyperSlab\" Dimensions=\"4 3\"", 6},
+      {array + "a&amp;b.h5:/frames/positions<", 3},
+      {array + "a&amp;b.h5:/frames/velocities<", 3}};
+  for (const auto& [part, times] : parts) CHECK(count(part) == times);
+}
+
+TEST_CASE("stored frames: triangles are of three particles that are there") {
+  RunFile file;
+  file.write();
+  const StoredFrames run = read_stored_frames(file.path);
+  CHECK(run.triangles == std::vector<Triangle>{{3, 1, 4}, {2, 0, 11}});
+  CHECK((run.times == file.times && run.positions == file.positions));
+  for (const size_t k : {0, 1}) CHECK(run.frame(k) == counted(12, 1 + 36 * double(k)));
+  file.corners.back() = 12;
+  file.check_refused("a triangle names particle 12 of 12");
+  file.corners.back() = -1;
+  file.check_refused("a triangle names particle -1 of 12");
+  file.corners.pop_back();
+  file.check_refused("its positions are not three a particle in every frame, or its triangles");
+}
+
+TEST_CASE("stored run: frames are refused that are not of their particles, or not there") {
+  RunFile file;
+  const char *const uneven = "its positions are not three a particle in every frame",
+                    *const unfit = "its frames are not of the 12 particles";
+  for (const size_t count : {71u, 73u, 75u, 69u}) {
+    file.positions = ramp(count);
+    file.check_refused(uneven, unfit);
+  }
+  file.positions = ramp(72), file.velocities = ramp(36);
+  CHECK_THROWS_WITH(file.read(), Catch::Contains(unfit));
+  file.times.clear(), file.positions.clear();
+  file.check_refused(uneven, unfit);
+  { const Hdf5 other = Hdf5::create_file(file.path); }
+  const std::string none = file.path + ": is no stored simulation: ";
+  CHECK_THROWS_WITH(read_stored_frames(file.path), Catch::StartsWith(none));
+  CHECK_THROWS_WITH(read_stored_run(file.path), Catch::StartsWith(none));
+}
+
+TEST_CASE("stored run: its case with the overrides at the end of its text, and frames are read") {
+  RunFile file;
+  const StoredRun run = file.read();
+  CHECK((run.scene.name == "small" && run.scene.folder == "some/folder"));
+  CHECK((run.scene.title == "A title of its own" && run.times == file.times));
+  for (const size_t k : {0, 1}) {
+    const State s = run.frame(k);
+    CHECK((s.time == file.times[k] && s.x == counted(12, 1 + 36 * double(k))));
+    CHECK(s.v == counted(12, 101 + 36 * double(k)));
+  }
+  const std::string density = "\n# --set cloth.density=", end = "\n# --set time.end=0.9";
+  const auto check = [&](const std::string& overrides, double expected_density, double last) {
+    file.text = small_case + overrides;
+    const Scene scene = file.read().scene;
+    CHECK((scene.density == expected_density && scene.schedule.end == last));
+    CHECK(scene.text == file.text);
+  };
+  check("", 0.2, 0.7);
+  check(density + "0.4" + density + "0.3" + end, 0.3, 0.9);
+  check(density + "0.4\n# a comment" + end, 0.2, 0.9);
+  check(density + "0.4\n", 0.2, 0.7);  // a line ends after it
+  file.text = "[cloth]\nshape = \"no such\"\n";
+  CHECK_THROWS_WITH(file.read(), Catch::StartsWith("some/folder/small.toml:"));
 }
 
 }  // namespace foldproof

@@ -1,36 +1,83 @@
-// Rigidities of meshes of hinges: what is refused, ribbons against a second count, directions.
+// Statics of strips, plates and meshes of hinges: tables, counts by hand, and refused meshes.
 #include <Eigen/Dense>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <numbers>
 
 #include "reference/types.h"
 #include "verification/oracles/homogenised_bending.h"
+#include "verification/oracles/sheets/growing_ring.h"
+#include "verification/oracles/sheets/sagging_plate.h"
+#include "verification/oracles/tip_load.h"
 
 using namespace foldproof;
 using namespace foldproof::oracles;
 
-namespace {
-
-constexpr double root3 = std::numbers::sqrt3;
-
-/// A ribbon of equilateral triangles as a finite sheet: `cells` along x, `rows` across.
-PlaneSheet ribbon_sheet(double edge, int rows, int cells) {
-  PlaneSheet sheet;
-  const double height = edge * root3 / 2;
-  const auto vertex = [cells](int i, int j) { return j * (cells + 1) + i; };
-  sheet.points.resize(2, (cells + 1) * (rows + 1));
-  for (int j = 0; j <= rows; ++j)
-    for (int i = 0; i <= cells; ++i)
-      sheet.points.col(vertex(i, j)) = Eigen::Vector2d((i + .5 * (j % 2)) * edge, j * height);
-  return sheet;
+TEST_CASE("the loaded tip by elliptic integrals is that of shooting, and the table's") {
+  const std::array<std::array<double, 3>, 3> table{
+      {{1, .05643324, .30172077}, {4, .32894124, .66996418}, {10, .55499560, .81060902}}};
+  for (const auto& [alpha, shortening, drop] : table) {
+    const LoadedTip tip = tip_load(alpha), other = tip_load_by_shooting(alpha);
+    CHECK(std::abs(1 - tip.reach.value - shortening) < 5.1e-9 + tip.reach.uncertainty);
+    CHECK(std::abs(tip.drop.value - drop) < 5.1e-9 + tip.drop.uncertainty);
+    CHECK(tip.drop.uncertainty < 1e-10);
+    CHECK(std::abs(tip.drop.value - other.drop.value) <=
+          tip.drop.uncertainty + other.drop.uncertainty);
+    CHECK(std::abs(tip.reach.value - other.reach.value) <=
+          tip.reach.uncertainty + other.reach.uncertainty);
+    CHECK(other.drop.uncertainty < 1e-8);
+  }
+  CHECK(std::abs(tip_load(1e-3).drop.value / (1e-3 / 3) - 1) < 1e-5);
+  CHECK_THROWS_AS(tip_load(std::nan("")), InputError);
 }
 
-Eigen::Matrix3d diagonal(double a, double b, double c) {
-  return Eigen::Vector3d(a, b, c).asDiagonal();
+TEST_CASE("a narrow ring of plate sags as a cantilever") {
+  // by width^4/8; the ring grows outward and is bent around, each by the next power
+  for (const double width : {2e-3, 7e-3})
+    CHECK(std::abs(8 * sag_of_ring_by_formula({1 - width, 0.3}).value / std::pow(width, 4) - 1) <
+          2 * width);
 }
 
-}  // namespace
+TEST_CASE("hinges on finer and finer rings sag as a plate does, to the second order") {
+  const GrowingRing coarse{36, 4, 0.37}, fine{100, 12, 0.37};
+  REQUIRE(std::abs(coarse.edge() / fine.edge() - 1) < 1e-14);
+  const double plate = sag_of_ring_by_formula({fine.plate / fine.edge(), poisson_of_hinges}).value;
+  const double off = 1 - sag_of_hinges(coarse) / plate, less = 1 - sag_of_hinges(fine) / plate;
+  CHECK(off > 0);
+  CHECK(off < 0.03);
+  CHECK(std::abs(std::log(off / less) / std::log(12.5 / 4.5) - 2) < 0.1);
+}
+
+TEST_CASE("homogenised rigidities are the table's") {
+  const PeriodicMesh alternating =
+      split_rectangles({.7, .7, 1, 2, [](int, int j) { return j % 2 == 0; }});
+  const PeriodicMesh union_jack =
+      split_rectangles({1.3, 1.3, 2, 2, [](int i, int j) { return (i + j) % 2 == 0; }});
+  struct Row {
+    PeriodicMesh mesh;
+    std::array<double, 4> relaxed;  // at 0, 45, 90, 135 degrees
+    double tolerance;               // of the table's last digit
+  };
+  const std::array<Row, 6> table{
+      {{equilateral_triangles(.3), {.25, .25, .25, .25}, 1e-12},
+       {split_rectangles({}), {.25, .75, .25, .25}, 1e-12},
+       {alternating, {.25, .4375, .25, .4375}, 1e-12},
+       {union_jack, {.2083, .3333, .2083, .3333}, 5e-5},
+       {crossed_squares(2.1), {.3333, .2083, .3333, .2083}, 5e-5},
+       {split_rectangles({4, 1, 1, 1, nullptr}), {.25, 2.789, .25, 1.727}, 5e-4}}};
+  for (const Row& row : table) {
+    const Eigen::Matrix3d R = relaxed_rigidity(row.mesh);
+    for (size_t k = 0; k < 4; ++k)
+      CHECK(std::abs(cylinder_rigidity(R, double(k) * pi / 4) - row.relaxed[k]) <= row.tolerance);
+    const Eigen::Matrix3d stiffer = forced_rigidity(row.mesh) - R;
+    CHECK(stiffer.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff() > -1e-12);
+  }
+  const Eigen::Matrix3d one_diagonal = relaxed_rigidity(split_rectangles({}));
+  CHECK(std::abs(cylinder_range(one_diagonal).least - .1875) < 2e-6);
+  CHECK(std::abs(cylinder_range(one_diagonal).greatest - .75) < 2e-6);
+  CHECK(std::abs(strip_rigidity(one_diagonal, 0) - .2) < 1e-12);
+  CHECK(std::abs(strip_rigidity(relaxed_rigidity(equilateral_triangles(1)), .4) - 2. / 9) < 1e-12);
+}
 
 TEST_CASE("a cylinder's rigidity takes the twist twice, and a strip curves freely across") {
   Eigen::Matrix3d R;
@@ -44,125 +91,65 @@ TEST_CASE("a cylinder's rigidity takes the twist twice, and a strip curves freel
 }
 
 TEST_CASE("the range of rigidities holds all directions, and touches both its ends") {
-  // D = 2 c^4 + .5 s^4 + 4 .3 c^2 s^2: stationary in c^2, where 2 c^2 + (.6 - 2 .. ) vanishes
-  const RigidityRange range = cylinder_range(diagonal(2, .5, .3));
-  double least = INFINITY, greatest = 0;
-  for (int i = 0; i <= 100000; ++i) {
-    const double p = i * 1e-5, D = 2 * p * p + .5 * (1 - p) * (1 - p) + 1.2 * p * (1 - p);
-    least = std::min(least, D);
-    greatest = std::max(greatest, D);
-  }
-  CHECK(range.least == Approx(least).epsilon(2e-6));
-  CHECK(range.greatest == Approx(greatest).epsilon(2e-6));
-  CHECK(range.greatest == 2);  // at no angle
-  CHECK(cylinder_range(diagonal(.5, 2, .6)).least == .5);
+  Eigen::Matrix3d level = Eigen::Vector3d(2, .5, .3).asDiagonal(), turned;
+  CHECK(cylinder_range(level).greatest == 2);  // at no angle
+  CHECK(cylinder_range(level).least == Approx(.5).epsilon(2e-6));
   // the greatest lies between two eighths of a turn beyond a right angle
-  Eigen::Matrix3d R = diagonal(.5, .5, .3);
-  R(0, 2) = R(2, 0) = R(1, 2) = R(2, 1) = -.2;
-  const RigidityRange turned = cylinder_range(R);
-  CHECK(turned.greatest == Approx(cylinder_rigidity(R, 3 * pi / 4)).epsilon(2e-6));
-  CHECK(turned.least == Approx(cylinder_rigidity(R, pi / 4)).epsilon(2e-6));
-  CHECK(turned.greatest > turned.least + .1);
-}
-
-TEST_CASE("blocks of rectangles repeat with their own widths and heights") {
-  const PeriodicMesh mesh =
-      split_rectangles({.7, .3, 3, 2, [](int i, int j) { return i == 1 && j == 0; }});
-  CHECK(mesh.period_a == Eigen::Vector2d(3 * .7, 0));
-  CHECK(mesh.period_b == Eigen::Vector2d(0, 2 * .3));
-  REQUIRE(mesh.sites.size() == 6);
-  CHECK(mesh.sites[4] == Eigen::Vector2d(.7, .3));  // by rows
-  REQUIRE(mesh.triangles.size() == 12);
-  double area = 0;
-  for (const std::array<PeriodicCorner, 3>& triangle : mesh.triangles) {
-    std::array<Eigen::Vector2d, 3> x;
-    for (std::size_t k = 0; k < 3; ++k)
-      x[k] = mesh.sites[std::size_t(triangle[k].site)] + triangle[k].along_a * mesh.period_a +
-             triangle[k].along_b * mesh.period_b;
-    const Eigen::Vector2d u = x[1] - x[0], w = x[2] - x[0];
-    const double twice = u.x() * w.y() - u.y() * w.x();
-    CHECK(twice == Approx(.7 * .3).epsilon(1e-14));  // half a rectangle each, counter-clockwise
-    area += twice / 2;
-  }
-  CHECK(area == Approx(6 * .7 * .3).epsilon(1e-14));
-  // the middle one of the lower row rises, its neighbour falls
-  CHECK(mesh.triangles[2][2].site == 5);
-  CHECK(mesh.triangles[0][2].site == 3);
-}
-
-TEST_CASE("meshes of one shape are as stiff whatever their size, but not their proportions") {
-  for (const double size : {.2, 3.1}) {
-    CHECK((relaxed_rigidity(crossed_squares(size)) - relaxed_rigidity(crossed_squares(1))).norm() <
-          1e-13);
-    CHECK((forced_rigidity(equilateral_triangles(size)) - forced_rigidity(equilateral_triangles(1)))
-              .norm() < 1e-13);
-    CHECK((relaxed_rigidity(split_rectangles({2 * size, size, 1, 1, nullptr})) -
-           relaxed_rigidity(split_rectangles({2, 1, 1, 1, nullptr})))
-              .norm() < 1e-13);
-  }
-  // x and y change places with the sides
-  const Eigen::Matrix3d wide = forced_rigidity(split_rectangles({2, 1, 1, 1, nullptr})),
-                        high = forced_rigidity(split_rectangles({1, 2, 1, 1, nullptr}));
-  CHECK(wide(0, 2) == Approx(high(1, 2)).epsilon(1e-13));
-  CHECK(wide(1, 2) == Approx(high(0, 2)).epsilon(1e-13));
-  CHECK(wide(2, 2) == Approx(high(2, 2)).epsilon(1e-13));
-  CHECK(std::abs(wide(0, 2) - wide(1, 2)) > 1e-3);
+  turned << .5, 0, -.2, 0, .5, -.2, -.2, -.2, .3;
+  const RigidityRange range = cylinder_range(turned);
+  CHECK(range.greatest == Approx(cylinder_rigidity(turned, 3 * pi / 4)).epsilon(2e-6));
+  CHECK(range.least == Approx(cylinder_rigidity(turned, pi / 4)).epsilon(2e-6));
 }
 
 TEST_CASE("a periodic mesh must close, with one triangle on each side of each edge") {
-  PeriodicMesh mesh = equilateral_triangles(1);
-  mesh.triangles.pop_back();
-  CHECK_THROWS_WITH(forced_rigidity(mesh), "oracle homogenised_bending: an edge has one triangle");
-  mesh = equilateral_triangles(1);
-  mesh.triangles.push_back(mesh.triangles[0]);
-  CHECK_THROWS_WITH(relaxed_rigidity(mesh),
-                    "oracle homogenised_bending: an edge has two triangles on one side");
-  mesh = equilateral_triangles(1);
-  for (auto& triangle : mesh.triangles) std::swap(triangle[0], triangle[1]);
-  CHECK_THROWS_WITH(forced_rigidity(mesh),
-                    "oracle homogenised_bending: a triangle has no area or is turned over");
-  mesh = equilateral_triangles(1);
-  mesh.period_b = Eigen::Vector2d(.5, 0);
-  CHECK_THROWS_AS(forced_rigidity(mesh), InputError);
+  PeriodicMesh open = equilateral_triangles(1), doubled = open, over = open, thin = open;
+  open.triangles.pop_back();
+  doubled.triangles.push_back(doubled.triangles[0]);
+  for (auto& triangle : over.triangles) std::swap(triangle[0], triangle[1]);
+  thin.period_b = Eigen::Vector2d(.5, 0);
+  CHECK_THROWS_WITH(forced_rigidity(open), Catch::Contains("an edge has one triangle"));
+  CHECK_THROWS_WITH(relaxed_rigidity(doubled), Catch::Contains("two triangles on one side"));
+  CHECK_THROWS_WITH(forced_rigidity(over), Catch::Contains("no area or is turned over"));
+  CHECK_THROWS_AS(forced_rigidity(thin), InputError);
+  CHECK_THROWS_WITH(equilateral_ribbon(1, 1), Catch::Contains("a ribbon needs two rows"));
 }
 
-TEST_CASE("hinges with either triangle flat are refused") {
-  PlaneSheet sheet;
-  sheet.points.resize(2, 4);
-  sheet.hinges = {{0, 1, 2, 3}};
-  sheet.counted = {1};
-  sheet.held = {1, 1, 1, 1};
-  sheet.points << .4, .6, 0, 1, 0, -.5, 0, 0;
-  CHECK_THROWS_AS(forced_cylinder_rigidity(sheet, .3), InputError);
-  sheet.points << .4, .6, 0, 1, .7, 0, 0, 0;
-  CHECK_THROWS_AS(forced_cylinder_rigidity(sheet, .3), InputError);
-  sheet.points << .4, .6, 0, 1, .7, -.5, 0, 0;
-  CHECK(forced_cylinder_rigidity(sheet, .3) > 0);
-}
-
-TEST_CASE("only counted hinges of a sheet weigh, each as its triangles' areas") {
+TEST_CASE("hinges of a sheet turn by the angle between normals, and weigh by their areas") {
   PlaneSheet sheet;
   sheet.points.resize(2, 5);
   sheet.points << .4, .6, 0, 1.1, 1.7, .8, -.5, 0, .2, .9;
   sheet.hinges = {{0, 1, 2, 3}, {2, 4, 3, 0}};
-  sheet.counted = {1, 1};
   sheet.held = {1, 1, 1, 1, 1};
-  const auto twice_area = [&](int a, int b, int c) {
-    const Eigen::Vector2d u = sheet.points.col(b) - sheet.points.col(a),
-                          w = sheet.points.col(c) - sheet.points.col(a);
-    return std::abs(u.x() * w.y() - u.y() * w.x());
-  };
-  const double first_weight = twice_area(0, 2, 3) + twice_area(1, 2, 3),
-               second_weight = twice_area(2, 3, 0) + twice_area(4, 3, 0), angle = .7;
-  const double both = forced_cylinder_rigidity(sheet, angle);
-  sheet.counted = {1, 0};
-  const double first = forced_cylinder_rigidity(sheet, angle);
-  sheet.counted = {0, 1};
-  const double second = forced_cylinder_rigidity(sheet, angle);
-  CHECK(std::abs(first - second) > 1e-3);
-  CHECK(both ==
-        Approx((first * first_weight + second * second_weight) / (first_weight + second_weight))
-            .epsilon(1e-12));
+  const double angle = .6, curvature = 1e-5;
+  double energy = 0, weights = 0;
+  for (std::size_t k = 0; k < 2; ++k) {
+    std::array<Eigen::Vector3d, 4> x;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Eigen::Vector2d p = sheet.points.col(sheet.hinges[k][i]);
+      const double s = std::cos(angle) * p.x() + std::sin(angle) * p.y();
+      x[i] = Eigen::Vector3d(p.x(), p.y(), curvature * s * s / 2);
+    }
+    const Eigen::Vector3d above = (x[0] - x[2]).cross(x[0] - x[3]),
+                          below = (x[1] - x[3]).cross(x[1] - x[2]);
+    const double areas = above.norm() + below.norm(), factor = (x[3] - x[2]).squaredNorm() / areas,
+                 theta = std::atan2(above.cross(below).norm(), above.dot(below)) / curvature;
+    const double expected = factor / 2 * theta * theta;
+    sheet.counted = {k == 0, k == 1};
+    CHECK(forced_cylinder_rigidity(sheet, angle) == Approx(expected / (areas / 6)).epsilon(1e-8));
+    energy += expected;
+    weights += areas / 6;
+  }
+  sheet.counted = {1, 1};
+  const double held = forced_cylinder_rigidity(sheet, angle);
+  CHECK(held == Approx(energy / weights).epsilon(1e-8));
+  CHECK(relaxed_cylinder_rigidity(sheet, angle) == Approx(held).epsilon(1e-14));
+  sheet.held[0] = 0;
+  CHECK(relaxed_cylinder_rigidity(sheet, angle) < held * (1 - 1e-3));
+  CHECK(relaxed_cylinder_rigidity(sheet, angle) > 1e-3);
+  sheet.held[4] = 0;
+  CHECK(std::abs(relaxed_cylinder_rigidity(sheet, angle)) < 1e-12);
+  std::swap(sheet.hinges[0][0], sheet.hinges[0][1]);
+  CHECK_THROWS_AS(forced_cylinder_rigidity(sheet, angle), InputError);
 }
 
 // Every hinge: theta = (w1 + w2 - w3 - w4)/h, c = l/(2 h). A period has four slanting hinges and
@@ -170,52 +157,9 @@ TEST_CASE("only counted hinges of a sheet weigh, each as its triangles' areas") 
 // turns by l^2/(2 h), wherever its rows are shifted; a shift makes the middle one flat. Twisting,
 // w = x y/2: the slanting ones turn by l/2, the middle one does not.
 TEST_CASE("a ribbon of two rows is as stiff as its three kinds of hinges") {
-  const double edge = .7, h = edge * root3 / 2, c = edge / (2 * h);
+  const double edge = .7, h = edge * std::sqrt(.75), c = edge / (2 * h);
   const RibbonRigidity two = equilateral_ribbon(edge, 2);
   CHECK(two.bending ==
         Approx(c / 2 * 4 * std::pow(edge * edge / (2 * h), 2) / edge).epsilon(1e-13));
   CHECK(two.twisting == Approx(4 * c / 2 * 4 * std::pow(edge / 2, 2) / edge).epsilon(1e-13));
-}
-
-TEST_CASE("ribbons scale with their edge, and grow by the sheet's own with each row pair") {
-  CHECK_THROWS_WITH(equilateral_ribbon(1, 1),
-                    "oracle homogenised_bending: a ribbon needs two rows");
-  const RibbonRigidity one = equilateral_ribbon(1, 6), wide = equilateral_ribbon(2.3, 6);
-  CHECK(wide.bending == Approx(2.3 * one.bending).epsilon(1e-11));
-  CHECK(wide.twisting == Approx(2.3 * one.twisting).epsilon(1e-11));
-  const Eigen::Matrix3d R = relaxed_rigidity(equilateral_triangles(1));
-  const RibbonRigidity wider = equilateral_ribbon(1, 26);
-  const double added = 20 * root3 / 2;
-  CHECK((wider.bending - one.bending) / added == Approx(strip_rigidity(R, 0)).epsilon(1e-6));
-  CHECK((wider.twisting - one.twisting) / added == Approx(4 * R(2, 2)).epsilon(1e-6));
-}
-
-TEST_CASE("points that are not held move to where the sheet bends least") {
-  // a ribbon as a finite sheet: its free points take the least energy that any shift of one gives
-  PlaneSheet sheet = ribbon_sheet(1, 2, 3);
-  const auto v = [](int i, int j) { return j * 4 + i; };
-  // the middle row's three edges, and slanting ones of both rows
-  sheet.hinges = {{v(1, 2), v(1, 0), v(0, 1), v(1, 1)},
-                  {v(2, 2), v(2, 0), v(1, 1), v(2, 1)},
-                  {v(0, 1), v(2, 0), v(1, 0), v(1, 1)},
-                  {v(1, 1), v(2, 2), v(2, 1), v(1, 2)}};
-  for (auto& hinge : sheet.hinges) {  // corner 0 above the directed edge
-    const Eigen::Vector2d e = sheet.points.col(hinge[3]) - sheet.points.col(hinge[2]),
-                          a = sheet.points.col(hinge[0]) - sheet.points.col(hinge[2]);
-    if (e.x() * a.y() - e.y() * a.x() < 0) std::swap(hinge[0], hinge[1]);
-  }
-  sheet.counted = {1, 1, 1, 1};
-  sheet.held.assign(12, 1);
-  const double angle = .5, held = relaxed_cylinder_rigidity(sheet, angle);
-  CHECK(held == Approx(forced_cylinder_rigidity(sheet, angle)).epsilon(1e-14));
-  sheet.held[std::size_t(v(1, 1))] = 0;
-  const double one_free = relaxed_cylinder_rigidity(sheet, angle);
-  sheet.held[std::size_t(v(2, 2))] = 0;
-  const double two_free = relaxed_cylinder_rigidity(sheet, angle);
-  CHECK(one_free < held * (1 - 1e-3));
-  CHECK(two_free < one_free * (1 - 1e-3));
-  CHECK(two_free >= 0);
-  sheet.held.assign(12, 0);
-  CHECK_THROWS_WITH(relaxed_cylinder_rigidity(sheet, angle),
-                    "oracle homogenised_bending: too few points are held");
 }

@@ -25,26 +25,20 @@ inline State drift(const System& system, std::span<const State> past, double h, 
   return next;
 }
 
-inline Integrator drifting(int history) { return {"", "", "", 1, history, drift}; }
+inline Integrator drifting(int history, Family family = Family::mixed) {
+  return {"", "", "", 1, history, drift, family};
+}
 
 /// Four particles of which none moves as the others do, 2 m, 3 m and 6 m apart along the axes.
 inline State start_state() {
-  State s;
-  s.time = 0.7;
-  s.x = (PerParticle3(3, 4) << 0.5, 2.5, 0.7, 1.1, -1, 0.4, 2, 1.7, 0.3, -2.2, 1.4, 3.8).finished();
-  s.v = (PerParticle3(3, 4) << 0.2, -0.1, 0.3, 0.4, 0.1, 0.5, -0.2, 0.3, 0.6, 0.2, 0.1, -0.4)
-            .finished();
-  return s;
+  return {0.7, PerParticle3{{0.5, 2.5, 0.7, 1.1}, {-1, 0.4, 2, 1.7}, {0.3, -2.2, 1.4, 3.8}},
+          PerParticle3{{0.2, -0.1, 0.3, 0.4}, {0.1, 0.5, -0.2, 0.3}, {0.6, 0.2, 0.1, -0.4}}};
 }
 
 inline System masses() { return make_system((PerParticle(4) << 0.4, 0.7, 0.9, 0.3).finished()); }
 
 inline Schedule schedule_of(double end, double interval, double fixed) {
-  Schedule schedule;
-  schedule.end = end;
-  schedule.frame_interval = interval;
-  schedule.step.fixed = fixed;
-  return schedule;
+  return {end, interval, {fixed}};
 }
 
 struct Seen {

@@ -1,203 +1,172 @@
-// Solvers of a Newton step, iterate by iterate, against the textbooks' in dense matrices.
+// Solvers of the implicit velocity and of a Newton step: iterates, ends, ties and breakdowns.
 #include <catch2/catch.hpp>
 
-#include "reference/dynamics/conjugate_gradient.h"
 #include "reference/dynamics/biconjugate_gradient.h"
-#include "verification/tests/reference/dynamics/linear_specimen.h"
+#include "reference/dynamics/conjugate_gradient.h"
+#include "verification/specimens/solver_problems.h"
+#include "verification/tests/reference/dynamics/uneven_matrices.h"
 
 using namespace foldproof;
-using Eigen::MatrixXd, Eigen::VectorXd;
+using Eigen::MatrixXd, Eigen::VectorXd, Eigen::Matrix3d;
 
 namespace {
 
-constexpr double s = 0.07;
+constexpr double s = 0.0625;
+
+/// Four particles, of which the third is prescribed, with full matrices of damping and stiffness.
+struct LinearSystem {
+  PerParticle mass = (PerParticle(4) << 0.31, 1, 0.23, 0.59).finished();
+  PerParticle inverse_mass = (PerParticle(4) << 1 / 0.31, 1, 0, 1 / 0.59).finished();
+  MatrixXd D = -uneven_definite_matrix(12, 21, 2.6), K = -uneven_definite_matrix(12, 160, 0.4);
+  PerParticle3 v = columns(uneven_matrix(12, 1.3, 3.9).col(8));
+
+  DampingOperator damping() const {
+    DampingOperator damping;
+    damping.custom.push_back(
+        [D = D](const PerParticle3& p, PerParticle3& f) { f += columns(D * flat(p)); });
+    return damping;
+  }
+  MatrixXd newton() const { return MatrixXd(of_particles(mass).asDiagonal()) - s * D - s * s * K; }
+  VectorXd of_particles(const PerParticle& a) const {
+    return a.replicate(1, 3).transpose().reshaped();
+  }
+  VectorXd free(const VectorXd& a) const {
+    return (VectorXd(9) << a.head(6), a.tail(3)).finished();
+  }
+  /// solve_unsymmetric_step with the Newton matrix.
+  SolveResult solved(const SolverSettings& settings, const PerParticle3& r, PerParticle3& dw,
+                     Work& work) const {
+    const DampingOperator operator_of_damping = damping();
+    ForceDifferential stiffness;
+    stiffness.custom.push_back(
+        [this](const PerParticle3& p, PerParticle3& f) { f += columns(K * flat(p)); });
+    return solve_unsymmetric_step({mass, inverse_mass, operator_of_damping, stiffness, s}, settings,
+                                  r, dw, work);
+  }
+};
+
+/// The iterates of BiCGSTAB for B y = b from 0 (van der Vorst 1992).
+VectorXd stabilised_gradients(const MatrixXd& B, const VectorXd& b, int iterations) {
+  VectorXd y = VectorXd::Zero(b.size()), r = b, p = y, v = y;
+  double rho = 1, alpha = 1, omega = 1;
+  for (int k = 0; k < iterations; ++k) {
+    const double rho_next = b.dot(r), beta = rho_next / rho * (alpha / omega);
+    rho = rho_next;
+    p = r + beta * (p - omega * v);
+    v = B * p;
+    alpha = rho / b.dot(v);
+    const VectorXd left = r - alpha * v, t = B * left;
+    omega = t.dot(left) / t.dot(t);
+    y += alpha * p + omega * left;
+    r = left - omega * t;
+  }
+  return y;
+}
+
+SolverSettings settings_of(double tolerance, int iterations) {
+  return {tolerance, iterations, ResidualScale::momentum};
+}
 
 }  // namespace
-
-TEST_CASE("the Newton matrix is M - s D - s^2 K, and nothing for prescribed particles") {
-  const LinearSystem of;
-  const DampingOperator damping = of.damping();
-  const ForceDifferential stiffness = of.stiffness();
-  const NewtonMatrix A{of.mass, of.inverse_mass, damping, stiffness, s};
-  PerParticle3 q;
-  Work work;
-  multiply(A, of.v, q, work);
-  VectorXd expected = of.newton(s) * flat(of.v);
-  expected.segment<3>(6).setZero();
-  CHECK(difference(q, columns(expected)) < 1e-13);
-  CHECK(q.col(2) == Vector3::Zero());
-  CHECK(work.damping_products == 1);
-  CHECK(work.stiffness_products == 1);
-}
-
-TEST_CASE("each iterate of a symmetric Newton step is that of plain conjugate gradients") {
-  const LinearSystem of;
-  const DampingOperator damping = of.damping();
-  const ForceDifferential stiffness = of.stiffness();
-  const NewtonMatrix A{of.mass, of.inverse_mass, damping, stiffness, s};
-  PerParticle3 r = of.v;
-  r.col(2).setZero();
-  const VectorXd b = of.free(flat(r)).cwiseQuotient(of.roots());
-  for (int iterations = 0; iterations < 4; ++iterations) {
-    const Iterate expected = conjugate_gradients(of.scaled(of.newton(s)), b, iterations);
-    const SolverSettings settings = settings_of(1e-6, iterations);
-    PerParticle3 dw = PerParticle3::Constant(3, 4, 77);
-    Work work;
-    const SolveResult solve = solve_newton_step(A, settings, r, dw, work);
-    CHECK(difference(dw, of.spread(expected.y, Vector3::Zero())) < 1e-12);
-    CHECK(solve.residual == Approx(expected.residual / b.norm()).epsilon(1e-9));
-    CHECK(solve.iterations == iterations);
-    CHECK_FALSE(solve.converged);
-    CHECK_FALSE(solve.indefinite);
-    CHECK(work.solves == 1);
-    CHECK(work.cg_iterations == iterations);
-    CHECK(work.damping_products == iterations);
-    CHECK(work.stiffness_products == iterations);
-    CHECK(work.unfinished_solves == 0);
-    CHECK(work.worst_residual == 0);
-  }
-}
-
-TEST_CASE("a Newton step ends at its latest iterate where the matrix turns out indefinite") {
-  LinearSystem of;
-  of.D.setZero();
-  // along x the matrix is 2 M, along y -M: of the first direction p.A p is still positive
-  of.K.setZero();
-  for (int i = 0; i < 4; ++i) {
-    of.K(3 * i, 3 * i) = -of.mass[i] / (s * s);
-    of.K(3 * i + 1, 3 * i + 1) = 2 * of.mass[i] / (s * s);
-  }
-  const DampingOperator damping = of.damping();
-  const ForceDifferential stiffness = of.stiffness();
-  const NewtonMatrix A{of.mass, of.inverse_mass, damping, stiffness, s};
-  PerParticle3 r = PerParticle3::Zero(3, 4);
-  r.col(1) = Vector3(0.3, 0.1, 0);
-  PerParticle3 dw;
-  Work work;
-  const SolveResult solve = solve_newton_step(A, settings_of(1e-9, 9), r, dw, work);
-  CHECK(solve.indefinite);
-  CHECK_FALSE(solve.converged);
-  CHECK(solve.iterations == 1);
-  // alpha = (0.09 + 0.01)/(2 0.09 - 0.01), of r/m
-  CHECK((dw.col(1) - 0.1 / 0.17 * r.col(1) / 0.47).norm() < 1e-14);
-  CHECK(dw.col(0) == Vector3::Zero());
-  CHECK(work.stiffness_products == 2);
-  CHECK(work.solves == 1);
-  CHECK(work.cg_iterations == 1);
-
-  r.setZero();
-  CHECK(solve_newton_step(A, settings_of(1e-9, 9), r, dw, work).converged);
-  CHECK(dw == PerParticle3::Zero(3, 4));
-}
 
 TEST_CASE("each iterate of an unsymmetric Newton step is that of plain BiCGSTAB") {
   LinearSystem of;
   of.K += uneven_matrix(12, 60, 1.9);
-  const DampingOperator damping = of.damping();
-  const ForceDifferential stiffness = of.stiffness();
-  const NewtonMatrix A{of.mass, of.inverse_mass, damping, stiffness, s};
   PerParticle3 r = of.v;
   r.col(2).setZero();
-  const VectorXd b = of.free(flat(r)).cwiseQuotient(of.roots());
+  const VectorXd roots = of.free(of.of_particles(of.mass)).cwiseSqrt(),
+                 b = of.free(flat(r)).cwiseQuotient(roots);
+  const std::vector<int> kept{0, 1, 2, 3, 4, 5, 9, 10, 11};
+  const VectorXd inverse = roots.cwiseInverse();
+  const MatrixXd B = inverse.asDiagonal() * of.newton()(kept, kept) * inverse.asDiagonal();
   for (int iterations = 0; iterations < 4; ++iterations) {
-    const Iterate expected = stabilised_gradients(of.scaled(of.newton(s)), b, iterations);
+    const VectorXd expected = stabilised_gradients(B, b, iterations);
     PerParticle3 dw = PerParticle3::Constant(3, 4, 77);
     Work work;
-    const SolveResult solve = solve_unsymmetric_step(A, settings_of(1e-9, iterations), r, dw, work);
-    CHECK(difference(dw, of.spread(expected.y, Vector3::Zero())) < 1e-10);
-    CHECK(solve.residual == Approx(expected.residual / b.norm()).epsilon(1e-7));
+    const SolveResult solve = of.solved(settings_of(1e-9, iterations), r, dw, work);
+    CHECK((of.free(flat(dw)) - expected.cwiseQuotient(roots)).cwiseAbs().maxCoeff() < 1e-10);
+    CHECK(dw.col(2) == Vector3::Zero());
+    CHECK(solve.residual == Approx((b - B * expected).norm() / b.norm()).epsilon(1e-7));
     CHECK(solve.iterations == iterations);
     CHECK_FALSE(solve.converged);
     CHECK_FALSE(solve.indefinite);
     CHECK(work.solves == 1);
-    CHECK(work.cg_iterations == 2 * iterations);
-    CHECK(work.damping_products == 2 * iterations);
-    CHECK(work.stiffness_products == 2 * iterations);
+    for (const long count : {work.cg_iterations, work.damping_products, work.stiffness_products})
+      CHECK(count == 2 * iterations);
   }
   PerParticle3 dw;
   Work work;
-  const double reached = solve_unsymmetric_step(A, settings_of(1e-9, 1), r, dw, work).residual;
+  const auto solved = [&](double tolerance, int most) {
+    return of.solved(settings_of(tolerance, most), r, dw, work);
+  };
+  const double reached = solved(1e-9, 1).residual;
   REQUIRE(reached < 1);
-  const SolveResult same = solve_unsymmetric_step(A, settings_of(reached, 9), r, dw, work);
+  const SolveResult same = solved(reached, 9);
   CHECK(same.converged);
   CHECK(same.iterations == 1);
-  const SolveResult all = solve_unsymmetric_step(A, settings_of(1e-10, 99), r, dw, work);
-  CHECK(all.converged);
-  CHECK((of.free(of.newton(s) * flat(dw) - flat(r))).norm() < 1e-8);
+  CHECK(solved(1e-10, 99).converged);
+  CHECK((of.free(of.newton() * flat(dw) - flat(r))).norm() < 1e-8);
 }
 
 TEST_CASE("BiCGSTAB ends where it breaks down, at its latest iterate") {
-  LinearSystem of;
-  of.D.setZero();
-  of.inverse_mass[2] = 1 / of.mass[2];
-  const DampingOperator damping = of.damping();
-  PerParticle3 dw;
-  const auto solved = [&](const Eigen::Matrix3d& block, const PerParticle3& r, Work& work) {
-    // A = M block, particle by particle
+  const auto expect = [](const Matrix3d& block, double first, double residual, double part) {
+    LinearSystem of;  // A = M block, particle by particle
+    of.D.setZero(), of.K.setZero();
     for (int i = 0; i < 4; ++i)
-      of.K.block<3, 3>(3 * i, 3 * i) = of.mass[i] / (s * s) * (Eigen::Matrix3d::Identity() - block);
-    const ForceDifferential stiffness = of.stiffness();
-    const NewtonMatrix A{of.mass, of.inverse_mass, damping, stiffness, s};
-    return solve_unsymmetric_step(A, settings_of(1e-9, 9), r, dw, work);
+      of.K.block<3, 3>(3 * i, 3 * i) = of.mass[i] / (s * s) * (Matrix3d::Identity() - block);
+    PerParticle3 r = PerParticle3::Zero(3, 4), dw;
+    r(0, 1) = first;
+    Work work;
+    const SolveResult solve = of.solved(settings_of(1e-9, 9), r, dw, work);
+    CHECK((dw - part * r).norm() < 1e-12);
+    CHECK(solve.residual == Approx(residual).epsilon(1e-12).margin(1e-12));
+    CHECK(solve.converged == (residual == 0));
+    CHECK(solve.iterations == (first != 0));
+    CHECK(work.cg_iterations == 2 * (first != 0));
+    CHECK(work.solves == 1);
   };
-  of.K.setZero();
-  PerParticle3 r = PerParticle3::Zero(3, 4);
-  r.col(1) = Vector3(0.5, 0, 0);
-
-  // r.A r = 0: no step at all
-  const Eigen::Matrix3d turn = (Eigen::Matrix3d() << 0, -1, 0, 1, 0, 0, 0, 0, 1).finished();
-  Work none;
-  const SolveResult nothing = solved(turn, r, none);
-  CHECK(dw == PerParticle3::Zero(3, 4));
-  CHECK(nothing.residual == 1);
-  CHECK_FALSE(nothing.converged);
-  CHECK(nothing.iterations == 1);
-  CHECK(none.solves == 1);
-  CHECK(none.cg_iterations == 2);
-
-  // t.s = 0: the first half of a step. A e1 = e1 + e2, A e2 = e3, so that alpha = 1, s = -e2
-  const Eigen::Matrix3d half = (Eigen::Matrix3d() << 1, 0, 0, 1, 0, 0, 0, 1, 0).finished();
-  Work one;
-  const SolveResult stalled = solved(half, r, one);
-  CHECK((dw.col(1) - r.col(1) / 0.47).norm() < 1e-12);
-  CHECK(stalled.residual == Approx(1).epsilon(1e-12));
-  CHECK_FALSE(stalled.converged);
-  CHECK(stalled.iterations == 1);
-
-  // A s = 0: the first half of a step, and no part of the second
-  const Eigen::Matrix3d flat_block = (Eigen::Matrix3d() << 1, 0, 0, 1, 0, 0, 0, 0, 0).finished();
-  Work none_of_s;
-  CHECK(solved(flat_block, r, none_of_s).residual == Approx(1).epsilon(1e-12));
-  CHECK((dw.col(1) - r.col(1) / 0.47).norm() < 1e-12);
-  CHECK(none_of_s.cg_iterations == 2);
-
-  // s = 0: the first half step solves it
-  Work exact;
-  const SolveResult done = solved(2 * Eigen::Matrix3d::Identity(), r, exact);
-  CHECK(done.converged);
-  CHECK(done.iterations == 1);
-  CHECK((dw.col(1) - r.col(1) / 0.94).norm() < 1e-12);
-
-  Work empty;
-  r.setZero();
-  CHECK(solved(turn, r, empty).converged);
-  CHECK(empty.stiffness_products == 0);
-  CHECK(empty.solves == 1);
+  const Matrix3d turn{{0, -1, 0}, {1, 0, 0}, {0, 0, 1}};
+  expect(turn, 0.5, 1, 0);                                       // r.A r = 0: no step at all
+  expect(Matrix3d{{1, 0, 0}, {1, 0, 0}, {0, 1, 0}}, 0.5, 1, 1);  // t.s = 0: the first half
+  expect(Matrix3d{{1, 0, 0}, {1, 0, 0}, {0, 0, 0}}, 0.5, 1, 1);  // A s = 0: the first half
+  expect(2 * Matrix3d::Identity(), 0.5, 0, 0.5);                 // s = 0: the first half is all
+  expect(turn, 0, 0, 0);
 }
 
-TEST_CASE("solves of Newton steps add to what others counted") {
+TEST_CASE("a solve ends as soon as its residual is no larger than the tolerance") {
   const LinearSystem of;
-  const DampingOperator damping = of.damping();
-  const ForceDifferential stiffness = of.stiffness();
-  const NewtonMatrix A{of.mass, of.inverse_mass, damping, stiffness, s};
-  PerParticle3 r = of.v, dw;
-  r.col(2).setZero();
-  Work work;
-  work.solves = 70, work.cg_iterations = 50;
-  solve_newton_step(A, settings_of(1e-12, 3), r, dw, work);
-  CHECK(work.solves == 71);
-  CHECK(work.cg_iterations == 53);
-  solve_unsymmetric_step(A, settings_of(1e-12, 2), r, dw, work);
-  CHECK(work.solves == 72);
-  CHECK(work.cg_iterations == 57);
+  const auto solved = [&](double tolerance, int most) {
+    PerParticle3 w = of.v;
+    Work work;
+    return solve_velocity(system_of(of.mass, of.inverse_mass, settings_of(tolerance, most)),
+                          of.damping(), s, w, work);
+  };
+  const double reached = solved(1e-12, 2).residual;
+  const SolveResult same = solved(reached, 9);
+  CHECK(same.iterations == 2);
+  CHECK(same.converged);
+  CHECK(solved(std::nextafter(reached, 0), 9).iterations == 3);
+}
+
+TEST_CASE("a direction without curvature ends a solve as indefinite, no residual as solved") {
+  const PerParticle mass = (PerParticle(2) << 0.5, 0.25).finished(), inverse = mass.cwiseInverse();
+  const PerParticle3 v{{3, 5}, {7, 11}, {13, 17}};
+  for (const double factor : {0.0, 1.0, 3.0}) {  // D = factor M/s: M - s D = (1 - factor) M
+    DampingOperator damping;
+    damping.custom.push_back(
+        [&](const PerParticle3& p, PerParticle3& f) { f += factor * 4 * (p * mass.asDiagonal()); });
+    SolverSettings settings = settings_of(1e-9, 9);
+    if (factor == 0) settings.scale = ResidualScale::initial_residual;  // which is 0
+    PerParticle3 w = v;
+    Work work;
+    const SolveResult solve =
+        solve_velocity(system_of(mass, inverse, settings), damping, 0.25, w, work);
+    CHECK(w == v);
+    CHECK(solve.iterations == 0);
+    CHECK(solve.indefinite == (factor > 0));
+    CHECK(solve.converged == (factor == 0));
+    CHECK(solve.residual == Approx(factor));
+    CHECK(work.unfinished_solves == (factor > 0));
+    CHECK(work.worst_residual == solve.residual);
+  }
 }

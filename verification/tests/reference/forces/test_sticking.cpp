@@ -1,153 +1,100 @@
-// Targets, forces and bounds of sticking against the formulas at the head of its page.
+// Targets, dampers, derivatives and bounds of sticking.
+#include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "reference/forces/degenerate.h"
-#include "verification/tests/reference/forces/sticking_specimen.h"
+#include "verification/tests/reference/forces/force_differences.h"
 
 using namespace foldproof;
-using namespace foldproof::stuck;
 
-TEST_CASE("a sticky patch by default has no stiffness, no reach, and no end") {
-  const StickyPatch plain;
-  CHECK(plain.stiffness == 0);
-  CHECK(plain.forecast_time == 0);
-  CHECK(plain.near == 0);
-  CHECK(plain.far == 0);
-  CHECK(plain.from == 0);
-  CHECK(plain.until == std::numeric_limits<double>::infinity());
-  CHECK(plain.release == 0);
+namespace {
+
+constexpr int n = 9;  // particles
+
+StickyPatch patch(const std::vector<Triangle>& triangles, double stiffness, double forecast_time,
+                  double far) {
+  StickyPatch made;
+  made.triangles = triangles;
+  made.stiffness = stiffness;
+  made.forecast_time = forecast_time;
+  made.far = far;
+  return made;
 }
 
-TEST_CASE("targets are the means of their bonds' places, in order") {
-  State s = state();
-  for (const Sticking& all : {sticking(), out_of_reach()}) {
-    const std::vector<StickyTarget> targets = all.targets_at(s);
-    REQUIRE(targets.size() == groups.size());
-    for (size_t k = 0; k < groups.size(); ++k) {
-      const Group& group = groups[k];
-      const StickyTarget& target = targets[k];
-      const StickyPatch& patch = all.patches[size_t(group.patch)];
-      CHECK(target.patch == group.patch);
-      CHECK(target.particle == group.particle);
-      CHECK(target.first == group.first);
-      CHECK(target.count == group.count);
-      const Vector3 place = target_at(all, group, s.time, s.x);
-      const double d = (place - s.x.col(group.particle)).norm();
-      CHECK((target.x - place).norm() < 1e-14);
-      CHECK(target.distance == Approx(d).epsilon(1e-14));
-      CHECK(target.stiffness == Approx(stiffness_of(patch, d)).epsilon(1e-12));
-      CHECK(target.stiffness_slope == Approx(slope_of(patch, d)).epsilon(1e-12));
-      const Vector3 v = patch.place ? target_velocity(all, group, s) : Vector3::Zero();
-      CHECK((target.v - v).norm() < 1e-9);
-      CHECK(target.frames.size() == (patch.place ? 0 : group.count));
-    }
+/// Four patches, of which the second and the fourth move by themselves.
+Sticking sticking() {
+  Sticking all{{patch({{0, 1, 2}, {2, 1, 3}}, 19, 0.23, 2.6),
+                patch({{3, 0, 1}, {1, 0, 2}}, 31, 0.41, 2.1), patch({{3, 2, 0}}, 7, 0, 2.3),
+                patch({{2, 3, 1}}, 11, 1, 4.9)}};
+  for (const size_t k : {1u, 3u}) {
+    const double seed = k == 1 ? 6.1 : 8.4;
+    all.patches[k].place = [seed](double t) {
+      return PerParticle3(scattered(4, seed) + t * scattered(4, seed + 1.3));
+    };
+    all.patches[k].velocity = [seed](double) { return scattered(4, seed + 1.3); };
   }
-  s.bonds.clear();
-  CHECK(sticking().targets_at(s).empty());
+  return all;
 }
 
-TEST_CASE("a surface is asked once for its place and velocity, however many stick to it") {
+/// Nine bonds, which have seven targets.
+State state() {
+  State s{0.37, scattered(n, 0.4), scattered(n, 2.9)};
+  s.bonds = {{0, 0, 4, Vector3(0.21, 0.34, 0.13)}, {0, 1, 4, Vector3(0.52, -0.11, -0.28)},
+             {0, 1, 5, Vector3(0.17, 0.48, 0.31)}, {1, 0, 4, Vector3(0.29, 0.23, -0.19)},
+             {1, 0, 6, Vector3(0.11, 0.62, 0.07)}, {1, 1, 6, Vector3(0.41, 0.37, -0.23)},
+             {2, 0, 5, Vector3(0.33, 0.27, 0.09)}, {3, 0, 7, Vector3(0.44, 0.19, 0.16)},
+             {3, 0, 8, Vector3(-0.12, 0.53, 0.35)}};
+  return s;
+}
+
+/// The same, but some targets are beyond `far`: the third at 1.5 times it.
+Sticking out_of_reach() {
   Sticking all = sticking();
-  std::array<int, 2> places{}, velocities{};
-  for (const size_t k : {0u, 1u}) {
-    StickyPatch& patch = all.patches[2 * k + 1];
-    patch.place = [&, k, ask = patch.place](double t) { return ++places[k], ask(t); };
-    patch.velocity = [&, k, ask = patch.velocity](double t) { return ++velocities[k], ask(t); };
-  }
-  State s = state();
-  s.bonds.erase(s.bonds.begin(), s.bonds.begin() + 3);  // the first is that of a surface
-  s.bonds.push_back({3, 0, 2, Vector3(0.2, 0.3, 0.1)});
-  CHECK(all.targets_at(s).size() == 6);
-  CHECK(places == std::array<int, 2>{1, 1});
-  CHECK(velocities == std::array<int, 2>{1, 1});
+  all.patches[0].far = 0.3;
+  all.patches[1].far = all.targets_at(state())[2].distance / 1.5;
+  return all;
 }
 
-TEST_CASE("a bond to a triangle without area is refused with the patch and the particle") {
+/// A particle on its target on cloth.
+State state_at_target(const Sticking& of) {
   State s = state();
-  s.x.col(3) = s.x.col(1);
-  CHECK_THROWS_WITH(sticking().targets_at(s),
-                    "a triangle of sticky 'palm' has no area (particles 4)");
-  CHECK_THROWS_AS(sticking().energy(s), DegenerateElement);
+  s.bonds = {{0, 0, 4, Vector3(0.25, 0.5, 0)}};
+  s.x.col(4) = of.targets_at(s)[0].x;
+  return s;
 }
 
-TEST_CASE("stiffness falls smoothly during the release before a patch's end") {
+double stiffness_of(const StickyPatch& patch, double d) {
+  return patch.stiffness * std::pow(1 - std::pow(d / patch.far, 2), 2);
+}
+
+/// dk/dd over d.
+double slope_of(const StickyPatch& patch, double d) {
+  const double far2 = patch.far * patch.far;
+  return d < patch.far ? -4 * patch.stiffness / far2 * (1 - d * d / far2) : 0;
+}
+
+}  // namespace
+
+TEST_CASE("the energy and the slope of the stiffness fall as it does during the release") {
   State s = state();
-  s.bonds = {{0, 0, 4, Vector3(0.21, 0.34, 0.13)}};
+  s.bonds.resize(1);
   Sticking all = sticking();
-  const double full = all.targets_at(s)[0].stiffness;
-  const auto share_at = [&](double t) {
-    s.time = t;
-    return all.targets_at(s)[0].stiffness / full;
-  };
-  StickyPatch& patch = all.patches[0];
-  patch.until = 2.25;
-  CHECK(share_at(2.2) == 1);
-  CHECK(share_at(2.3) == 1);  // no release
-  patch.release = 0.5;
-  CHECK(share_at(0.3) == 1);
-  CHECK(share_at(1.75) == 1);
-  CHECK(share_at(2) == Approx(std::pow(1 - 0.25, 2)));
-  CHECK(share_at(2.125) == Approx(std::pow(1 - 0.5625, 2)));
-  CHECK(share_at(2.25) == 0);
-  CHECK(share_at(2.5) == 0);
-  s.time = 2;
-  CHECK(all.targets_at(s)[0].stiffness_slope ==
-        Approx(0.5625 * slope_of(sticking().patches[0], all.targets_at(s)[0].distance)));
-  CHECK(all.energy(s) == Approx(0.5625 * sticking().energy(s)));
-}
-
-TEST_CASE("the springs of sticking have their energy, up to the most at which they break") {
-  const State s = state();
-  for (const Sticking& all : {sticking(), out_of_reach()}) {
-    double energy = 0;
-    for (const Group& group : groups) {
-      const StickyPatch& patch = all.patches[size_t(group.patch)];
-      const double d = (target_at(all, group, s.time, s.x) - s.x.col(group.particle)).norm();
-      const double left = d < patch.far ? 1 - std::pow(d / patch.far, 2) : 0;
-      energy += patch.stiffness * patch.far * patch.far / 6 * (1 - std::pow(left, 3));
-    }
-    CHECK(all.energy(s) == Approx(energy).epsilon(1e-13));
-  }
-}
-
-TEST_CASE("the forces of sticking are its springs', handed on to cloth, and what surfaces drag") {
-  const State s = state();
-  const PerParticle3 start = scattered(n, 5.1);
-  for (const Sticking& all : {sticking(), out_of_reach()}) {
-    PerParticle3 elastic = start, expected = start;
-    Eigen::MatrixXd D = Eigen::MatrixXd::Zero(3 * n, 3 * n);
-    size_t dampers = 0;
-    for (const Group& group : groups) {
-      const StickyPatch& patch = all.patches[size_t(group.patch)];
-      const Vector3 u = target_at(all, group, s.time, s.x) - s.x.col(group.particle);
-      const double k = stiffness_of(patch, u.norm());
-      const Eigen::MatrixXd G = arm_gradient(all, group, s);
-      expected -= as_forces(k * G.transpose() * u);
-      if (patch.place)
-        expected.col(group.particle) += k * patch.forecast_time * target_velocity(all, group, s);
-      D -= k * patch.forecast_time * G.transpose() * G;
-      dampers += k * patch.forecast_time != 0;
-    }
-    all.add_elastic(s, elastic);
-    CHECK(agree(elastic, expected, 1e-9));
-    DampingOperator damping;
-    all.prepare_damping(s, damping);
-    CHECK(damping.targets.size() == dampers);
-    const Eigen::MatrixXd matrix =
-        foldproof::matrix_of(n, [&](const auto& v, auto& f) { damping.add_product(v, f); });
-    CHECK(agree(matrix, D, 1e-9));
-    PerParticle3 damped = start;
-    damping.add_product(s.v, damped);
-    CHECK(agree(damped, start + as_forces(D * s.v.reshaped()), 1e-9));
+  const StickyTarget full = all.targets_at(s)[0];
+  const double energy = all.energy(s);
+  all.patches[0].until = 2.25;
+  for (const auto& [time, release, fraction] :
+       {std::tuple{2.3, 0.0, 1.0}, {1.75, 0.5, 1.0}, {2.0, 0.5, 0.5625}, {2.5, 0.5, 0.0}}) {
+    s.time = time;
+    all.patches[0].release = release;
+    CHECK(all.targets_at(s)[0].stiffness == Approx(fraction * full.stiffness));
+    CHECK(all.targets_at(s)[0].stiffness_slope == Approx(fraction * full.stiffness_slope));
+    CHECK(all.energy(s) == Approx(fraction * energy));
   }
 }
 
 TEST_CASE("a damper of sticking whose coefficient is 1 is kept, one of 0 is not") {
-  State s = state();
   Sticking one{{patch({{0, 1, 2}}, 8, 0.125, 0.7)}};
-  s.bonds = {{0, 0, 4, Vector3(0.25, 0.5, 0)}};
-  s.x.col(4) = one.targets_at(s)[0].x;
+  const State s = state_at_target(one);
   DampingOperator damping;
   one.prepare_damping(s, damping);
   REQUIRE(damping.targets.size() == 1);
@@ -157,6 +104,35 @@ TEST_CASE("a damper of sticking whose coefficient is 1 is kept, one of 0 is not"
   damping.targets.clear();
   one.prepare_damping(s, damping);
   CHECK(damping.targets.empty());
+}
+
+TEST_CASE("the semidefinite derivative of sticking never pushes along its springs") {
+  const auto product = [](const Sticking& of, const State& s, const Vector3& direction) {
+    ForceDifferential K;
+    of.add_elastic_differential(s, Definiteness::semidefinite, K);
+    const int particle = s.bonds[0].particle;
+    PerParticle3 dx = PerParticle3::Zero(3, n), df = dx;
+    dx.col(particle) = direction;
+    K.add_product(dx, df);
+    return Vector3(df.col(particle));
+  };
+  Sticking all = sticking();
+  State s = state();
+  s.bonds = {s.bonds[7]};  // to a surface
+  const StickyTarget target = all.targets_at(s)[0];
+  const Vector3 u = target.x - s.x.col(7), across = u.cross(Vector3(3, 1, 2));
+  const double d = u.norm();
+  for (const double far : {1.1 * d, 2.2 * d, 2.3 * d, 9 * d}) {
+    all.patches[3].far = far;
+    const double k = stiffness_of(all.patches[3], d),
+                 along = k + slope_of(all.patches[3], d) * d * d;
+    CHECK((along < 0) == (far < std::sqrt(5) * d));
+    CHECK(agree(product(all, s, across), -k * across, 1e-12));
+    CHECK((product(all, s, u) + std::max(0.0, along) * u).norm() < 1e-12 * k * d);
+  }
+  // at its target a spring has one stiffness in all directions
+  const Sticking one{{patch({{0, 1, 2}}, 8, 0, 0.7)}};
+  CHECK(agree(product(one, state_at_target(one), u), -8 * u, 1e-14));
 }
 
 namespace {
@@ -219,14 +195,12 @@ TEST_CASE(
 
 TEST_CASE("the shortest forecast is that of the patches that have bonds") {
   State s = state();
-  Sticking all = sticking();
-  CHECK(all.shortest_forecast(s) == 0);  // that of patch 2
-  s.bonds.erase(s.bonds.begin() + 6);
-  CHECK(all.shortest_forecast(s) == 0.23);
-  s.bonds.erase(s.bonds.begin(), s.bonds.begin() + 3);
-  CHECK(all.shortest_forecast(s) == 0.41);
-  s.bonds.erase(s.bonds.begin(), s.bonds.begin() + 3);
-  CHECK(all.shortest_forecast(s) == 1);
+  const std::vector<Bond> bonds = s.bonds;
+  for (const auto& [first, last, expected] :
+       {std::tuple{0, 8, 0.0}, {0, 5, 0.23}, {3, 5, 0.41}, {7, 8, 1.0}}) {
+    s.bonds.assign(bonds.begin() + first, bonds.begin() + last + 1);
+    CHECK(sticking().shortest_forecast(s) == expected);
+  }
   s.bonds.clear();
-  CHECK(all.shortest_forecast(s) == std::numeric_limits<double>::infinity());
+  CHECK(std::isinf(sticking().shortest_forecast(s)));
 }

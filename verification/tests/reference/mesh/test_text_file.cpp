@@ -10,7 +10,7 @@ using namespace foldproof;
 
 namespace {
 
-/// What is said of a file of this text, without its name; "" if the text comes back.
+/// The refusal of a file of this text, without its name; "" if the text comes back.
 std::string said_of(const std::string& text, const TextLimits& limits) {
   const ScratchFolder folder;
   const std::string path = folder.write("t.txt", text);
@@ -27,7 +27,7 @@ std::string said_of(const std::string& text, const TextLimits& limits) {
 
 std::string lines_of(const std::vector<size_t>& lengths) {
   std::string text;
-  for (const size_t length : lengths) text += std::string(length, 'a' + char(length % 26)) + "\n";
+  for (const size_t length : lengths) text += std::string(length, 'a') + "\n";
   return text;
 }
 
@@ -42,29 +42,17 @@ TEST_CASE("a text comes back whole, with every kind of byte and line") {
   CHECK(said_of("no end of line", {14, 14}) == "");
 }
 
-TEST_CASE("a text is read up to its limit of bytes, and refused from the next on") {
+TEST_CASE("texts and lines are read up to their limits, and refused from the next byte on") {
   CHECK(said_of(lines_of({4, 3, 2}), {12, 9}) == "");
-  CHECK(said_of(lines_of({4, 3, 2}), {11, 9}) == ": longer than 11 bytes, the most that is read");
-}
-
-TEST_CASE("a line is read up to its limit, and refused with its number from the next byte on") {
-  const std::string said = ": a line of more than 7 bytes; the most that is read";
-  CHECK(said_of(lines_of({7, 3, 7, 7}), {99, 7}) == "");
-  CHECK(said_of(lines_of({8, 3}), {99, 7}) == ":1" + said);
-  CHECK(said_of(lines_of({7, 3, 8, 1}), {99, 7}) == ":3" + said);
-  CHECK(said_of(lines_of({7, 3, 7}) + "abcdefg", {99, 7}) == "");
-  CHECK(said_of(lines_of({7, 3, 7}) + "abcdefgh", {99, 7}) == ":4" + said);
-}
-
-TEST_CASE("lines are counted and measured on over the pieces in which a file is read") {
-  const size_t piece = 1 << 16;
+  CHECK(said_of(lines_of({4, 3, 2}), {11, 9}).starts_with(": longer than 11 bytes"));
+  const size_t piece = 1 << 16;  // in which a file is read
   const TextLimits limits{5 * piece, piece + 100};
-  const std::string said = ": a line of more than 65636 bytes; the most that is read";
+  const std::string said = ": a line of more than 65636 bytes";
   CHECK(said_of(lines_of({piece - 50, piece + 100, 3, 2 * piece / 3, piece}), limits) == "");
-  CHECK(said_of(lines_of({piece - 50, piece + 101, 3}), limits) == ":2" + said);
-  CHECK(said_of(lines_of({piece - 1, 3, piece - 4, piece + 101}), limits) == ":4" + said);
-  CHECK(said_of(lines_of({piece + 100, piece + 100}), limits) == "");
-  CHECK(said_of(lines_of({piece + 100}) + std::string(piece + 101, 'z'), limits) == ":2" + said);
+  CHECK(said_of(lines_of({piece - 50, piece + 101, 3}), limits).starts_with(":2" + said));
+  CHECK(said_of(lines_of({piece - 1, 3, piece - 4, piece + 101}), limits).starts_with(":4" + said));
+  CHECK(said_of(lines_of({3}) + std::string(piece + 100, 'z'), limits) == "");
+  CHECK(said_of(lines_of({3}) + std::string(piece + 101, 'z'), limits).starts_with(":2" + said));
 }
 
 TEST_CASE("cases have a mebibyte, tables 256, and lines of both 64 kibibytes") {
@@ -75,19 +63,15 @@ TEST_CASE("cases have a mebibyte, tables 256, and lines of both 64 kibibytes") {
   const ScratchFolder folder;
   const std::string path = folder.write("t.obj", "v 0 0 0\n");
   std::filesystem::resize_file(path, (1 << 28) + 1);  // a file of holes
-  CHECK_THROWS_WITH(read_obj(path), path + ": longer than 268435456 bytes, the most that is read");
+  CHECK_THROWS_WITH(read_obj(path), Catch::StartsWith(path + ": longer than 268435456 bytes"));
 }
 
 TEST_CASE("what is no regular file is refused by its name") {
   const ScratchFolder folder;
-  const std::string missing = folder.file("missing.txt");
-  CHECK_THROWS_WITH(read_text_file(missing, case_text_limits),
-                    missing + ": cannot be opened (No such file or directory); check the path");
   const std::string within = folder.write("file.txt", "text") + "/more";
   CHECK_THROWS_WITH(read_text_file(within, case_text_limits),
-                    Catch::Contains(": cannot be opened (Not a directory); check the path"));
-  std::filesystem::create_directory(folder.file("sub"));
-  for (const std::string& path : {folder.file("sub"), std::string("/dev/null")})
+                    Catch::StartsWith(within + ": cannot be opened (Not a directory)"));
+  for (const std::string path : {"/dev", "/dev/null"})
     CHECK_THROWS_WITH(read_text_file(path, case_text_limits),
                       path + ": cannot be read; give a regular file");
 }

@@ -1,7 +1,10 @@
 // Texts of small cases, for tests of their readers.
 #pragma once
 
+#include <catch2/catch.hpp>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "reference/scene/scene.h"
 
@@ -31,6 +34,15 @@ inline const std::string sheet_cloth =
 /// The sheet, the tables from line 10 on, and a time.
 inline Scene sheet_with(const std::string& tables) {
   return read_scene_text(sheet_cloth + tables + "[time]\nend = 0.7\n", "some.toml");
+}
+
+/// Each of the texts is refused by `read` with a message that has the piece beside it.
+template <class Read>
+void check_refused(const Read& read, const std::vector<std::pair<std::string, std::string>>& rows) {
+  for (const auto& [text, piece] : rows) {
+    INFO(text);
+    CHECK_THROWS_WITH(read(text), Catch::Matchers::Contains(piece));
+  }
 }
 
 }  // namespace foldproof

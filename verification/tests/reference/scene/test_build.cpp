@@ -4,11 +4,9 @@
 
 #include "reference/bodies/level_set_provider.h"
 #include "reference/level_set/deforming.h"
-#include "reference/mesh/shapes.h"
 #include "verification/tests/reference/scene/scene_texts.h"
 
 using namespace foldproof;
-using Catch::Matchers::StartsWith;
 
 namespace {
 
@@ -33,25 +31,6 @@ const std::string everything =
     "surface = { of = \"cloth\", triangles = [0] }\nparticles = {}\n[solver]\ntolerance = 3e-7\n";
 
 }  // namespace
-
-TEST_CASE("a scene at rest is its mesh, and nothing else", "[scene]") {
-  const TriangleMesh mesh = make_hinge(0.7, 0.3);
-  const Scene scene = scene_at_rest(mesh, 0.4);
-  CHECK(scene.mesh.rest == mesh.rest);
-  CHECK(scene.mesh.triangles == mesh.triangles);
-  CHECK(scene.x == mesh.rest);
-  CHECK(scene.v == PerParticle3::Zero(3, 4));
-  CHECK(scene.density == 0.4);
-  const BuiltScene built = build(scene, computing_provider());
-  CHECK(built.system.forces.empty());
-  CHECK(built.system.filters.empty());
-  CHECK(built.system.prescribed.empty());
-  CHECK(built.objects.empty());
-  CHECK(built.system.mass == lumped_masses(mesh, 0.4));
-  CHECK(built.start.time == 0);
-  CHECK(built.start.x == mesh.rest);
-  CHECK(built.start.v == PerParticle3::Zero(3, 4));
-}
 
 TEST_CASE("forces and filters come in their order, with the masses and settings of the scene",
           "[scene]") {
@@ -89,50 +68,6 @@ TEST_CASE("forces and filters come in their order, with the masses and settings 
   CHECK(self.at_start.empty());
 }
 
-TEST_CASE("objects answer with the response of the case", "[scene]") {
-  for (const Response& response : responses()) {
-    const System system =
-        build_system(scene_with("[[object]]\nshape = \"half_space\"\n[collision]\nresponse = \"" +
-                                std::string(response.name) + "\"\n"));
-    CHECK(std::get<ObjectCollision>(system.filters.at(0)).response.name == response.name);
-  }
-}
-
-TEST_CASE("strain limits of a scene without springs are refused", "[scene]") {
-  Scene scene = scene_with("");
-  scene.strain_limits = StrainLimits{};
-  CHECK_THROWS_WITH(build_system(scene), "strain limits limit springs; the scene has none");
-}
-
-TEST_CASE("held particles start where and as their motion says", "[scene]") {
-  const Scene scene = scene_with(
-      "[start]\nvelocity = [3, 5, 7]\n[[hold]]\nparticles = [2]\nvelocity = [0.5, 0.25, 1]\n"
-      "[[hold]]\nparticles = [1]\nvelocity = [0.5, 0.25, 1]\nfrom = 0.1\n");
-  Scene moved = scene;
-  moved.prescribed[0].start = {9, 8, 6};
-  const State start = start_state(moved);
-  CHECK(start.time == 0);
-  CHECK(start.x.col(2) == Vector3(9, 8, 6));
-  CHECK(start.v.col(2) == Vector3(0.5, 0.25, 1));
-  CHECK(start.v.col(1) == Vector3::Zero());
-  CHECK(start.v.col(0) == Vector3(3, 5, 7));
-  CHECK(start.x.col(0) == scene.x.col(0));
-}
-
-TEST_CASE("a surface is where its object's motion takes it, with that velocity", "[scene]") {
-  const Scene scene = scene_with(
-      "[[object]]\nshape = \"half_space\"\nmove = [1, 2, 3]\nangular_velocity = [0, 0, 90]\n"
-      "velocity = [0.5, 0.25, 1]\n");
-  const SceneObject& part = scene.objects[0];
-  const double t = 2;  // half a turn about the origin
-  const PerParticle3 x = surface_at(part, t), v = surface_velocity_at(part, t);
-  for (int i = 0; i < 4; ++i) {
-    const Vector3 X = part.vertices.col(i), turned(-X.x(), -X.y(), X.z());
-    CHECK((x.col(i) - turned - Vector3(1, 0.5, 2)).norm() < 1e-14);
-    CHECK((v.col(i) - Vector3(0, 0, pi / 2).cross(turned) - Vector3(0.5, 0.25, 1)).norm() < 1e-14);
-  }
-}
-
 TEST_CASE("a deforming surface moves evenly from frame to frame, and rests outside", "[scene]") {
   MeshSequence sequence{{{0, 1, 2}}, {0.25, 0.75, 1.75}, {}};
   for (const double height : {1.0, 3.0, 2.0}) {
@@ -143,23 +78,17 @@ TEST_CASE("a deforming surface moves evenly from frame to frame, and rests outsi
   SceneObject part;
   part.vertices = sequence.positions[0];
   part.animation = std::make_shared<const MeshSequence>(sequence);
-  const auto height = [&](double t) { return surface_at(part, t)(2, 0); };
-  const auto speed = [&](double t) {
+  const std::vector<std::array<double, 3>> rows = {// time, height, speed
+                                                   {0, 1, 0},     {0.25, 1, 4},    {0.5, 2, 4},
+                                                   {0.75, 3, -1}, {1.25, 2.5, -1}, {1.75, 2, 0},
+                                                   {9, 2, 0}};
+  for (const auto& [t, height, speed] : rows) {
+    CHECK(surface_at(part, t)(2, 0) == height);
     const PerParticle3 v = surface_velocity_at(part, t);
-    CHECK(v.cols() == 3);
-    CHECK(v.cwiseAbs().sum() == std::abs(v(2, 0)));
-    return v(2, 0);
-  };
-  CHECK(height(0.5) == 2);
-  CHECK(height(1.25) == 2.5);
-  CHECK(height(9) == 2);
-  CHECK(speed(0) == 0);
-  CHECK(speed(0.25) == 4);
-  CHECK(speed(0.5) == 4);
-  CHECK(speed(0.75) == -1);  // where it jumps, the later one
-  CHECK(speed(1.7) == -1);
-  CHECK(speed(1.75) == 0);
-  CHECK(speed(2) == 0);
+    REQUIRE(v.cols() == 3);
+    CHECK(v(2, 0) == speed);  // where it jumps, the later one
+    CHECK(v.cwiseAbs().sum() == std::abs(speed));
+  }
 }
 
 TEST_CASE("parts are described with their numbers", "[scene]") {
@@ -175,19 +104,6 @@ TEST_CASE("parts are described with their numbers", "[scene]") {
         Parts{"3 particles with prescribed motion"});
   const Parts sheet = parts_of(sheet_with("[bending]\nstiffness = 3\n"));
   CHECK(sheet == Parts{"20 particles, 24 triangles", "29 hinges, rest weighting, law 'sine'"});
-}
-
-TEST_CASE("objects and what they do are described", "[scene]") {
-  CHECK(parts_with("[[object]]\nshape = \"half_space\"\nfriction = 0.35\n[[object]]\n"
-                   "shape = \"sphere\"\nradius = 2\nmove = [90, 0, 0]\nname = \"ball\"\n"
-                   "[collision]\npoints = \"faces\"\n") ==
-        Parts{"object 'half_space 1' (half_space, friction 0.35)",
-              "object 'ball' (sphere, friction 0)",
-              "11 points held out of objects, response 'forecast'"});
-  Scene scene = scene_with("[[object]]\nshape = \"half_space\"\n");
-  scene.objects[0].animation =
-      std::make_shared<const MeshSequence>(MeshSequence{{{0, 1, 2}}, {0.25, 0.75, 1.75}, {}});
-  CHECK(parts_of(scene).at(1) == "object 'half_space 1' (half_space, 3 level sets, friction 0)");
 }
 
 TEST_CASE("strain limits, stickiness and self-collision are described", "[scene]") {
@@ -216,23 +132,4 @@ TEST_CASE("strain limits, stickiness and self-collision are described", "[scene]
         "self-collision (thickness 0.1 m, friction 0), which starts crossing itself: 4 pairs of "
         "triangles: 0 and 2, 0 and 3, 1 and 2, 1 and 3");
   CHECK(std::get<SelfCollision>(build_system(tangled).filters.at(0)).at_start.size() == 4);
-}
-
-TEST_CASE("parts are described in the order of their kinds", "[scene]") {
-  const Parts parts = parts_with(everything);
-  const Parts begins = {"gravity",         "5 springs",   "1 hinge",  "2 particles",   "object ",
-                        "sticky 'cloth 1", "5 springs l", "6 points", "self-collision"};
-  REQUIRE(parts.size() == begins.size());
-  for (size_t k = 0; k < parts.size(); ++k) CHECK_THAT(parts[k], StartsWith(begins[k]));
-}
-
-TEST_CASE("split vertices are counted, and the particles that they became", "[scene]") {
-  Scene scene = scene_with("");
-  const auto described = [&](const std::vector<int>& copy_of) {
-    scene.copy_of = copy_of;
-    return parts_of(scene).at(1);
-  };
-  CHECK(described({0, 1, 2, 1, 1, 2}) == "2 vertices split into 5 particles");
-  CHECK(described({0, 1, 1}) == "1 vertex split into 2 particles");
-  CHECK(described({0, 1, 0, 0}) == "1 vertex split into 3 particles");
 }
