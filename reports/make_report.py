@@ -6,7 +6,7 @@
     reports/make_report.py results --out page.html --figures paper
     reports/make_report.py results --pdf                -> results/report.pdf too
     reports/make_report.py results --summary            -> results/summary.*: html, md, pdf
-    reports/make_report.py results --site               -> results/report/index.html and its pages
+    reports/make_report.py results --one-file           -> results/report.html with everything in it
     reports/make_report.py results mine                 -> mine/compare.html: what differs
     reports/make_report.py jolt mujoco bullet           -> bullet/compare.html: judged solvers
     reports/make_report.py results mine --summary       -> mine/summary.*, with changes
@@ -60,9 +60,10 @@ from pages.page import (
     findings_by_section,
     render,
     render_comparison,
-    render_site,
+    render_pages,
 )  # noqa: E402
 from pages.printed import print_page  # noqa: E402
+from pages.site import FIRST, FOLDER  # noqa: E402
 from pages.summary import REFERENCE, since_last  # noqa: E402
 from pages.summary_page import render_summary  # noqa: E402
 from pages.trials import render_trials, trials_json, trials_of  # noqa: E402
@@ -96,11 +97,6 @@ def main() -> int:
     """Returns 0 when the page is written, 2 when there is nothing to report
     on, or no browser to print with."""
     said = arguments()
-    if said.site and (said.others or said.pdf or said.out or said.summary):
-        refuse(
-            "make_report",
-            "--site takes one folder, and neither --pdf, --out nor --summary; leave those out",
-        )
     others: list[Path] = said.others
     are_trials = bool(others) and all(is_trial(folder) for folder in (said.dir, *others))
     if len(others) > 1 and (not are_trials or said.summary):
@@ -114,21 +110,19 @@ def main() -> int:
         if said.summary:
             outs = make_summary(others[0] if others else said.dir, said.dir if others else None)
             return show_paths(outs)
-        if said.site:
-            return show_paths(
-                [make_site(said.dir, said.figures or said.dir / "figures", said.papers)]
-            )
         if are_trials:
             out = compare_trials([said.dir, *others], said.out)
         elif others:
             out = compare_runs(said.dir, others[0], said.out)
-        else:
+        elif said.one_file or said.out or said.pdf:
             out = make_report(
                 said.dir,
                 said.out or said.dir / "report.html",
                 said.figures or said.dir / "figures",
                 for_papers=said.papers,
             )
+        else:
+            out = make_pages(said.dir, said.figures or said.dir / "figures", said.papers)
         if said.pdf:
             out = print_page(out, out.with_suffix(".pdf"))
     except (OSError, Unreadable, NoBrowser, BrokenProcessPool) as error:
@@ -187,11 +181,11 @@ def arguments() -> argparse.Namespace:
         ),
     )
     parser.add_argument(
-        "--site",
+        "--one-file",
         action="store_true",
         help=(
-            "a folder of pages instead, DIR/report/: index.html, a page for each topic, study and"
-            " case"
+            "everything in DIR/report.html; otherwise a long report has a page for each topic, study"
+            " and case in DIR/report"
         ),
     )
     parser.add_argument(
@@ -249,19 +243,19 @@ def make_summary(folder: Path, earlier: Path | None) -> list[Path]:
     return outs
 
 
-def make_site(
+def make_pages(
     folder: Path, figures: Path, for_papers: bool = False, shipped: Path = SHIPPED_CASES
 ) -> Path:
-    """As make_report, as the pages of the folder report/ in that folder, in place of those of an
-    earlier report. Returns its index."""
-    pages = render_site(make_page(folder, figures, for_papers, shipped))
-    out = folder / "report"
-    out.mkdir(parents=True, exist_ok=True)
-    for old in set(out.glob("*.html")) - {out / name for name in pages}:
+    """As make_report, with pages in the folder report/ where one would be long, in place of those of
+    an earlier report. Returns the first page."""
+    pages = render_pages(make_page(folder, figures, for_papers, shipped))
+    for old in set((folder / FOLDER).glob("*.html")) - {folder / name for name in pages}:
         old.unlink()
-    for name, text in pages.items():
-        write_whole(out / name, text.encode("utf-8"))
-    return out / "index.html"
+    if len(pages) > 1:
+        (folder / FOLDER).mkdir(parents=True, exist_ok=True)
+    for name, text in reversed(pages.items()):  # the first page last: its links then lead somewhere
+        write_whole(folder / name, text.encode("utf-8"))
+    return folder / FIRST
 
 
 def make_report(

@@ -23,6 +23,7 @@ from data.trials import Trial
 from pages import ledger
 from pages.answers import cheapest_of, lasting_steps
 from pages.compare import Comparison
+from pages.four_questions import four_questions
 from pages.conclusions import Results
 from pages.figure_words import figure_keys, figure_notes, order_table
 from pages.hard_cases import STUDIES as HARD_STUDIES, CaseFindings, is_of_case
@@ -32,9 +33,9 @@ from pages.errors import Errors
 from pages.needs import Needs
 from pages.said import bound_html, measured_html, rule_html
 from pages.sentences import Piece, html_of
-from pages.site import Cuts, split
+from pages.site import FIRST, Cuts, split
 from pages.solver_words import is_of_frames, repeats, standfirst_of, title_of
-from pages.summary import Judged, Summary, since_last, summary_of
+from pages.summary import Judged, Summary, summary_of
 from pages.summary_markdown import count_words
 from pages.trust import Coverage, Kinds, Machines, Tolerances, Variants
 from pictures.case_pictures import PictureRow, length_text
@@ -64,6 +65,7 @@ STYLES = (
     "pages/summary.css",
     "pages/site.css",
 )
+MOST_BYTES = 500_000  # of a report on one page
 MOST_WORDS = 450  # of the page of verdict: two minutes
 BAR_END = 1.25  # measured / bound at the end of the margin bar
 
@@ -170,8 +172,12 @@ class Page:
         return self.checks + of_studies + self.other_findings + of_cases + self.rates
 
 
-def render_site(page: Page) -> dict[str, str]:
-    """The whole report as pages: file names and HTML texts."""
+def render_pages(page: Page) -> dict[str, str]:
+    """The report as pages: files from its folder, the first page first, and HTML texts. One page if
+    all is on one screen or two: of simulations alone, or of at most MOST_BYTES."""
+    whole = render(page)
+    if page.alone or len(whole.encode("utf-8")) <= MOST_BYTES:
+        return {FIRST: whole}
     cuts = Cuts(is_site=True)
     return split(render(page, cuts=cuts), cuts, _viewer())
 
@@ -222,6 +228,9 @@ def render(page: Page, since: list[Piece] | None = None, cuts: Cuts | None = Non
         page=page,
         said=page.provenance,
         summary=summary_of_page(page, since, environment),
+        answers=[] if page.trial else four_questions(
+            Results(page.all_findings(), [], [], environment.globals["anchor"]), page.studies
+        ),
         title=title_of(page.trial) if page.trial else "What was found",
         standfirst=standfirst_of(page.trial, _judged(page)) if page.trial else "",
         of_frames=page.trial is not None and is_of_frames(page.trial),
@@ -244,7 +253,7 @@ def summary_of_page(page: Page, since: list[Piece] | None, environment: Environm
         faults=page.faults,
         tolerances=page.tolerances,
         results=Results(findings, studies, page.claims, environment.globals["anchor"]),
-        since=since if since is not None else [] if page.trial else since_last(None, None, str),
+        since=since or [],
         alone=page.alone,
         trial=page.trial,
     )

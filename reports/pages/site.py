@@ -1,26 +1,42 @@
-"""The report as a folder of pages. The template marks what becomes a page of its own; the finished
-text is cut there, and links lead to the page that holds their target."""
+"""The report as a first page and a folder of pages beside it. The template marks the parts that
+become a page of their own; the finished text is cut there, and links lead to the page that holds
+their target."""
 from __future__ import annotations
 
+import json
+import os
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
 from markupsafe import Markup, escape
 
-FIRST = "index.html"
+FIRST = "report.html"
+FOLDER = "report"  # of the other pages
 SEARCHED = 20    # entries of a page that are searched, at least
 _MARK = re.compile(r"<!--(page|end) (\d+)-->")
 _ID = re.compile(r'\sid="([^"]+)"')
 _LINK = re.compile(r'href="#([^"]+)"')
 _HEADING = re.compile(r"(</?h)([1-6])\b")
+_ENTRY_ID = re.compile(r'<(?:section|article|details|div|li|tr)\b[^>]*\sid="([^"]+)"')
+_LEAD_ON = """
+const pages = PAGES;
+const leadOn = () => {
+  const name = decodeURIComponent(location.hash.slice(1));
+  if (!name || document.getElementById(name)) return;
+  for (const [file, names] of Object.entries(pages))
+    if (names.includes(name)) location.replace(`${file}#${encodeURIComponent(name)}`);
+};
+addEventListener("hashchange", leadOn);
+leadOn();
+"""
 _ENTRY = re.compile(r'class="(?:claim-row|finding|fault|case|study)"|class="data rates"')
 
 
 @dataclass(frozen=True)
 class Cut:
     """A page that the template marked."""
-    file: str
+    file: str          # from the folder of the first page
     title: str
     above: str         # file of the page that leads to it
 
@@ -36,15 +52,24 @@ class Cuts:
         """Begins the page NAME.html; "" where the report is one page."""
         if not self._is_site:
             return Markup("")
-        self.pages.append(Cut(f"{name}.html", title, f"{above}.html" if above else FIRST))
+        self.pages.append(Cut(_file(name), title, _file(above) if above else FIRST))
         return Markup("<!--page {}-->").format(len(self.pages) - 1)
 
     def end(self, name: str) -> Markup:
         """Ends that page."""
         if not self._is_site:
             return Markup("")
-        number = next(k for k, page in enumerate(self.pages) if page.file == f"{name}.html")
+        number = next(k for k, page in enumerate(self.pages) if page.file == _file(name))
         return Markup("<!--end {}-->").format(number)
+
+
+def _file(name: str) -> str:
+    return f"{FOLDER}/{name}.html"
+
+
+def _way(here: str, there: str) -> str:
+    """The link from one file to another."""
+    return os.path.relpath(there, os.path.dirname(here) or ".")
 
 
 def split(text: str, cuts: Cuts, viewer: str) -> dict[str, str]:
@@ -54,7 +79,7 @@ def split(text: str, cuts: Cuts, viewer: str) -> dict[str, str]:
     head, foot = text[:start], text[stop:]
     before = head[:head.index("<header>")]
     inside = parts.pop(FIRST) + _contents(cuts.pages)
-    whole = {FIRST: head + inside + foot}
+    whole = {FIRST: head + inside + _anchors_elsewhere(parts) + foot}
     for cut in cuts.pages:
         shown = '<main id="content">' + _levelled(parts[cut.file])
         scripts = f"<script>{viewer}</script>" if 'class="view"' in shown else ""
@@ -62,6 +87,14 @@ def split(text: str, cuts: Cuts, viewer: str) -> dict[str, str]:
             _titled(before, cut.title) + _crumbs(cut, cuts.pages) + shown + scripts + foot
         )
     return _linked({file: _without_idle_search(page) for file, page in whole.items()})
+
+
+def _anchors_elsewhere(parts: dict[str, str]) -> str:
+    """A script that leads from report.html#NAME to the page on which the entry now stands."""
+    ids = {file: _ENTRY_ID.findall(text) for file, text in parts.items()}
+    listed = json.dumps({file: names for file, names in ids.items() if names})
+    script = _LEAD_ON.replace("PAGES", listed.replace("</", "<\\/"))
+    return f"<script>{script}</script>"
 
 
 def _parts(text: str, pages: list[Cut]) -> dict[str, str]:
@@ -72,7 +105,9 @@ def _parts(text: str, pages: list[Cut]) -> dict[str, str]:
         collected[open_pages[-1]].append(text[at:mark.start()])
         cut, at = pages[int(mark[2])], mark.end()
         if mark[1] == "page":
-            collected[open_pages[-1]].append(_leads_to(cut) if open_pages[-1] != FIRST else "")
+            collected[open_pages[-1]].append(
+                _leads_to(open_pages[-1], cut) if open_pages[-1] != FIRST else ""
+            )
             open_pages.append(cut.file)
             collected[cut.file] = []
         elif open_pages.pop() != cut.file:
@@ -81,8 +116,8 @@ def _parts(text: str, pages: list[Cut]) -> dict[str, str]:
     return {file: "".join(pieces) for file, pieces in collected.items()}
 
 
-def _leads_to(cut: Cut) -> str:
-    return f'<p class="leads-to"><a href="{escape(cut.file)}">{escape(cut.title)}</a></p>\n'
+def _leads_to(here: str, cut: Cut) -> str:
+    return f'<p class="leads-to"><a href="{escape(_way(here, cut.file))}">{escape(cut.title)}</a></p>\n'
 
 
 def _contents(pages: list[Cut]) -> str:
@@ -107,7 +142,7 @@ def _crumbs(cut: Cut, pages: list[Cut]) -> str:
         way.append((above.file, above.title))
         file = above.above
     links = " › ".join(
-        f'<a href="{escape(file)}">{escape(title)}</a>'
+        f'<a href="{escape(_way(cut.file, file))}">{escape(title)}</a>'
         for file, title in [(FIRST, "Report"), *reversed(way)]
     )
     return f'<header><p class="kicker crumbs">{links}</p></header>\n'
@@ -140,7 +175,7 @@ def _linked(pages: dict[str, str]) -> dict[str, str]:
     home = {name: file for file in reversed(pages) for name in ids[file]}
 
     def lead(file: str, name: str) -> str:
-        return f"#{name}" if name in ids[file] or name not in home else f"{home[name]}#{name}"
+        return f"#{name}" if name in ids[file] or name not in home else f"{_way(file, home[name])}#{name}"
     return {
         file: _LINK.sub(lambda found: f'href="{lead(file, found[1])}"', page)
         for file, page in pages.items()

@@ -313,12 +313,8 @@ def _faults(faults: list[Fault]) -> list[Piece]:
     ]
 
 
-def since_last(
-    before: RunRow | None, now: RunRow | None, anchor: Callable[[str], str]
-) -> list[Piece]:
+def since_last(before: RunRow, now: RunRow, anchor: Callable[[str], str]) -> list[Piece]:
     """What changed from one run to the next, in words."""
-    if before is None or now is None:
-        return ["No earlier run was given."]
     if any(before.about[key] != now.about[key] for key in ("tier", "subject")):
         return ["The earlier run is of another tier or subject: not comparable."]
     rows = in_order([before, now])

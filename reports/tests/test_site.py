@@ -1,19 +1,26 @@
-"""Tests of the report as a folder of pages, of methods' looks and of numbers as they are said; run
+"""Tests of the report as pages, of its four questions, of methods' looks and of numbers as they are said; run
 with reports/tests/test_reports.py."""
 from __future__ import annotations
 
+import os
 import re
 import tempfile
 import unittest
 from dataclasses import replace
 from pathlib import Path
+from unittest import mock
 
 import numpy as np
+from markupsafe import Markup
 
-from data.results import Curve, load_run
-from make_report import make_site
+from data.results import Curve, Finding, Study, load_run
+from make_report import make_pages
+from pages.conclusions import Results
+from pages.four_questions import FIGURES, four_questions
+from pages.page import StudyView
 from pages.said import bound_html, measured_html
-from plots.plot_style import COLOURS, MARKERS
+from pages.sentences import html_of
+from plots.plot_style import COLOURS, MARKERS, Plot
 from plots.study_plots import METHODS, choose_pens
 from tests.made_up_run import NAMES, put_run
 from tests.test_page import contrast
@@ -32,30 +39,42 @@ class Site(unittest.TestCase):
         put_run(root)
         (root / "report").mkdir()
         (root / "report" / "old.html").write_text("of an earlier report")
-        cls.index = make_site(root, root / "figures")
+        with mock.patch("pages.page.MOST_BYTES", 100):
+            make_pages(root, root / "figures")
         cls.pages = {
-            page.name: page.read_text(encoding="utf-8") for page in cls.index.parent.glob("*.html")
+            page.relative_to(root).as_posix(): page.read_text(encoding="utf-8")
+            for page in (root / "report.html", *(root / "report").glob("*.html"))
         }
+        with mock.patch("pages.page.MOST_BYTES", 1e9):
+            cls.one_page = make_pages(root, root / "figures").read_text(encoding="utf-8")
+        cls.left = list((root / "report").glob("*.html"))
 
     def test_every_topic_study_and_case_has_a_page(self) -> None:
-        self.assertEqual(self.index.name, "index.html")
         for name in (
             "claims", "checks", "studies", "study-time-order", "cases", "case-fold", "faults",
             "provenance"
         ):
-            self.assertIn(f"{name}.html", self.pages)
-            self.assertIn(f'href="{name}.html"', self.pages["index.html"])
-        self.assertNotIn("old.html", self.pages)
-        self.assertIn(f'id="{NAMES[0]}"', self.pages["checks.html"])
+            self.assertIn(f"report/{name}.html", self.pages)
+            self.assertIn(f'href="report/{name}.html"', self.pages["report.html"])
+        self.assertNotIn("report/old.html", self.pages)
+        self.assertIn(f'id="{NAMES[0]}"', self.pages["report/checks.html"])
+
+    def test_the_first_page_knows_where_each_entry_stands(self) -> None:
+        self.assertRegex(
+            self.pages["report.html"], rf'"report/checks.html": \[[^]]*"{re.escape(NAMES[0])}"'
+        )
+
+    def test_a_short_report_is_one_page(self) -> None:
+        self.assertTrue(f'id="{NAMES[0]}"' in self.one_page)
+        self.assertEqual(self.left, [])
 
     def test_no_link_is_broken(self) -> None:
         ids = {name: set(re.findall(r'\sid="([^"]+)"', text)) for name, text in self.pages.items()}
         for name, text in self.pages.items():
             for file, anchor in re.findall(r'<a [^>]*?href="([^"#]*)#?([^"]*)"', text):
-                self.assertIn(file or name, self.pages)
-                self.assertTrue(
-                    not anchor or anchor in ids[file or name], f"{name}: {file}#{anchor}"
-                )
+                there = os.path.normpath(os.path.join(os.path.dirname(name), file)) if file else name
+                self.assertIn(there, self.pages)
+                self.assertTrue(not anchor or anchor in ids[there], f"{name}: {file}#{anchor}")
 
     def test_a_page_is_whole_and_small(self) -> None:
         for name, text in self.pages.items():
@@ -67,6 +86,41 @@ class Site(unittest.TestCase):
                 )
             self.assertEqual(text.count("<h1"), 1, name)
             self.assertEqual(re.findall(r'(?:src|href)="(?:https?:)?//', text), [])
+
+
+def found(name: str, measured: float, outcome: str = "holds") -> Finding:
+    return Finding(name, "check", "", "", "", measured, 9, 0, "m", "", outcome, "", 0, "", [], [])
+
+
+class Questions(unittest.TestCase):
+    """Momentum alone: its findings, and a study with its figure."""
+
+    study, figure = FIGURES["momentum"][1:]
+
+    def answers(self, findings: list[Finding], figure: str) -> list[str]:
+        """Words and figures."""
+        study = Study(self.study, "", "", "", 0, [mock.Mock()], [])
+        study.figures[0].name = figure
+        svg = Markup('<svg><g id="a"/><use href="#a"/></svg>')
+        drawn = StudyView(study, "study", [Plot("x", svg)], [], [])
+        made = four_questions(Results(findings, [], [], str), [drawn])
+        return [f"{html_of(one.words)} {one.svg}" for one in made]
+
+    def test_an_answer_has_the_worst_number_of_each_kind_and_a_figure(self) -> None:
+        findings = [found("bending.forces-sum-to-zero", 3), found("bending.torques-sum-to-zero", 4),
+                    found("momentum-drift.linear-is-conserved.A", 5),
+                    found("momentum-drift.linear-is-conserved.RK2", 6),
+                    found("momentum-drift.undamped-angular-is-conserved.C", 7)]
+        (answer,) = self.answers(findings, self.figure)
+        self.assertEqual(re.findall(r'"n">([^<]*)<', answer), ["3", "4", "6", "7"])
+        for words in ("Yes", 'id="answer-a"', 'href="#answer-a"'):
+            self.assertIn(words, answer)
+        self.assertEqual(self.answers(findings, "another"), [])
+        self.assertEqual(self.answers(findings[:2], self.figure), [])
+        broken = [*findings[1:], found("bending.forces-sum-to-zero", 30, "fails")]
+        (answer,) = self.answers(broken, self.figure)
+        self.assertIn("Not shown by this run", answer)
+        self.assertNotIn("Yes", answer)
 
 
 class Looks(unittest.TestCase):

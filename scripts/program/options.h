@@ -58,7 +58,7 @@ struct Options {
   std::string engine = "local", engine_options, scratch;  // of campaign
   int slice = 0;  // of campaign: jobs a slice, 0: as the engine likes; of work: number of the slice
   bool json = false, quick = false, no_report = false, no_bench = false, resumes = false,
-       restarts = false, pdf = false, papers = false, summary = false, site = false;
+       restarts = false, pdf = false, papers = false, summary = false, one_file = false;
   int (*run)(const Options&) = nullptr;  // the command; returns the exit code
 };
 

@@ -58,7 +58,7 @@ int make_report(const Options& options) {
   std::vector<std::string> arguments = options.names;
   if (options.pdf) arguments.push_back("--pdf");
   if (options.papers) arguments.push_back("--papers");
-  if (options.site) arguments.push_back("--site");
+  if (options.one_file) arguments.push_back("--one-file");
   if (options.summary) arguments.push_back("--summary");
   return run_report_script("report", "make_report.py", arguments);
 }

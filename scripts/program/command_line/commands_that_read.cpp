@@ -57,8 +57,8 @@ void add_pages(CLI::App& app, Options& options) {
       ->expected(1, 20);
   add_switch(report, "--summary", options.summary,
              "Write the one-page verdict instead: DIR/summary.html, .md and .pdf");
-  add_switch(report, "--site", options.site,
-             "Write a folder of pages instead: DIR/report/index.html");
+  add_switch(report, "--one-file", options.one_file,
+             "Write everything into DIR/report.html, without the pages of DIR/report");
   add_switch(report, "--pdf", options.pdf, "Also write DIR/report.pdf, printed by chromium");
   add_switch(report, "--papers", options.papers,
              "Also write figures and pictures as PDF and PNG files, in DIR/figures");
