@@ -184,8 +184,8 @@ def arguments() -> argparse.Namespace:
         "--one-file",
         action="store_true",
         help=(
-            "everything in DIR/report.html; otherwise a long report has a page for each topic, study"
-            " and case in DIR/report"
+            "everything in DIR/report.html; otherwise a long report has a page for each topic,"
+            " study and case in DIR/report"
         ),
     )
     parser.add_argument(
@@ -246,8 +246,8 @@ def make_summary(folder: Path, earlier: Path | None) -> list[Path]:
 def make_pages(
     folder: Path, figures: Path, for_papers: bool = False, shipped: Path = SHIPPED_CASES
 ) -> Path:
-    """As make_report, with pages in the folder report/ where one would be long, in place of those of
-    an earlier report. Returns the first page."""
+    """As make_report, with pages in the folder report/ where one would be long, in place of those
+    of an earlier report. Returns the first page."""
     pages = render_pages(make_page(folder, figures, for_papers, shipped))
     for old in set((folder / FOLDER).glob("*.html")) - {folder / name for name in pages}:
         old.unlink()

@@ -29,16 +29,16 @@ class Answer:
     words: list[Piece]
     study: str            # the study of the figure
     anchor: str           # of that study
+    caption: str
     svg: Markup
 
 
 # title, study and figure
 FIGURES = {
-    "momentum": ("Do bending forces conserve momentum?", "momentum-drift", "drift-undamped"),
-    "order": ("Is each integrator as accurate as it claims?", "time-order.hinge", "errors-in-x"),
-    "iterations": ("How many iterations does a solve take?", "cg-iterations", "tolerance"),
-    "contact": ("Do forecasts and projection do what they promise?", "wrinkle-preservation",
-                "profile-blend"),
+    "momentum": ("Do bending forces conserve momentum?", "momentum-drift", "drift-damped"),
+    "order": ("Are the integrators of second order?", "time-order.hinge", "errors-in-x"),
+    "iterations": ("How many CG iterations does a solve take?", "cg-iterations", "damping"),
+    "contact": ("Do forecasting and projection keep their invariants?", "forecast-time", "miss"),
 }
 SCHEMES = ("A", "B", "C")
 
@@ -46,22 +46,22 @@ SCHEMES = ("A", "B", "C")
 def four_questions(results: Results, drawn: Iterable[Drawn]) -> list[Answer]:
     """Those that the run answers and whose figures it has."""
     views = {view.study.name: view for view in drawn}
-    words = {"momentum": _momentum, "order": _order, "iterations": _iterations,
-             "contact": _contact}
+    answer = {"momentum": _momentum, "order": _order, "iterations": _iterations,
+              "contact": _contact}
     answers = []
-    for key, (title, study, figure) in FIGURES.items():
-        said, svg = words[key](results), _figure(views.get(study), figure)
-        if said and svg:
-            answers.append(Answer(title, said, study, views[study].anchor, svg))
+    for key, (title, study, name) in FIGURES.items():
+        words, figure = answer[key](results), _figure(views.get(study), name)
+        if words and figure:
+            answers.append(Answer(title, words, study, views[study].anchor, *figure))
     return answers
 
 
-def _figure(view: Drawn | None, name: str) -> Markup | None:
-    """The plot, its ids apart from those of the same plot elsewhere on the page."""
+def _figure(view: Drawn | None, name: str) -> tuple[str, Markup] | None:
+    """Title and plot, its ids apart from those of the same plot elsewhere on the page."""
     for figure, plot in zip(view.study.figures, view.plots) if view else ():
         if figure.name == name:
             apart = re.sub(r'(\bid="|url\(#|href="#)', r"\g<1>answer-", str(plot.svg))
-            return Markup(apart)  # made by matplotlib from escaped texts
+            return figure.title, Markup(apart)  # made by matplotlib from escaped texts
     return None
 
 
@@ -73,63 +73,83 @@ def _worst(findings: list[Finding]) -> Number:
     return _number(max(findings, key=lambda one: one.measured))
 
 
+def _least(findings: list[Finding]) -> Number:
+    return _number(min(findings, key=lambda one: one.measured))
+
+
 def _momentum(results: Results) -> list[Piece]:
     forces = results.named("bending.forces-sum-to-zero")
     torques = results.named("bending.torques-sum-to-zero")
-    drift = results.named("momentum-drift.linear-is-conserved")
-    turning = [
-        one for one in results.named("momentum-drift.undamped-angular-is-conserved.")
-        if one.name.rsplit(".", 1)[1] in SCHEMES
+    damping = results.named("bending.damping-forces-conserve-momentum")
+    kept = [
+        one for scheme in ("A", "B")
+        for one in results.named("momentum-drift.", f"damped-angular-is-conserved.{scheme}")
     ]
-    if not (forces and torques and drift and turning):
+    drifts = [*results.named("momentum-drift.damped-drift-order.C"),
+              *results.named("strain-momentum.drift-is-first-order.")]
+    if not (forces and torques and damping and kept and drifts):
         return []
     return results.guarded(
-        ["Yes, to rounding. On crumpled sheets the forces add up to at most ", _worst(forces),
-         ", their torques to ", _worst(torques),
-         ". Over whole runs, under every integrator, linear momentum drifts by at most ",
-         _worst(drift), "; angular momentum (figure), under schemes A, B and C, by at most ",
-         _worst(turning), "."],
-        [*forces, *torques, *drift, *turning],
+        ["Yes, to rounding. On crumpled sheets the elastic forces add up to at most ",
+         _worst(forces), ", their torques to ", _worst(torques), ", damping forces to ",
+         _worst(damping), ". Steps of schemes A and B keep the angular momentum of a free sheet, "
+         "damped or not, to ", _worst(kept), ". Under scheme C that of a damped sheet drifts by "
+         "the square of the step; at active strain limits those of A and C drift by first order."],
+        [*forces, *torques, *damping, *kept, *drifts],
     )
 
 
 def _order(results: Results) -> list[Piece]:
-    of_all = [one for one in results.named("time-order.hinge.") if one.name.endswith((".x", ".v"))]
-    of_paper = [one for one in of_all if one.name.split(".")[2] in SCHEMES]
-    if not of_paper:
+    smooth = [one for one in results.named("time-order.") if one.name.endswith((".x", ".v"))]
+    of_paper = [one for one in smooth if one.name.split(".")[2] in SCHEMES]
+    contact = results.named("filtered-order.contact-leaves-no-second-order.")
+    limits = results.named("filtered-order.strain-limits-leave-no-second-order.")
+    if not (of_paper and contact and limits):
         return []
-    others = [one for one in of_all if one not in of_paper]
+    others = [one for one in smooth if one not in of_paper]
     return results.guarded(
-        ["Yes. With constant, alternating and random steps, the observed orders of schemes A, B "
-         "and C differ from two by at most ", _worst(of_paper),
-         *([", those of all other methods from their own by at most ", _worst(others)]
-           if others else []), "."],
-        of_all,
+        ["In smooth motion, yes: the observed orders of schemes A, B and C, in positions and "
+         "velocities, with constant, alternating and random steps, are within ", _worst(of_paper),
+         " of two",
+         *(["; other methods are within ", _worst(others), " of their nominal orders"]
+           if others else []),
+         ". Not with contact, where orders are ", _least(contact), " to ", _worst(contact),
+         ", nor at active strain limits, where they are ", _least(limits), " to ",
+         _worst(limits), "."],
+        [*smooth, *contact, *limits],
     )
 
 
 def _iterations(results: Results) -> list[Piece]:
     usual = results.named("cg-iterations.fewer-than-ten")
     mesh = results.named("cg-iterations.do-not-grow-with-the-mesh")
-    if not (usual and mesh):
+    most = [
+        row["largest"] for row in results.rows("cg-iterations", "damping ratio", "largest")
+        if isinstance(row["largest"], (int, float))
+    ]
+    if not (usual and mesh and most):
         return []
     return results.guarded(
-        ["At most ", _worst(usual), " of conjugate gradients, at a damping ratio of a tenth and "
-         "half the elastic limit, at every tolerance tried. Finer meshes need no more."],
+        ["At a damping ratio of a tenth and half the elastic limit, at most ", _worst(usual),
+         ", at every tolerance tried. Heavier damping needs more, up to ",
+         Number(max(most), "iterations", "study cg-iterations"),
+         " in the settings tried. At a fixed damping ratio a finer mesh needs no more."],
         [*usual, *mesh],
     )
 
 
 def _contact(results: Results) -> list[Piece]:
-    forecast = results.named("forecast-time.exact-on-a-plane")
+    plane = results.named("forecast-time.exact-on-a-plane")
+    curved = results.named("forecast-time.second-order-on-a-")
     lands = results.named("projection.points-land-where-the-map-says")
-    waves = results.named("wrinkle-preservation.wavelength-is-preserved")
-    if not (forecast and lands and waves):
+    counted = [*results.named("projection.no-point-is-left-inside"),
+               *results.named("projection.order-of-depths-is-preserved")]
+    if not (plane and curved and lands and len(counted) > 1):
         return []
     return results.guarded(
-        ["Yes. A point forecast to lie on a plane misses it by ", _worst(forecast),
-         ". Projected points land within ", _worst(lands),
-         " of the depth that the map gives them, and wrinkles keep their wavelength within ",
-         _worst(waves), "."],
-        [*forecast, *lands, *waves],
+        ["Yes. A point forecast to lie on a plane at rest misses it by ", _worst(plane),
+         "; on balls and on moving surfaces it misses by the square of the step, in order within ",
+         _worst(curved), ". Projected points reach their prescribed signed distance within ",
+         _worst(lands), "; none is left inside, and of two points the deeper one stays deeper."],
+        [*plane, *curved, *lands, *counted],
     )

@@ -229,7 +229,13 @@ def render(page: Page, since: list[Piece] | None = None, cuts: Cuts | None = Non
         said=page.provenance,
         summary=summary_of_page(page, since, environment),
         answers=[] if page.trial else four_questions(
-            Results(page.all_findings(), [], [], environment.globals["anchor"]), page.studies
+            Results(
+                page.all_findings(),
+                [view.study for view in page.studies],
+                [],
+                environment.globals["anchor"],
+            ),
+            page.studies,
         ),
         title=title_of(page.trial) if page.trial else "What was found",
         standfirst=standfirst_of(page.trial, _judged(page)) if page.trial else "",

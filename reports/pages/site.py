@@ -117,7 +117,8 @@ def _parts(text: str, pages: list[Cut]) -> dict[str, str]:
 
 
 def _leads_to(here: str, cut: Cut) -> str:
-    return f'<p class="leads-to"><a href="{escape(_way(here, cut.file))}">{escape(cut.title)}</a></p>\n'
+    way = _way(here, cut.file)
+    return f'<p class="leads-to"><a href="{escape(way)}">{escape(cut.title)}</a></p>\n'
 
 
 def _contents(pages: list[Cut]) -> str:
@@ -175,7 +176,8 @@ def _linked(pages: dict[str, str]) -> dict[str, str]:
     home = {name: file for file in reversed(pages) for name in ids[file]}
 
     def lead(file: str, name: str) -> str:
-        return f"#{name}" if name in ids[file] or name not in home else f"{_way(file, home[name])}#{name}"
+        is_here = name in ids[file] or name not in home
+        return f"#{name}" if is_here else f"{_way(file, home[name])}#{name}"
     return {
         file: _LINK.sub(lambda found: f'href="{lead(file, found[1])}"', page)
         for file, page in pages.items()

@@ -1,4 +1,4 @@
-"""Tests of the report as pages, of its four questions, of methods' looks and of numbers as they are said; run
+"""Tests of the report as pages, of its four questions, of methods' looks and of numbers; run
 with reports/tests/test_reports.py."""
 from __future__ import annotations
 
@@ -72,7 +72,8 @@ class Site(unittest.TestCase):
         ids = {name: set(re.findall(r'\sid="([^"]+)"', text)) for name, text in self.pages.items()}
         for name, text in self.pages.items():
             for file, anchor in re.findall(r'<a [^>]*?href="([^"#]*)#?([^"]*)"', text):
-                there = os.path.normpath(os.path.join(os.path.dirname(name), file)) if file else name
+                way = os.path.join(os.path.dirname(name), file)
+                there = os.path.normpath(way) if file else name
                 self.assertIn(there, self.pages)
                 self.assertTrue(not anchor or anchor in ids[there], f"{name}: {file}#{anchor}")
 
@@ -100,7 +101,7 @@ class Questions(unittest.TestCase):
     def answers(self, findings: list[Finding], figure: str) -> list[str]:
         """Words and figures."""
         study = Study(self.study, "", "", "", 0, [mock.Mock()], [])
-        study.figures[0].name = figure
+        study.figures[0].name, study.figures[0].title = figure, "A title"
         svg = Markup('<svg><g id="a"/><use href="#a"/></svg>')
         drawn = StudyView(study, "study", [Plot("x", svg)], [], [])
         made = four_questions(Results(findings, [], [], str), [drawn])
@@ -108,11 +109,13 @@ class Questions(unittest.TestCase):
 
     def test_an_answer_has_the_worst_number_of_each_kind_and_a_figure(self) -> None:
         findings = [found("bending.forces-sum-to-zero", 3), found("bending.torques-sum-to-zero", 4),
-                    found("momentum-drift.linear-is-conserved.A", 5),
-                    found("momentum-drift.linear-is-conserved.RK2", 6),
-                    found("momentum-drift.undamped-angular-is-conserved.C", 7)]
+                    found("bending.damping-forces-conserve-momentum", 5),
+                    found("momentum-drift.damped-angular-is-conserved.A", 6),
+                    found("momentum-drift.undamped-angular-is-conserved.B", 7),
+                    found("momentum-drift.damped-drift-order.C", 8),
+                    found("strain-momentum.drift-is-first-order.A", 9)]
         (answer,) = self.answers(findings, self.figure)
-        self.assertEqual(re.findall(r'"n">([^<]*)<', answer), ["3", "4", "6", "7"])
+        self.assertEqual(re.findall(r'"n">([^<]*)<', answer), ["3", "4", "5", "7"])
         for words in ("Yes", 'id="answer-a"', 'href="#answer-a"'):
             self.assertIn(words, answer)
         self.assertEqual(self.answers(findings, "another"), [])

@@ -81,6 +81,7 @@ TEST_CASE("mesh: what is no oriented manifold is refused, with the triangle or t
            {places(7),
             {{3, 1, 2}, {3, 2, 0}, {6, 3, 5}, {4, 3, 6}},
             "vertex 3: its triangles form more than one fan (triangle 0 and triangle 2"},
+           {places(5), {{0, 1, 2}, {0, 3, 4}}, "vertex 0: its triangles form more than one fan"},
            {seven, tetrahedra, "vertex 0: its triangles form more than one fan"}}) {
     CHECK(refusal_of(x, triangles).starts_with("mesh: " + said));
   }
