@@ -6,8 +6,9 @@ import shutil
 import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
-from make_report import make_site
+from make_report import make_pages
 from pages.chromium import Browser
 from tests.made_up_run import put_run
 
@@ -19,6 +20,7 @@ CONTROLS = """(() => {
     .filter((one) => !one.disabled && one.checkVisibility({ visibilityProperty: true }))
     .map((one) => [reached(one), one.outerHTML.slice(0, 90)]);
 })()"""
+PAGES = ("report.html", "report/claims.html", "report/checks.html", "report/case-fold.html")
 WHERE = """(() => {
   const at = document.activeElement, style = getComputedStyle(at);
   const place = at.getBoundingClientRect();
@@ -38,7 +40,8 @@ class Keyboard(unittest.TestCase):
         cls.addClassCleanup(folder.cleanup)
         root = Path(folder.name)
         put_run(root)
-        cls.folder = make_site(root, root / "figures").parent
+        with mock.patch("pages.page.MOST_BYTES", 100):
+            cls.folder = make_pages(root, root / "figures").parent
         cls.browser = Browser()
         cls.addClassCleanup(cls.browser.close)
 
@@ -52,7 +55,7 @@ class Keyboard(unittest.TestCase):
         return self.browser.evaluate(WHERE)
 
     def test_every_control_is_reached_in_order_and_is_seen(self) -> None:
-        for name in ("index.html", "claims.html", "checks.html", "case-fold.html"):
+        for name in PAGES:
             for width in (1280, 400):
                 with self.subTest(page=name, width=width):
                     controls = self.open(name, width)
@@ -68,7 +71,7 @@ class Keyboard(unittest.TestCase):
                     self.assertGreater(len(stops), 5)
 
     def test_the_first_stop_leads_past_the_navigation(self) -> None:
-        self.open("checks.html")
+        self.open("report/checks.html")
         first = self.tab()
         self.assertEqual(first["text"], "Skip to the content")
         self.browser.press("Enter")
@@ -80,7 +83,7 @@ class Keyboard(unittest.TestCase):
         )
 
     def test_what_is_folded_opens_and_closes(self) -> None:
-        self.open("checks.html")
+        self.open("report/checks.html")
         for _ in range(200):
             if self.tab()["tag"] == "summary":
                 break
