@@ -192,7 +192,7 @@ def _steps(results: Results) -> Conclusion | None:
     headline = results.guarded(["Damping does not shorten the stable step of schemes A and B."],
                                results.named("stability-sheet.limit-does-not-depend-on-damping."))
     resonance = results.guarded(
-        ["Undamped, two stable steps that alternate can resonate. "],
+        ["Without damping, alternating between two stable steps can be unstable. "],
         results.named("variable-step-stability.alternating-steps-resonate."),
     )
     if not headline or not explicit:
@@ -205,7 +205,7 @@ def _steps(results: Results) -> Conclusion | None:
             " steps in a unit of time, and explicit methods ", *_range(explicit, source), ". ",
             *resonance
         ],
-        ["Keep undamped steps equal."] if resonance else [],
+        ["Use a constant step for undamped cloth."] if resonance else [],
     )
 
 
@@ -243,7 +243,7 @@ def _mesh(results: Results) -> Conclusion | None:
 def _contact(results: Results) -> Conclusion | None:
     """Crossings and depth inside objects."""
     never = results.named("case.", ".never-crosses-itself")
-    headline = results.guarded(["Cloth does not pass through itself."],
+    headline = results.guarded(["Cloth crosses itself in no stored frame."],
                                never + results.named("crossing-queries.no-meeting-is-missed."))
     if not never:
         return None
@@ -251,7 +251,7 @@ def _contact(results: Results) -> Conclusion | None:
         "In ",
         Number(sum(one.outcome == "holds" for one in never), "1", "findings never-crosses-itself"),
         " of ", Number(len(never), "1", "findings never-crosses-itself"),
-        " cases that promise it nothing crosses in any frame. "
+        " cases that promise it, decided exactly. "
     ]
     kept = {finding.name.rsplit(".", 1)[0] for finding in never}
     others = [
@@ -273,7 +273,7 @@ def _contact(results: Results) -> Conclusion | None:
             key: Number(sum(float(row[key]) for row in asked), "1", "study crossing-queries")
             for key in ("asked", "missed")
         }
-        rest += [total["missed"], " of ", total["asked"], " crossing tests missed a crossing. "]
+        rest += [total["missed"], " of ", total["asked"], " queries of a moving vertex and triangle, or two edges, missed a crossing. "]
     outside = results.named("case.", ".stays-outside")
     if outside:
         deepest = max(outside, key=lambda one: one.measured)

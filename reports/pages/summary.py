@@ -297,20 +297,12 @@ def _faults(faults: list[Fault]) -> list[Piece]:
             *([" and others"] if recorded[1:] else []),
             ", not with these results)",
         ]
-    rest = len(faults) - counted["caught"] - counted["SURVIVED"]
-    return [
-        *said,
-        *(
-            [
-                "; ",
-                _count(rest, "other faults"),
-                " are equivalent, or were not run since they were written",
-            ]
-            if rest
-            else []
-        ),
-        ".",
-    ]
+    rest = len(faults) - run
+    if counted["equivalent"]:
+        said += ["; ", _count(counted["equivalent"], "equivalent faults"), " change no result"]
+    if rest:
+        said += ["; ", _count(rest, "other faults"), " were not run since they were written"]
+    return [*said, "."]
 
 
 def since_last(before: RunRow, now: RunRow, anchor: Callable[[str], str]) -> list[Piece]:

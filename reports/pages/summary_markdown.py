@@ -31,7 +31,7 @@ def summary_markdown(summary: Summary) -> str:
         lines += ["", f"## {summary.limits_title}", ""]
         lines += [f"- {markdown_of(limit)}" for limit in summary.limits]
     if summary.margins:
-        lines += ["", "## Tightest margins", "", "| finding | left of its bound |", "|---|---:|"]
+        lines += ["", "## Tightest margins", "", "| finding | remaining margin |", "|---|---:|"]
         lines += [
             f"| {_name(margin.finding.name)} | {markdown_of([margin.left])} |"
             for margin in summary.margins
