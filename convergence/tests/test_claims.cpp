@@ -1,5 +1,6 @@
 // The ledger: rulings that follow from outcomes, and numbers in its texts.
 #include <catch2/catch.hpp>
+#include <regex>
 #include <fstream>
 #include <iterator>
 #include <limits>
@@ -171,4 +172,14 @@ TEST_CASE("the paper of the page for authors of claims is read, and ruled by che
   CHECK(place_of(claims[0]) == "ABC99 section 3");
   CHECK(place_of(claims[1]) == "ABC99, knots");
   CHECK(!is_covered(claims[1], records));
+}
+
+TEST_CASE("no claim's text has a measured number typed into it") {
+  const std::regex placeholder("\\{[^}]*\\}");
+  const std::regex number("[0-9][.,][0-9]|[0-9]e-?[0-9]|[0-9] ?%");
+  for (const Claim& claim : read_claims(CLAIMS_FOLDER)) {
+    INFO("claim " << claim.id);
+    const std::string words = std::regex_replace(claim.why + claim.condition, placeholder, "");
+    CHECK_FALSE(std::regex_search(words, number));
+  }
 }

@@ -297,3 +297,20 @@ TEST_CASE("a kept run is found again, and made again only for a larger budget") 
   CHECK(again.x.back() == whole.x.back());
   CHECK(again.seconds == whole.seconds);
 }
+
+TEST_CASE("a step that was too dear to try to the end of the case is not advised") {
+  const MadeUp made({{"A", {1e-5, 2, 2, 3, 0, 1, 1, 1e6}}}, {1e-2}, 1e6);
+  CHECK(std::isnan(made.price(0, "A").energy_gain));
+  CHECK(made.sentence().find("A with the automatic step") != std::string::npos);
+}
+
+TEST_CASE("the step that may be used was tried, with a whole number of steps a frame") {
+  const MadeUp made({}, {1e-2, 1e-3});
+  for (const PriceList& list : made.answer.lists) {
+    const MethodPrice& best = list.prices.front();
+    CHECK(best.whole_step <= best.price.step * (1 + 1e-9));
+    const double parts = frame / best.whole_step;
+    CHECK(parts == Approx(std::round(parts)).epsilon(1e-12));
+    CHECK(made.trials.longer.at(best.method).contains(int(std::round(parts))));
+  }
+}

@@ -318,4 +318,21 @@ TEST_CASE("isolated reader: it reports what the reader says, and how the reader 
           "it is damaged: reading it ended with signal " + std::to_string(signal));
 }
 
+TEST_CASE("a store may be used by several threads") {
+  const Kept kept;
+  ResultStore store(kept.folder);
+  const auto name = [](int k) { return "key" + std::to_string(k); };
+  const auto write = [&](int first) {
+    for (int k = first; k < first + 10; ++k) {
+      store.start(name(k), "");
+      store.keep(name(k), {{{"x", {double(k)}}}, {}});
+    }
+  };
+  std::vector<std::thread> threads;
+  for (int t = 0; t < 4; ++t) threads.emplace_back(write, 10 * t);
+  for (std::thread& thread : threads) thread.join();
+  for (int k = 0; k < 40; ++k)
+    CHECK(store.find(name(k)).value().arrays.at("x") == std::vector<double>{double(k)});
+}
+
 }  // namespace foldproof

@@ -147,3 +147,8 @@ TEST_CASE("links in a folder of frames stay within the case's, unless it is of -
   const std::string typed = bodies.folder.file("frames");
   CHECK(bodies.object(frames, {}, {"object.frames='" + typed + "'"}).animation->times.size() == 3);
 }
+
+TEST_CASE("a wrong interval of frames is refused with one place", "[scene]") {
+  const Bodies bodies;
+  CHECK(bodies.refusal(frames + "interval = 0\n") == "8: 'interval' must be > 0");
+}

@@ -87,3 +87,14 @@ TEST_CASE("a path of a case is relative to its folder, one of --set is as typed"
     CHECK(path_of(*keys, "mesh", folder) == typed);
   }
 }
+
+TEST_CASE("an error without a place gets one, and others keep theirs", "[scene]") {
+  using Texts = std::vector<std::pair<std::string, std::string>>;
+  for (const auto& [thrown, becomes] : Texts{{"radius is 0", "some.toml:7: radius is 0"},
+                                             {"some.toml:9: is 0", "some.toml:9: is 0"},
+                                             {"--set a=0: is 0", "--set a=0: is 0"}}) {
+    const auto fail = [&]() -> int { throw InputError(thrown); };
+    CHECK_THROWS_WITH(with_error_location("some.toml:7", fail), becomes);
+  }
+  CHECK(with_error_location("some.toml:7", [] { return 42; }) == 42);
+}
