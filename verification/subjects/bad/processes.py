@@ -61,20 +61,20 @@ class Sleeps(ToySolver):
 
 
 class AsksAllPairs(ToySolver):
-    """Right, and slow on large sheets: it computes for 40 ns a pair of particles, whatever its own
+    """Right, and slow on large sheets: it computes for 400 ns a pair of particles, whatever its own
     steps take of that."""
 
     def advance(self, dt: float, steps: int) -> None:
-        done = time.process_time() + 4e-8 * steps * len(self.x) ** 2
+        done = time.process_time() + 4e-7 * steps * len(self.x) ** 2
         super().advance(dt, steps)
         while time.process_time() < done:
             np.hypot(self.x[:64, 0], self.x[:64, 1])
 
 
 class WaitsForAllPairs(ToySolver):
-    """Likewise, somewhere else: an answer takes 40 ns a pair, as from a computer that it asks."""
+    """Likewise, somewhere else: an answer takes 400 ns a pair, as from a computer that it asks."""
 
     def advance(self, dt: float, steps: int) -> None:
-        answered = time.monotonic() + 4e-8 * steps * len(self.x) ** 2
+        answered = time.monotonic() + 4e-7 * steps * len(self.x) ** 2
         super().advance(dt, steps)
         time.sleep(max(0, answered - time.monotonic()))
