@@ -273,7 +273,10 @@ def _contact(results: Results) -> Conclusion | None:
             key: Number(sum(float(row[key]) for row in asked), "1", "study crossing-queries")
             for key in ("asked", "missed")
         }
-        rest += [total["missed"], " of ", total["asked"], " queries of a moving vertex and triangle, or two edges, missed a crossing. "]
+        rest += [
+            total["missed"], " of ", total["asked"],
+            " queries of a moving vertex and triangle, or two edges, missed a crossing. "
+        ]
     outside = results.named("case.", ".stays-outside")
     if outside:
         deepest = max(outside, key=lambda one: one.measured)
