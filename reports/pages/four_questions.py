@@ -150,6 +150,6 @@ def _contact(results: Results) -> list[Piece]:
         ["Yes. A point forecast to lie on a plane at rest misses it by ", _worst(plane),
          "; on balls and on moving surfaces it misses by the square of the step, in order within ",
          _worst(curved), ". Projected points reach their prescribed signed distance within ",
-         _worst(lands), "; none is left inside, and of two points the deeper one stays deeper."],
+         _worst(lands), "; none is left inside, and the order of their depths is kept."],
         [*plane, *curved, *lands, *counted],
     )

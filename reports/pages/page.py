@@ -33,7 +33,7 @@ from pages.errors import Errors
 from pages.needs import Needs
 from pages.said import bound_html, measured_html, rule_html
 from pages.sentences import Piece, html_of
-from pages.site import FIRST, Cuts, split
+from pages.site import FIRST, Cuts, split, without_marks
 from pages.solver_words import is_of_frames, repeats, standfirst_of, title_of
 from pages.summary import Judged, Summary, summary_of
 from pages.summary_markdown import count_words
@@ -175,11 +175,11 @@ class Page:
 def render_pages(page: Page) -> dict[str, str]:
     """The report as pages: files from its folder, the first page first, and HTML texts. One page if
     all is on one screen or two: of simulations alone, or of at most MOST_BYTES."""
-    whole = render(page)
-    if page.alone or len(whole.encode("utf-8")) <= MOST_BYTES:
-        return {FIRST: whole}
     cuts = Cuts(is_site=True)
-    return split(render(page, cuts=cuts), cuts, _viewer())
+    text = render(page, cuts=cuts)
+    if page.alone or len(text.encode("utf-8")) <= MOST_BYTES:
+        return {FIRST: without_marks(text)}
+    return split(text, cuts, _viewer())
 
 
 def render(page: Page, since: list[Piece] | None = None, cuts: Cuts | None = None) -> str:

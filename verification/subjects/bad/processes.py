@@ -61,8 +61,8 @@ class Sleeps(ToySolver):
 
 
 class AsksAllPairs(ToySolver):
-    """Right, and slow on large sheets: it computes for 400 ns a pair of particles, whatever its own
-    steps take of that."""
+    """Right, and slow on large sheets: it computes for 400 ns a pair of particles, its own step
+    included."""
 
     def advance(self, dt: float, steps: int) -> None:
         done = time.process_time() + 4e-7 * steps * len(self.x) ** 2

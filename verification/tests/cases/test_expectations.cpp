@@ -48,7 +48,7 @@ double at_end(const char* key, const Scene& scene, const PerParticle3& x) {
 }
 
 /// A folder with a case of the mesh square.obj above a sphere: one bound for any cloth, two for
-/// this shape; and with other meshes, of which ball.obj starts in no plane.
+/// this shape; and with other meshes; ball.obj starts in no plane.
 struct MeshCase {
   ScratchFolder folder;
 

@@ -24,7 +24,7 @@ time = { end = 0.5, frames_per_second = 20, step = 0.005 }
       "judge.toml");
 }
 
-/// Runs from `start` to `end`; damages rows of diagnostics, of which the first belongs to the start
+/// Runs from `start` to `end`; damages rows of diagnostics; the first belongs to the start
 /// and has number 0, on their way to the repetition, and then adds `more` rows.
 double differing(const std::function<void(Diagnostics&, int)>& damage, double start = 0,
                  double end = 0.5, int more = 0) {
@@ -75,7 +75,7 @@ TEST_CASE("repetition: ten steps after the start, the middle and the last frame 
 }
 
 TEST_CASE("repetition: frames are counted from the start of the run, and missing rows differ") {
-  // five frames and a short one: frames 0, 3 and 5, of which the last has six steps
+  // five frames and a short one: frames 0, 3 and 5; the last has six steps
   CHECK(repeated(1, 10, 0.2, 0.48) == 10);
   CHECK(repeated(11, 30, 0.2, 0.48) == 0);
   CHECK(repeated(31, 40, 0.2, 0.48) == 10);

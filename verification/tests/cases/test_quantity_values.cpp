@@ -164,7 +164,7 @@ TEST_CASE("quantities of objects: depths of free particles, and what two objects
 TEST_CASE("quantities of a run: energies, momenta, contacts and steps from its diagnostics") {
   const Scene scene = scene_of_everything();
   DiagnosticsSummary summary;
-  // until 2 s, of which the last tenth begins at 1.8 s; momenta are along x, 0 at the start
+  // until 2 s; the last tenth begins at 1.8 s; momenta are along x, 0 at the start
   const auto record = [&](double time, const Energies& energy, double damped, double momentum) {
     Diagnostics row;
     row.time = time, row.step = time < 1 ? 0.1 : 0.3, row.energy = energy;
