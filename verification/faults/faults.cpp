@@ -32,8 +32,7 @@ std::vector<std::filesystem::path> files_of_faults(const std::string& folder) {
   std::vector<std::filesystem::path> paths;
   std::error_code error;
   for (const auto& entry : std::filesystem::directory_iterator(folder, error))
-    if (entry.path().extension() == ".toml" && entry.path().stem() != "equivalent_mutants")
-      paths.push_back(entry.path());
+    if (entry.path().extension() == ".toml") paths.push_back(entry.path());
   if (paths.empty()) throw InputError(folder + ": there is no list of faults, ROOM.toml");
   std::sort(paths.begin(), paths.end());
   return paths;

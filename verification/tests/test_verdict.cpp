@@ -164,7 +164,6 @@ TEST_CASE("faults are read with who catches them, and a key that no one knows is
   folder.write("mesh.toml", row +
                                 "caught_by = [\"sums.add-up\"]\nfast = true\n"
                                 "caught_by_tests = [\"one, and another\", \"test_sums\"]\n");
-  folder.write("equivalent_mutants.toml", "[[mutant]]\n");
   const std::vector<Fault> faults = read_faults(folder.file("."));
   REQUIRE(faults.size() == 1);
   CHECK(faults[0].caught_by == std::vector<std::string>{"sums.add-up"});
