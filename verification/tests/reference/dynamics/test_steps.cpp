@@ -56,21 +56,6 @@ TEST_CASE("an automatic step is a part of the limit, and less where lengths chan
   CHECK(allowed(infinite) == 7);
 }
 
-TEST_CASE("threads find the fastest spring, wherever it is in the list") {
-  System system = masses();
-  Elements<Spring> turned = changing;
-  turned.push_back({0, 2, 5, 1, 0});
-  for (int turn = 0; turn < 4; ++turn) {
-    std::rotate(turned.begin(), turned.begin() + 1, turned.end());
-    for (const int threads : {1, 2, 3}) {
-      system.forces = {StretchSprings{turned}};
-      set_team(system, threads);
-      CHECK(step_of(system, Family::mixed, {}, infinite) ==
-            Approx(0.1 / fastest_of(turned)).epsilon(1e-8));
-    }
-  }
-}
-
 TEST_CASE("damping limits the steps of explicit methods alone") {
   System system = masses();
   system.forces = {StretchSprings{{{0, 2, 1e9, 0, 0.6}}}};

@@ -44,43 +44,6 @@ TEST_CASE("a particle's motion is prescribed once, and only if there is the part
   CHECK(system.prescribed[1].start == Vector3(4, 5, 6));
 }
 
-TEST_CASE("the table's rows say each method's order, history, family and limits") {
-  struct Row {
-    std::string name;
-    int order, history;
-    decltype(Integrator::step) step;
-    Family family;
-  };
-  using enum Family;
-  const std::vector<Row> rows{
-      {"A", 2, 1, mixed_explicit_implicit, mixed},
-      {"B", 2, 1, central_newmark, mixed},
-      {"C", 2, 1, variable_step_newmark, mixed},
-      {"forward-euler", 1, 1, forward_euler, fully_explicit},
-      {"RK2", 2, 1, explicit_midpoint, fully_explicit},
-      {"SSP-RK3", 3, 1, ssp_runge_kutta_3, fully_explicit},
-      {"RK4", 4, 1, runge_kutta_4, fully_explicit},
-      {"backward-euler", 1, 1, backward_euler, fully_implicit},
-      {"linear-backward-euler", 1, 1, linearised_backward_euler, fully_implicit},
-      {"BDF2", 2, 2, bdf2, fully_implicit},
-      {"implicit-midpoint", 2, 1, implicit_midpoint, fully_implicit},
-  };
-  REQUIRE(integrators().size() == rows.size());
-  for (size_t k = 0; k < rows.size(); ++k) {
-    const Integrator& found = integrator_named(rows[k].name);
-    INFO(rows[k].name);
-    CHECK(&found == &integrators()[k]);
-    CHECK(found.order == rows[k].order);
-    CHECK(found.history == rows[k].history);
-    CHECK(found.step == rows[k].step);
-    CHECK(found.family == rows[k].family);
-    CHECK(found.damping_widens_limit == (found.name == "C"));
-    // BDF2 is stable up to 1 + sqrt(2)
-    CHECK(found.largest_growth == (found.name == "BDF2" ? 2.4 : infinite));
-  }
-  CHECK_THROWS_WITH(integrator_named("a"), Contains("'a'; known: A, B, C, forward-euler"));
-}
-
 namespace {
 
 RigidObject moving(const RigidMotion& motion) { return {{}, {}, motion}; }

@@ -53,20 +53,6 @@ TEST_CASE("a pinched point goes to the surface between two objects, with the fri
   }
 }
 
-TEST_CASE("the table of responses begins with the paper's; an unknown name lists the known") {
-  std::string names;
-  for (const Response& response : responses()) {
-    names += std::string(response.name) + " ";
-    CHECK(&response_named(response.name) == &response);
-    CHECK(response.query_time ==
-          (response.name == "projection" ? QueryTime::at_end : QueryTime::at_start));
-  }
-  CHECK(names == "forecast forecast_deepest projection push_out ");
-  CHECK_THROWS_WITH(
-      response_named("forcast"),
-      "unknown response 'forcast'; known: forecast, forecast_deepest, projection, push_out");
-}
-
 TEST_CASE("forecasting answers each object in turn, the deepest forecast first") {
   // walls with normals x and y, both to be entered: neither is forgotten
   const ObjectPoint x = answer(0.1, {1, 0, 0}, Vector3::Zero(), 0.5),

@@ -143,29 +143,6 @@ TEST_CASE("strain limits are refused outside their ranges, and taken at the ends
   refuses(limits_of(0.3, 0.2, 0, 0.1), "one sweep");
 }
 
-TEST_CASE("springs are sorted by their particles, and by the first colour free at both ends") {
-  using Ends = std::vector<std::pair<int, int>>;
-  const std::vector<Spring> springs{{4, 5, 1, 0, 0}, {2, 3, 1, 0, 0}, {1, 3, 1, 0, 0},
-                                    {1, 2, 1, 0, 0}, {0, 3, 1, 0, 0}, {0, 2, 1, 0, 0},
-                                    {0, 1, 7, 0, 0}, {0, 1, 2, 0, 0}};
-  const auto check = [&](SweepOrder order, const Ends& expected, const std::vector<int>& colours) {
-    StrainLimits limits;
-    limits.order = order;
-    const StrainLimiter limiter = make_strain_limiter(limits, springs, PerParticle::Ones(6));
-    Ends ends;
-    for (const LimitedSpring& spring : limiter.springs) ends.emplace_back(spring.a, spring.b);
-    CHECK(ends == expected);
-    CHECK(limiter.colours == colours);
-    CHECK(limiter.springs[0].rest_length == 7);  // those of the same particles keep their order
-    CHECK(make_strain_limiter(limits, {}, PerParticle::Ones(1)).colours ==
-          (order == SweepOrder::coloured ? std::vector{0} : std::vector{0, 0}));
-  };
-  check(SweepOrder::gauss_seidel, {{0, 1}, {0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}, {4, 5}},
-        {0, 8});
-  check(SweepOrder::coloured, {{0, 1}, {2, 3}, {4, 5}, {0, 1}, {0, 2}, {1, 3}, {0, 3}, {1, 2}},
-        {0, 3, 4, 6, 8});
-}
-
 TEST_CASE("sweeps of strain limiting end at the tolerance, not below it") {
   // the long spring is met last, and leaves the short one too long
   const std::vector<Spring> springs{{0, 1, 0.5, 1, 0}, {1, 2, 2, 1, 0}};
