@@ -26,13 +26,6 @@ struct LinearSystem {
         [D = D](const PerParticle3& p, PerParticle3& f) { f += columns(D * flat(p)); });
     return damping;
   }
-  MatrixXd newton() const { return MatrixXd(of_particles(mass).asDiagonal()) - s * D - s * s * K; }
-  VectorXd of_particles(const PerParticle& a) const {
-    return a.replicate(1, 3).transpose().reshaped();
-  }
-  VectorXd free(const VectorXd& a) const {
-    return (VectorXd(9) << a.head(6), a.tail(3)).finished();
-  }
   /// solve_unsymmetric_step with the Newton matrix.
   SolveResult solved(const SolverSettings& settings, const PerParticle3& r, PerParticle3& dw,
                      Work& work) const {
@@ -50,18 +43,6 @@ SolverSettings settings_of(double tolerance, int iterations) {
 }
 
 }  // namespace
-
-TEST_CASE("an unsymmetric Newton step solves its equation, and moves no prescribed particle") {
-  LinearSystem of;
-  of.K += uneven_matrix(12, 60, 1.9);
-  PerParticle3 r = of.v, dw;
-  r.col(2).setZero();
-  Work work;
-  const SolveResult solve = of.solved(settings_of(1e-10, 99), r, dw, work);
-  CHECK((solve.converged && solve.residual <= 1e-10 && work.solves == 1));
-  CHECK((of.free(of.newton() * flat(dw) - flat(r))).norm() < 1e-8);
-  CHECK(dw.col(2) == Vector3::Zero());
-}
 
 TEST_CASE("BiCGSTAB ends where it breaks down, at its latest iterate") {
   const auto expect = [](const Matrix3d& block, double first, double residual, double part) {

@@ -53,24 +53,6 @@ TEST_CASE("no step is longer than wanted by more than a part in a thousand milli
   expect_steps(steps_of(schedule_of(0.9, 0.9, 0)), {0.2});  // nothing limits an automatic step
 }
 
-TEST_CASE("a step that ends at a frame, or where it is told, ends there to the bit") {
-  State start = start_state();
-  start.time = -3.3;  // a step longer than the time it ends at rounds more coarsely
-  int rounded = 0;
-  for (int k = 0; k < 100; ++k) {
-    const double end = 0.5 + 0.0137 * k;
-    rounded += start.time + (end - start.time) != end;
-    CHECK(run(masses(), drifting(1), start, schedule_of(end, 9, 9), {}).last.time == end);
-    Schedule schedule = schedule_of(2, 9, 9);
-    schedule.step.ends = {end};
-    Seen seen;
-    run(masses(), drifting(1), start, schedule, seen.observer());
-    REQUIRE(seen.rows.size() == 3);
-    CHECK(seen.rows[1].time == end);
-  }
-  CHECK(rounded > 5);
-}
-
 TEST_CASE("a frame that only rounding puts before the end is the end") {
   for (const double interval : {0.2, 0.2 * (1 - 3e-10)}) {  // 0.7 + 0.2 rounds to less than 0.9
     Seen seen;

@@ -1,11 +1,8 @@
-// Systems, the table of integrators, and events.
+// Systems and events.
 #include <catch2/catch.hpp>
 
 #include "reference/dynamics/events.h"
-#include "reference/dynamics/explicit.h"
-#include "reference/dynamics/implicit.h"
 #include "reference/dynamics/integrator.h"
-#include "reference/dynamics/mixed.h"
 
 using namespace foldproof;
 using Catch::Matchers::Contains;
@@ -55,11 +52,6 @@ Motion between(double from, double until) {
   return motion;
 }
 
-std::vector<double> sorted(std::vector<double> times) {
-  std::sort(times.begin(), times.end());
-  return times;
-}
-
 System system_of_events() {
   System system = make_system(three_masses());
   StickyPatch first, second;
@@ -95,20 +87,6 @@ std::vector<double> times_passed(const System& system, double start, double tole
 
 }  // namespace
 
-TEST_CASE("objects have events where their motions start, stop or pass a frame") {
-  const System system = system_of_events();
-  CHECK(sorted(object_event_times(system, 0.1)) ==
-        std::vector<double>{0.15, 0.2, 0.3, 0.5, 0.55, 0.6, 0.75, 0.85});
-  CHECK(sorted(object_event_times(system, 0.55)) == std::vector<double>{0.6, 0.75, 0.85});
-}
-
-TEST_CASE("sticky patches have events where they start, begin their release and end") {
-  const System system = system_of_events();
-  CHECK(sorted(sticking_event_times(system, 0.1)) ==
-        std::vector<double>{0.35, 0.45, 0.95 - 0.25, 0.95});
-  CHECK(sorted(sticking_event_times(system, 0.45)) == std::vector<double>{0.95 - 0.25, 0.95});
-}
-
 TEST_CASE("events are passed in order, those up to a tolerance apart at once") {
   const System system = system_of_events();
   CHECK(times_passed(system, 0.51, 0.02) ==
@@ -124,51 +102,6 @@ TEST_CASE("events are passed in order, those up to a tolerance apart at once") {
   // a run begins without passing an event close to its start
   prescribe(one, {1, Vector3::Zero(), between(0.31, 0.9)});
   CHECK(Events(one, 0.3, 0.02, 0.3).next() == 0.31);
-}
-
-TEST_CASE(
-    "between events prescribed motions go on as they began, and change where they are passed") {
-  System system = make_system(three_masses());
-  const Vector3 first(0.2, 0.4, 0.6), second(-0.3, 0.7, 1.1);
-  prescribe(system, {2, first, between(0.5, 0.9)});
-  prescribe(system, {0, second, between(0.2, 0.7)});
-  Events events(system, 0.3, 1e-9);
-  const System& own = events.system();
-  CHECK(&own != &system);
-  CHECK(events.next() == 0.5);
-  const auto place = [](const System& in, size_t k, double t) {
-    return position_at(in.prescribed[k].motion, in.prescribed[k].start, t);
-  };
-  const auto speed = [](const System& in, size_t k, double t) {
-    return velocity_at(in.prescribed[k].motion, in.prescribed[k].start, t).norm();
-  };
-  const double v = Vector3(0.5, 0.25, -2).norm();
-  CHECK(speed(own, 0, 0.6) == 0);
-  CHECK(speed(own, 1, 0.8) == Approx(v));
-  CHECK((place(own, 1, 0.4) - place(system, 1, 0.4)).norm() < 1e-15);
-
-  State s = three_particles(0.5);
-  const State after = events.pass_events(s);
-  CHECK(&events.system() == &own);
-  CHECK(after.v.col(2) == Vector3(0.5, 0.25, -2));
-  CHECK(after.v.col(0) == Vector3(0.5, 0.25, -2));
-  CHECK(after.v.col(1) == s.v.col(1));
-  CHECK(after.x == s.x);
-  CHECK(events.next() == 0.7);
-  CHECK(speed(own, 0, 0.6) == Approx(v));
-  s.time = 0.7;
-  CHECK(events.pass_events(s).v.col(0) == Vector3::Zero());
-  CHECK(speed(own, 1, 0.71) == 0);
-  CHECK((place(own, 1, 0.71) - place(system, 1, 0.71)).norm() < 1e-15);
-  CHECK(events.next() == 0.9);
-
-  // resumed after the event at 0.5, and before any
-  for (const double last : {0.5, 0.3}) {
-    const Events resumed(system, 0.3, 1e-9, last);
-    CHECK(resumed.last() == last);
-    CHECK(resumed.next() == (last == 0.5 ? 0.7 : 0.5));
-    CHECK(speed(resumed.system(), 0, 0.6) == Approx(last == 0.5 ? v : 0));
-  }
 }
 
 TEST_CASE("sticking that forecasts allows steps of twice its time, if nothing else forbids them") {

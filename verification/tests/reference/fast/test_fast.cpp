@@ -1,19 +1,14 @@
-// Loops on several threads, a shared table, and points out of reach.
+// Loops on several threads, and points out of reach.
 #include <atomic>
 #include <catch2/catch.hpp>
-#include <cmath>
-#include <functional>
 #include <limits>
 
 #include "reference/fast/out_of_reach.h"
 #include "reference/fast/elements.h"
-#include "reference/fast/shared_map.h"
 
 using namespace foldproof;
 
 namespace {
-
-using Range = std::pair<long, long>;  // first, count
 
 struct Link {
   int a, b;
@@ -47,26 +42,6 @@ TEST_CASE("threads: each part is done once, and then what the lowest part threw 
     for (const std::atomic<int>& one : times) CHECK(one == 1);
   }
   CHECK_THROWS_AS(Team(0), InputError);
-}
-
-TEST_CASE("threads: blocks have their size, but the last one what is left") {
-  const auto part = [](Eigen::Index first, Eigen::Index count) {
-    return 1000.0 * double(first) + double(count);
-  };
-  for (const int threads : {1, 2, 3})
-    for (const auto& [n, sum] :
-         {std::pair(11, 12011), {9, 12009}, {12, 12012}, {3, 3}, {0, 0}})  // blocks of 4
-      CHECK(sum_of_blocks(threads, n, 4, part) == sum);
-  // batches of 8192 start from the same value
-  const std::vector<int> items(8192 + 3, 1);
-  CHECK(for_each_with(2, items, 100, [](int item, int& own) { own += item; }) ==
-        std::vector<int>{8292, 103});
-  // long sums are taken in blocks of 8192: 2^53 swallows each 1 that is added to it, that of its
-  // own block, not the 2 of the next
-  Elements<double> terms;
-  for (int k = 0; k < 3 * 8192 + 5; ++k)
-    terms.push_back(k == 0 ? std::ldexp(1, 53) : k == 8191 || k == 8192 || k == 8193);
-  CHECK(terms.sum(terms, [](double term, double) { return term; }) == std::ldexp(1, 53) + 2);
 }
 
 TEST_CASE("elements: every particle adds up its elements in ascending order") {

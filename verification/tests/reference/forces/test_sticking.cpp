@@ -1,4 +1,4 @@
-// Targets, dampers, derivatives and bounds of sticking.
+// Targets, derivatives and forecasts of sticking.
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -82,20 +82,6 @@ TEST_CASE("the energy and the slope of the stiffness fall as it does during the 
     CHECK(all.targets_at(s)[0].stiffness_slope == Approx(fraction * full.stiffness_slope));
     CHECK(all.energy(s) == Approx(fraction * energy));
   }
-}
-
-TEST_CASE("a damper of sticking whose coefficient is 1 is kept, one of 0 is not") {
-  Sticking one{{patch({{0, 1, 2}}, 8, 0.125, 0.7)}};
-  const State s = state_at_target(one);
-  DampingOperator damping;
-  one.prepare_damping(s, damping);
-  REQUIRE(damping.targets.size() == 1);
-  CHECK(damping.targets[0].coefficient == 1);
-  CHECK(damping.targets[0].particle == 4);
-  one.patches[0].forecast_time = 0;
-  damping.targets.clear();
-  one.prepare_damping(s, damping);
-  CHECK(damping.targets.empty());
 }
 
 TEST_CASE("the semidefinite derivative of sticking never pushes along its springs") {
