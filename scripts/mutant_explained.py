@@ -1,4 +1,4 @@
-"""Edits that verification/faults/equivalent_mutants.toml says change nothing, asked of all checks
+"""Edits that verification/faults/equivalent_mutants.txt says change nothing, asked of all checks
 and unit tests that reach them, and what came of it. Of scripts/mutate."""
 
 import json

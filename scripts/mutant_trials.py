@@ -9,9 +9,9 @@ import itertools
 import re
 import shutil
 import subprocess
+import sys
 import threading
 import time
-import tomllib
 from collections.abc import Callable, Set
 from pathlib import Path
 from typing import NamedTuple
@@ -32,8 +32,10 @@ from mutants import (
 )
 from reach import Table
 
+sys.path.insert(0, str(ROOT / "reports"))
+from data.mutation_scores import EXPLAINED, read_explained_edits  # noqa: E402
+
 MOST_UNITS = 20  # that a header may be part of to be drawn from a folder
-EXPLAINED = "verification/faults/equivalent_mutants.toml"
 
 
 class Mutant(NamedTuple):
@@ -264,18 +266,13 @@ def line_of(one: Judgement) -> str:
 def read_explained() -> set[tuple[str, str, str]]:
     """File, line and what it becomes, of mutants that are declared equivalent;
     refuses rows whose line does not stand there as often as they say."""
-    try:
-        rows = tomllib.loads((ROOT / EXPLAINED).read_text(encoding="utf-8")).get("mutant", [])
-        found = {(row["file"], row["line"], row["becomes"]) for row in rows if row["reason"]}
-        times = {(row["file"], row["line"]): row.get("times", 1) for row in rows}
-    except (OSError, tomllib.TOMLDecodeError, KeyError) as error:
-        raise Unusable(f"{EXPLAINED}: {error}") from error
-    for (file, line), expected in sorted(times.items()):
-        occurrences = [
-            text.strip() for text in (ROOT / file).read_text(encoding="utf-8").splitlines()
-        ].count(line)
-        if occurrences != expected:
+    edits = read_explained_edits()
+    for edit in edits:
+        text = (ROOT / edit.file).read_text(encoding="utf-8")
+        occurrences = [row.strip() for row in text.splitlines()].count(edit.line)
+        if occurrences != edit.times:
             raise Unusable(
-                f"{EXPLAINED}: '{line}' stands {occurrences} times in {file}, not {expected}"
+                f"{EXPLAINED.name}: '{edit.line}' stands {occurrences} times in"
+                f" {edit.file}, not {edit.times}"
             )
-    return found
+    return {(edit.file, edit.line, edit.becomes) for edit in edits}

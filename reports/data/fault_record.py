@@ -1,6 +1,6 @@
-"""Outcomes of seeded faults that are shipped, as `scripts/faults --record` keeps them: by commit,
-by outcome, each fault with the digest of its edit. An outcome counts for as long as the fault makes
-the same edit and names the same findings and tests."""
+"""Outcomes of seeded faults that are shipped, as `scripts/faults --record` keeps them: each with
+its commit and the digest of the edit. An outcome counts for as long as the fault makes the same
+edit and names the same findings and tests."""
 from __future__ import annotations
 
 import json
@@ -30,18 +30,9 @@ def with_record(faults: list[Fault], record: Path = RECORD) -> list[Fault]:
     if not record.is_file():
         return faults
     with reading(record):
-        known = outcomes_by_name(json.loads(record.read_text(encoding="utf-8")))
+        stored = json.loads(record.read_text(encoding="utf-8"))
+        known = {name: Known(*row) for name, row in stored.items()}
         return [_recorded(fault, known.get(fault.name)) for fault in faults]
-
-
-def outcomes_by_name(stored: dict[str, dict[str, dict[str, str]]]) -> dict[str, Known]:
-    """What the file stores, by fault."""
-    return {
-        name: Known(outcome, commit, edit)
-        for commit, outcomes in stored.items()
-        for outcome, edits in outcomes.items()
-        for name, edit in edits.items()
-    }
 
 
 def _recorded(fault: Fault, known: Known | None) -> Fault:

@@ -3,18 +3,18 @@ and each folder, how many of its slips the checks and tests noticed when they we
 them. The score of a sample is that of slips for which nobody has mended anything."""
 from __future__ import annotations
 
+import itertools
 import json
 import math
-import tomllib
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from data.unreadable import reading
 
 FAULTS = Path(__file__).resolve().parents[2] / "verification" / "faults"
 SCORES = FAULTS / "scores.json"
-EXPLAINED = FAULTS / "equivalent_mutants.toml"
+EXPLAINED = FAULTS / "equivalent_mutants.txt"
 EXPLAINED_ASKED = FAULTS / "explained_mutants.json"
 
 Row = dict[str, Any]
@@ -113,6 +113,31 @@ def key_of_row(row: Row) -> Key:
     return row["file"], row["before"], row["after"]
 
 
+class Explained(NamedTuple):
+    """An edit with a reason why it changes no answer."""
+    file: str
+    line: str
+    becomes: str
+    times: int  # how often the line must stand in the file
+
+
+def read_explained_edits(path: Path = EXPLAINED) -> list[Explained]:
+    """The edits of a file that is written as its first lines say. Throws Unreadable."""
+    edits: list[Explained] = []
+    with reading(path):
+        for section in path.read_text(encoding="utf-8").split("\n\n")[1:]:
+            file, *rows = section.splitlines()
+            for mark, equal in itertools.groupby(rows, key=lambda row: row[:2]):
+                texts = [row[2:] for row in equal]
+                if mark == "+ ":
+                    edits += [Explained(file, line, becomes, times) for becomes in texts]
+                elif mark == "- ":
+                    [line], times = set(texts), len(texts)
+                elif mark != "  " or len(texts) > 1:
+                    raise ValueError(f"{file}: no reason, line or edit: {texts[-1]}")
+    return edits
+
+
 def load_mutation_page(
     scores: Path = SCORES, explained: Path = EXPLAINED, asked: Path = EXPLAINED_ASKED
 ) -> MutationPage | None:
@@ -120,11 +145,9 @@ def load_mutation_page(
     read = read_scores(scores)
     if not read.samples:
         return None
-    with reading(explained):
-        reasons = tomllib.loads(explained.read_text(encoding="utf-8"))["mutant"]
     answers = read_answers(asked)
     return MutationPage(
-        parts_of(read.samples), read.open, len(reasons), len(answers),
+        parts_of(read.samples), read.open, len(read_explained_edits(explained)), len(answers),
         sum(row["outcome"] == "killed" for row in answers)
     )
 

@@ -89,7 +89,7 @@ class FaultRecord(unittest.TestCase):
         edit = edit_digest(
             fault.file, fault.find, fault.replace, fault.caught_by, fault.caught_by_tests
         )
-        self.file.write_text(json.dumps({"abc": {"caught": {"slip": edit}}}))
+        self.file.write_text(json.dumps({"slip": ["caught", "abc", edit]}))
 
     def test_an_outcome_is_recalled_with_its_commit(self) -> None:
         self.record(self.fault)
@@ -116,7 +116,7 @@ class FaultRecord(unittest.TestCase):
 
     def test_a_record_may_be_missing_but_not_damaged(self) -> None:
         self.assertEqual(with_record([self.fault], self.file), [self.fault])
-        self.file.write_text('{"abc": {"caught": ["slip"]}}')
+        self.file.write_text('{"slip": ["caught"]}')
         with self.assertRaisesRegex(Unreadable, "outcomes.json"):
             with_record([self.fault], self.file)
 

@@ -40,10 +40,9 @@ class Beside(ReportTest):
                     "folders": [{**folder, "noticed": 1, "missed": 0}]},
                    {"commit": "abc", "date": "2026-02-01", "folders": [folder]}]
         edit = {"file": "a.cpp", "line": 7, "before": "a < b", "after": HOSTILE}
-        scores, reasons = self.root / "scores.json", self.root / "reasons.toml"
+        scores, reasons = self.root / "scores.json", self.root / "reasons.txt"
         scores.write_text(json.dumps({"samples": samples, "open": [edit]}))
-        reasons.write_text('[[mutant]]\nfile = "a.cpp"\nline = "a < b"\nbecomes = "a <= b"\n'
-                           'reason = "they are never equal"\n')
+        reasons.write_text("# first lines\n\na.cpp\n  they are never equal\n- a < b\n+ a <= b\n")
         asked = self.root / "asked.json"
         asked.write_text(json.dumps({"mutants": [{**edit, "outcome": "SURVIVED"},
                                                  {**edit, "outcome": "killed"}]}))

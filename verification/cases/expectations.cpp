@@ -81,13 +81,8 @@ void read_ablation(const KeyTable& ablation, Case& input_case) {
       input_case.declared.push_back(read_declared(ablation, key));
 }
 
-bool is_stated(std::string_view key, const std::vector<Expectation>& all) {
-  return std::any_of(all.begin(), all.end(),
-                     [&](const Expectation& stated) { return stated.key == key; });
-}
-
 void add_unless_stated(const Expectation& usual, std::vector<Expectation>& all) {
-  if (!is_stated(usual.key, all)) all.push_back(usual);
+  if (!find_expectation(usual.key, all)) all.push_back(usual);
 }
 
 }  // namespace
@@ -124,7 +119,7 @@ Case with_usual_expectations(Case input_case) {
   if (const auto faces = expected_faces_outside(scene, input_case.expectations))
     add_unless_stated(*faces, input_case.expectations);
   // it starts crossed
-  if (is_stated("tangle_does_not_grow", input_case.expectations)) return input_case;
+  if (find_expectation("tangle_does_not_grow", input_case.expectations)) return input_case;
   add_unless_stated(
       {"never_crosses_itself", 0,
        scene.self_collision ? "cloth that starts without crossings stays without them: repulsion "
@@ -133,6 +128,11 @@ Case with_usual_expectations(Case input_case) {
                               "passes through itself, add [self_collision]"},
       input_case.expectations);
   return input_case;
+}
+
+const Expectation* find_expectation(std::string_view key, const std::vector<Expectation>& all) {
+  const auto found = std::ranges::find(all, key, &Expectation::key);
+  return found == all.end() ? nullptr : &*found;
 }
 
 bool is_driven(const Scene& scene) {

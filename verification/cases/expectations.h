@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "reference/scene/scene.h"
@@ -49,6 +50,9 @@ Case read_case(const std::string& path, const std::vector<std::string>& override
 /// there are objects, that whole triangles stay outside up to the depth that face_bound.h derives;
 /// and that the cloth crosses itself in no frame, unless tangle_does_not_grow is stated.
 Case with_usual_expectations(Case input_case);
+
+/// The expectation of that key; nullptr: none.
+const Expectation* find_expectation(std::string_view key, const std::vector<Expectation>& all);
 
 /// Whether some prescribed particle moves.
 bool is_driven(const Scene& scene);

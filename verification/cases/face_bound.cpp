@@ -38,12 +38,6 @@ double depth_in_body(const Body& body, double d, double r) {
   return d + r;
 }
 
-const Expectation* stated_as(std::string_view key, const std::vector<Expectation>& stated) {
-  for (const Expectation& one : stated)
-    if (one.key == key) return &one;
-  return nullptr;
-}
-
 }  // namespace
 
 double enclosing_radius(const Vector3& a, const Vector3& b, const Vector3& c) {
@@ -67,8 +61,8 @@ double usual_particle_depth(const Scene& scene) { return largest_enclosing_radiu
 
 std::optional<Expectation> expected_faces_outside(const Scene& scene,
                                                   const std::vector<Expectation>& stated) {
-  const Expectation* particles = stated_as("stays_outside", stated);
-  if (scene.objects.empty() || (!particles && stated_as("lies_inside", stated))) return {};
+  const Expectation* particles = find_expectation("stays_outside", stated);
+  if (scene.objects.empty() || (!particles && find_expectation("lies_inside", stated))) return {};
   const double r = largest_enclosing_radius(scene);
   const double d = particles ? particles->bound : usual_particle_depth(scene);
   double bound = d;

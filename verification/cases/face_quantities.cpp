@@ -1,7 +1,5 @@
 // Quantities of whole triangles of the cloth against objects.
 #include <algorithm>
-#include <cmath>
-#include <string>
 #include <vector>
 
 #include "verification/cases/face_depth.h"
@@ -75,10 +73,6 @@ double face_penetration(const Scene& scene, std::span<const Object> objects, con
   return deepest;
 }
 
-std::string without_objects_to_enter(const Scene& scene) {
-  return scene.objects.empty() ? "the case has no [[object]]" : "";
-}
-
 }  // namespace
 
 std::vector<Quantity> face_quantities() {
@@ -86,8 +80,7 @@ std::vector<Quantity> face_quantities() {
       {"faces_outside", "m",
        "No point of a triangle is deeper inside an object than this, except triangles with a "
        "prescribed particle or with one between two objects.",
-       Sense::at_most, Scope::this_shape, nullptr, nullptr, without_objects_to_enter,
-       face_penetration},
+       Sense::at_most, Scope::this_shape, nullptr, nullptr, without_objects, face_penetration},
   };
 }
 

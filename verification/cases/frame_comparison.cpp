@@ -102,13 +102,6 @@ ClothShape shape_of_particles(const ComparedRun& run, double time, const PerPart
           crossings_of(x, run.scene.mesh.triangles), deepest(run.built.objects, time, x)};
 }
 
-Curve curve_over(const std::string& label, const std::vector<FrameComparison>& frames,
-                 double (*value)(const FrameComparison&)) {
-  Curve curve{label, {}, {}, nan, {}};
-  for (const FrameComparison& frame : frames) curve.point(frame.time, value(frame));
-  return curve;
-}
-
 Table numbers_over_time(const std::vector<FrameComparison>& frames) {
   Table rows{{"time", "s"},
              {"rms distance", "m"},
@@ -192,33 +185,27 @@ FrameComparison compare_frame(const ComparedRun& run, const State& at, const Tim
   return c;
 }
 
+Figure over_time(const std::string& name, const std::string& title, const Axis& y,
+                 const std::string& caption, const std::vector<Curve>& curves) {
+  return {name, title, {"time", "s", Scale::linear}, y, nan, caption, curves};
+}
+
 ComparisonEvidence evidence_of(const std::vector<FrameComparison>& frames, Matching matching) {
-  using F = const FrameComparison&;
   ComparisonEvidence evidence{{numbers_over_time(frames), folds_over_time(frames)}, {}};
-  const Axis time{"time", "s", Scale::linear};
+  const auto curve = [&](const char* label, const char* column) {
+    return curve_of(label, evidence.tables[0], "time", column);
+  };
   evidence.figures.push_back(
-      {"distance",
-       "Distance of the frames from the run",
-       time,
-       {"distance", "m", Scale::linear},
-       nan,
-       "Compared " + std::string(name_of(matching)) + ".",
-       {curve_over("root mean square", frames, [](F f) { return f.distance.rms; }),
-        curve_over("largest", frames, [](F f) { return f.distance.largest; }),
-        curve_over("weighted with masses or areas", frames,
-                   [](F f) { return f.distance.weighted; })}});
+      over_time("distance", "Distance of the frames from the run", {"distance", "m", Scale::linear},
+                "Compared " + std::string(name_of(matching)) + ".",
+                {curve("root mean square", "rms distance"), curve("largest", "largest distance"),
+                 curve("weighted with masses or areas", "weighted rms")}));
   if (matching == Matching::particles)
-    evidence.figures.push_back(
-        {"energies",
-         "Energies of the shapes",
-         time,
-         {"energy", "J", Scale::linear},
-         nan,
-         "By the forces of the run's case, at the positions of both.",
-         {curve_over("stretch, run", frames, [](F f) { return f.run.stretch; }),
-          curve_over("stretch, frames", frames, [](F f) { return f.frame.stretch; }),
-          curve_over("bending, run", frames, [](F f) { return f.run.bending; }),
-          curve_over("bending, frames", frames, [](F f) { return f.frame.bending; })}});
+    evidence.figures.push_back(over_time(
+        "energies", "Energies of the shapes", {"energy", "J", Scale::linear},
+        "By the forces of the run's case, at the positions of both.",
+        {curve("stretch, run", "stretch, run"), curve("stretch, frames", "stretch, frame"),
+         curve("bending, run", "bending, run"), curve("bending, frames", "bending, frame")}));
   return evidence;
 }
 

@@ -73,6 +73,10 @@ struct ComparedRun {
 /// at: the run's state at the frame's time.
 FrameComparison compare_frame(const ComparedRun& run, const State& at, const TimedMesh& frame);
 
+/// A figure over time.
+Figure over_time(const std::string& name, const std::string& title, const Axis& y,
+                 const std::string& caption, const std::vector<Curve>& curves);
+
 /// The comparison of whole sequences as tables and figures of a study, for a report.
 struct ComparisonEvidence {
   std::vector<Table> tables;

@@ -67,8 +67,8 @@ Finding never_cross_themselves(const FrameMotion& motion) {
 
 Finding vertices_stay_outside(const FrameMotion& motion) {
   if (motion.built.objects.empty()) throw NotOffered{"objects: the case has no [[object]]"};
-  const Expectation* bound = stated(motion, "stays_outside");
-  if (!bound && stated(motion, "lies_inside"))
+  const Expectation* bound = find_expectation("stays_outside", motion.of.expectations);
+  if (!bound && find_expectation("lies_inside", motion.of.expectations))
     throw NotOffered{"a bound: the case expects that particles lie inside"};
   Table measured{{"time", "s"}, {"depth of the deepest vertex", "m"}};
   for (const TimedMesh& frame : motion.frames) measured.row(frame.time, depth_in(motion, frame));
@@ -83,7 +83,9 @@ Finding touches_objects(const FrameMotion& motion) {
   constexpr std::array expect_contact = {"makes_contact", "is_pinched", "lies_inside",
                                          "stays_between"};
   if (motion.built.objects.empty()) throw NotOffered{"objects: the case has no [[object]]"};
-  if (std::ranges::none_of(expect_contact, [&](const char* key) { return stated(motion, key); }))
+  if (std::ranges::none_of(expect_contact, [&](const char* key) {
+        return find_expectation(key, motion.of.expectations);
+      }))
     throw NotOffered{"contact: the case does not expect any, such as [expect.makes_contact]"};
   Table measured{{"time", "s"}, {"distance of the nearest vertex from an object", "m"}};
   double nearest = std::numeric_limits<double>::infinity();
@@ -108,7 +110,7 @@ Finding springs_stay_within_limits(const FrameMotion& motion) {
   Table measured{{"time", "s"}, {"strain beyond a limit", "1"}};
   for (const State& frame : motion.states)
     measured.row(frame.time, value_at(violation, scene, {}, frame));
-  const Expectation* bound = stated(motion, violation.key);
+  const Expectation* bound = find_expectation(violation.key, motion.of.expectations);
   const double rounding = 2 * motion.rounding() / rest_lengths(scene.mesh).minCoeff();
   return judge_worst(measured, (bound ? bound->bound : scene.strain_limits->tolerance) + rounding,
                      bound ? "of the case: " + bound->why

@@ -91,12 +91,6 @@ void require_particles(const FrameMotion& motion) {
     throw NotOffered{"the case's mesh: vertex i must be particle i, with the same triangles"};
 }
 
-const Expectation* stated(const FrameMotion& motion, std::string_view key) {
-  const auto& all = motion.of.expectations;
-  const auto found = std::ranges::find(all, key, &Expectation::key);
-  return found == all.end() ? nullptr : &*found;
-}
-
 void require_start(const FrameMotion& motion) {
   if (motion.frames.front().time > motion.rounding()) throw NotOffered{"a frame at t = 0"};
 }

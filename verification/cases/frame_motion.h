@@ -37,9 +37,6 @@ double depth_in(const FrameMotion& motion, const TimedMesh& frame);
 /// objects, NaN if a position is not finite.
 double clearance_in(const FrameMotion& motion, const TimedMesh& frame);
 
-/// The case's expectation of that key; nullptr: none.
-const Expectation* stated(const FrameMotion& motion, std::string_view key);
-
 /// The largest change of one form of energy since the start [J].
 double exchanged(const Energies& now, const Energies& start);
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <string_view>
 
 #include "verification/cases/judge.h"
@@ -91,50 +90,29 @@ std::vector<Record> judge_expectations(const FrameMotion& motion) {
 
 // ---- evidence
 
-struct FrameNumbers {
-  double time, crossings, depth, stretched, compressed, lowest, mean_height, speed;
+/// The mean over the cloth, by mass [m/s]; NaN of another mesh.
+double mean_speed(const FrameMotion& motion, std::size_t k) {
+  if (motion.matching == Matching::surface) return nan;
+  const PerParticle mass = lumped_masses(motion.of.scene.mesh, motion.of.scene.density);
+  return motion.states[k].v.colwise().norm().dot(mass.transpose()) / mass.sum();
+}
+
+/// The largest of the mesh's edges; NaN of another mesh.
+struct Strains {
+  double extension = nan, compression = nan;
 };
 
-double mean_speed(const State& s, const PerParticle& mass) {
-  return s.v.colwise().norm().dot(mass.transpose()) / mass.sum();
-}
-
-/// Largest extension and compression of the mesh's edges.
-void add_strains(const TriangleMesh& mesh, double scale, const PerParticle3& x, FrameNumbers& n) {
-  const Eigen::VectorXd rest = scale * rest_lengths(mesh);
-  n.stretched = n.compressed = 0;
-  for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
-    const double strain =
-        (x.col(mesh.edges[e].b) - x.col(mesh.edges[e].a)).norm() / rest[Eigen::Index(e)] - 1;
-    n.stretched = std::max(n.stretched, strain);
-    n.compressed = std::max(n.compressed, -strain);
+Strains largest_strains(const FrameMotion& motion, const PerParticle3& x) {
+  if (motion.matching == Matching::surface) return {};
+  Strains largest{0, 0};
+  for (const double strain : strains_of(motion.of.scene, x)) {
+    largest.extension = std::max(largest.extension, strain);
+    largest.compression = std::max(largest.compression, -strain);
   }
+  return largest;
 }
 
-/// Strains and speeds are NaN of another mesh, heights without gravity along y.
-FrameNumbers numbers_of(const FrameMotion& motion, std::size_t k) {
-  const Scene& scene = motion.of.scene;
-  const TimedMesh& frame = motion.frames[k];
-  FrameNumbers n{frame.time,
-                 crossings_in(frame),
-                 motion.built.objects.empty() ? 0 : depth_in(motion, frame),
-                 nan,
-                 nan,
-                 0,
-                 0,
-                 nan};
-  const Vector3 up = scene.gravity && scene.gravity->norm() > 0
-                         ? Vector3(-scene.gravity->normalized())
-                         : Vector3::UnitY();
-  const Eigen::RowVectorXd heights = up.transpose() * frame.x;
-  n.lowest = heights.minCoeff(), n.mean_height = heights.mean();
-  if (motion.matching == Matching::surface) return n;
-  add_strains(scene.mesh, scene.stretch ? scene.stretch->rest_length_scale : 1, frame.x, n);
-  n.speed = mean_speed(motion.states[k], lumped_masses(scene.mesh, scene.density));
-  return n;
-}
-
-Table numbers_table(const std::vector<FrameNumbers>& frames) {
+Table numbers_table(const FrameMotion& motion) {
   Table rows{{"time", "s"},
              {"crossing pairs", "1"},
              {"depth in objects", "m"},
@@ -143,9 +121,14 @@ Table numbers_table(const std::vector<FrameNumbers>& frames) {
              {"lowest vertex", "m"},
              {"mean height", "m"},
              {"mean speed", "m/s"}};
-  for (const FrameNumbers& f : frames)
-    rows.row(f.time, f.crossings, f.depth, f.stretched, f.compressed, f.lowest, f.mean_height,
-             f.speed);
+  for (std::size_t k = 0; k < motion.frames.size(); ++k) {
+    const TimedMesh& frame = motion.frames[k];
+    const Strains strains = largest_strains(motion, frame.x);
+    const Eigen::RowVectorXd heights = up_in(motion.of.scene).transpose() * frame.x;
+    rows.row(frame.time, crossings_in(frame),
+             motion.built.objects.empty() ? 0 : depth_in(motion, frame), strains.extension,
+             strains.compression, heights.minCoeff(), heights.mean(), mean_speed(motion, k));
+  }
   return {"frames", "The cloth, frame by frame", rows};
 }
 
@@ -156,43 +139,26 @@ Table folds_table(const FrameMotion& motion) {
   return {"folds", "Folds of the last frame", rows};
 }
 
-Curve curve(const std::string& label, const std::vector<FrameNumbers>& frames,
-            double FrameNumbers::*number) {
-  Curve all{label, {}, {}, nan, {}};
-  for (const FrameNumbers& frame : frames) all.point(frame.time, frame.*number);
-  return all;
-}
-
 ComparisonEvidence evidence_of(const FrameMotion& motion) {
-  std::vector<FrameNumbers> frames;
-  for (std::size_t k = 0; k < motion.frames.size(); ++k) frames.push_back(numbers_of(motion, k));
-  ComparisonEvidence evidence{{numbers_table(frames)}, {}};
-  const Axis time{"time", "s", Scale::linear};
-  evidence.figures.push_back({"heights",
-                              "How the cloth falls and drapes",
-                              time,
-                              {"height", "m", Scale::linear},
-                              nan,
-                              "Against gravity.",
-                              {curve("lowest vertex", frames, &FrameNumbers::lowest),
-                               curve("mean of the vertices", frames, &FrameNumbers::mean_height)}});
+  ComparisonEvidence evidence{{numbers_table(motion)}, {}};
+  const Table numbers = evidence.tables[0];
+  const auto curve = [&](const char* label, const char* column) {
+    return curve_of(label, numbers, "time", column);
+  };
+  evidence.figures.push_back(over_time(
+      "heights", "How the cloth falls and drapes", {"height", "m", Scale::linear},
+      "Against gravity.",
+      {curve("lowest vertex", "lowest vertex"), curve("mean of the vertices", "mean height")}));
   if (motion.matching == Matching::surface) return evidence;
   evidence.tables.push_back(folds_table(motion));
-  evidence.figures.push_back({"strains",
-                              "Strain of the edges",
-                              time,
-                              {"strain of edges", "1", Scale::linear},
-                              nan,
-                              "Length over rest length, less 1.",
-                              {curve("largest extension", frames, &FrameNumbers::stretched),
-                               curve("largest compression", frames, &FrameNumbers::compressed)}});
-  evidence.figures.push_back({"speeds",
-                              "Does it come to rest?",
-                              time,
-                              {"mean speed", "m/s", Scale::linear},
-                              nan,
-                              "By differences of the neighbouring frames.",
-                              {curve("mean, by mass", frames, &FrameNumbers::speed)}});
+  evidence.figures.push_back(over_time("strains", "Strain of the edges",
+                                       {"strain of edges", "1", Scale::linear},
+                                       "Length over rest length, less 1.",
+                                       {curve("largest extension", "largest extension"),
+                                        curve("largest compression", "largest compression")}));
+  evidence.figures.push_back(over_time(
+      "speeds", "Does it come to rest?", {"mean speed", "m/s", Scale::linear},
+      "By differences of the neighbouring frames.", {curve("mean, by mass", "mean speed")}));
   return evidence;
 }
 

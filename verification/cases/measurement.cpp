@@ -16,15 +16,9 @@ namespace {
 
 constexpr double in_degrees = 180 / pi;  // a radian
 
-/// Against gravity; +y without it.
-Vector3 up(const Scene& scene) {
-  if (!scene.gravity || !(scene.gravity->norm() > 0)) return Vector3::UnitY();
-  return -scene.gravity->normalized();
-}
-
 std::vector<double> heights(const FrameView& frame, const std::vector<int>& of) {
   std::vector<double> all;
-  for (const int i : of) all.push_back(up(frame.scene).dot(frame.state.x.col(i)));
+  for (const int i : of) all.push_back(up_in(frame.scene).dot(frame.state.x.col(i)));
   return all;
 }
 
@@ -40,7 +34,7 @@ Vector3 mean_position(const FrameView& frame, const std::vector<int>& of) {
 }
 
 double mean_height(const FrameView& frame, const Measurement&, const std::vector<int>& of) {
-  return up(frame.scene).dot(mean_position(frame, of));
+  return up_in(frame.scene).dot(mean_position(frame, of));
 }
 
 double lowest(const FrameView& frame, const Measurement&, const std::vector<int>& of) {
@@ -52,7 +46,7 @@ double highest(const FrameView& frame, const Measurement&, const std::vector<int
 }
 
 double position_along(const FrameView& frame, const Measurement& m, const std::vector<int>& of) {
-  const Vector3 along = m.along.norm() > 0 ? Vector3(m.along.normalized()) : up(frame.scene);
+  const Vector3 along = m.along.norm() > 0 ? Vector3(m.along.normalized()) : up_in(frame.scene);
   return along.dot(mean_position(frame, of));
 }
 
@@ -98,35 +92,6 @@ double displacement(const FrameView& frame, const Measurement&, const std::vecto
     mass += frame.system.mass[i];
   }
   return std::sqrt(squares / mass);
-}
-
-double kinetic(const FrameView& frame, const Measurement&, const std::vector<int>&) {
-  return energies(frame.system, frame.state).kinetic;
-}
-
-double elastic(const FrameView& frame, const Measurement&, const std::vector<int>&) {
-  const Energies e = energies(frame.system, frame.state);
-  return e.stretch + e.bending;
-}
-
-double gravitational(const FrameView& frame, const Measurement&, const std::vector<int>&) {
-  return energies(frame.system, frame.state).gravity;
-}
-
-double total_energy(const FrameView& frame, const Measurement&, const std::vector<int>&) {
-  return energies(frame.system, frame.state).total();
-}
-
-double momentum(const FrameView& frame, const Measurement&, const std::vector<int>&) {
-  return linear_momentum(frame.system, frame.state).norm();
-}
-
-double spin(const FrameView& frame, const Measurement&, const std::vector<int>&) {
-  return angular_momentum(frame.system, frame.state).norm();
-}
-
-double contact_points(const FrameView& frame, const Measurement&, const std::vector<int>&) {
-  return double(frame.contacts);
 }
 
 double depth(const FrameView& frame, const Measurement&, const std::vector<int>&) {
@@ -232,14 +197,23 @@ const std::vector<Measurable>& measurable() {
       {"angle", "degrees", "at the second of three particles", 3, angle},
       {"mean_curvature", "1/m", "mean of |H| over the cloth", whole_cloth, mean_curvature},
       {"speed", "m/s", "of the fastest particle", any_region, fastest},
-      {"kinetic_energy", "J", "of the cloth", whole_cloth, kinetic},
-      {"elastic_energy", "J", "of stretching and bending", whole_cloth, elastic},
-      {"gravitational_energy", "J", "of the cloth", whole_cloth, gravitational},
-      {"energy", "J", "kinetic, elastic and gravitational", whole_cloth, total_energy},
-      {"momentum", "kg m/s", "size of the linear momentum", whole_cloth, momentum},
-      {"angular_momentum", "kg m^2/s", "size, about the origin", whole_cloth, spin},
+      {"kinetic_energy", "J", "of the cloth", whole_cloth,
+       [](const FrameView& f, auto&, auto&) { return energies(f.system, f.state).kinetic; }},
+      {"elastic_energy", "J", "of stretching and bending", whole_cloth,
+       [](const FrameView& f, auto&, auto&) {
+         const Energies e = energies(f.system, f.state);
+         return e.stretch + e.bending;
+       }},
+      {"gravitational_energy", "J", "of the cloth", whole_cloth,
+       [](const FrameView& f, auto&, auto&) { return energies(f.system, f.state).gravity; }},
+      {"energy", "J", "kinetic, elastic and gravitational", whole_cloth,
+       [](const FrameView& f, auto&, auto&) { return energies(f.system, f.state).total(); }},
+      {"momentum", "kg m/s", "size of the linear momentum", whole_cloth,
+       [](const FrameView& f, auto&, auto&) { return linear_momentum(f.system, f.state).norm(); }},
+      {"angular_momentum", "kg m^2/s", "size, about the origin", whole_cloth,
+       [](const FrameView& f, auto&, auto&) { return angular_momentum(f.system, f.state).norm(); }},
       {"contact_points", "1", "points that objects corrected in the step before", whole_cloth,
-       contact_points},
+       [](const FrameView& f, auto&, auto&) { return double(f.contacts); }},
       {"depth", "m", "of the deepest free particle inside an object", whole_cloth, depth},
   };
   return table;

@@ -15,8 +15,6 @@ constexpr double degrees_per_radian = 180 / pi;
 
 // ---- of the whole run
 
-double stops(const RunView& run) { return run.result.stop ? 1 : 0; }
-
 double energy_unaccounted(const RunView& run) {
   return run.summary.balance.value() / run.summary.largest_exchange;
 }
@@ -45,16 +43,6 @@ double angular_change(const RunView& run) {
                          run.result.last.x.colwise().squaredNorm().maxCoeff()));  // m
   return run.summary.angular.value() / (reach * momentum_scale(run));
 }
-
-double steps(const RunView& run) { return double(run.result.steps); }
-
-double contacts(const RunView& run) { return double(run.summary.contacts); }
-
-double kinetic_at_end(const RunView& run) {
-  return run.summary.last_kinetic / run.summary.largest_kinetic;
-}
-
-double unfinished_solves(const RunView& run) { return double(run.result.work.unfinished_solves); }
 
 // ---- of one frame
 
@@ -87,13 +75,8 @@ double folded_forward(const Scene& scene, const State& s) { return largest_angle
 double folded_back(const Scene& scene, const State& s) { return largest_angle(scene, s, -1); }
 
 double length_change(const Scene& scene, const State& s) {
-  const Eigen::VectorXd lengths = scene.stretch->rest_length_scale * rest_lengths(scene.mesh);
   Worst worst;
-  for (size_t e = 0; e < scene.mesh.edges.size(); ++e) {
-    const Edge& edge = scene.mesh.edges[e];
-    worst.observe(
-        std::abs((s.x.col(edge.b) - s.x.col(edge.a)).norm() / lengths[Eigen::Index(e)] - 1));
-  }
+  for (const double strain : strains_of(scene, s.x)) worst.observe(std::abs(strain));
   return worst.value();
 }
 
@@ -167,8 +150,6 @@ double shift_aside(const Scene& scene, const State& s) {
   return (moved - moved.dot(down) * down).norm();
 }
 
-double differing_steps(const RunView& run) { return run.repetition.count_differing_steps(); }
-
 // ---- refusals
 
 std::string without_plane(const Scene& scene) {
@@ -178,14 +159,18 @@ std::string without_plane(const Scene& scene) {
   return "";
 }
 
+}  // namespace
+
 std::string without_objects(const Scene& scene) {
   return scene.objects.empty() ? "the case has no [[object]]" : "";
 }
 
-}  // namespace
-
 std::string without_gravity(const Scene& scene) {
   return scene.gravity && scene.gravity->norm() > 0 ? "" : "the case has no [gravity]";
+}
+
+Vector3 up_in(const Scene& scene) {
+  return without_gravity(scene).empty() ? Vector3(-scene.gravity->normalized()) : Vector3::UnitY();
 }
 
 std::string without_bending(const Scene& scene) {
@@ -226,16 +211,20 @@ namespace {
 std::vector<Quantity> quantities_of_the_run() {
   return {
       {"runs_to_its_end", "stops", "The run reaches its end with finite values.", Sense::at_most,
-       Scope::any_cloth, nullptr, stops, nullptr},
+       Scope::any_cloth, nullptr, [](const RunView& run) { return run.result.stop ? 1. : 0.; },
+       nullptr},
       {"is_reproducible", "steps",
        "Ten steps each after the start, after the middle frame and before the last give the same "
        "bits when repeated in another thread.",
-       Sense::at_most, Scope::any_cloth, nullptr, differing_steps, nullptr},
+       Sense::at_most, Scope::any_cloth, nullptr,
+       [](const RunView& run) { return run.repetition.count_differing_steps(); }, nullptr},
       {"takes_steps", "steps", "The run takes as many steps as it should.", Sense::at_least,
-       Scope::this_shape, nullptr, steps, nullptr},
+       Scope::this_shape, nullptr, [](const RunView& run) { return double(run.result.steps); },
+       nullptr},
       {"solves_converge", "solves",
        "The linear solves reach their tolerance before their cap on iterations.", Sense::at_most,
-       Scope::any_cloth, nullptr, unfinished_solves, nullptr},
+       Scope::any_cloth, nullptr,
+       [](const RunView& run) { return double(run.result.work.unfinished_solves); }, nullptr},
       {"energy_is_accounted_for", "1",
        "Kinetic, elastic and gravitational energy minus the work of damping is conserved, relative "
        "to the energy exchanged.",
@@ -277,7 +266,8 @@ std::vector<Quantity> quantities_of_shape_and_place() {
        "do not count.",
        Sense::at_least, Scope::this_shape, nullptr, depth_at_end, without_objects},
       {"makes_contact", "points", "Objects correct the motion of some points in some step.",
-       Sense::at_least, Scope::this_shape, nullptr, contacts, without_objects},
+       Sense::at_least, Scope::this_shape, nullptr,
+       [](const RunView& run) { return double(run.summary.contacts); }, without_objects},
       {"is_pinched", "particles", "Particles are inside two objects at once.", Sense::at_least,
        Scope::this_shape, nullptr, nullptr, without_objects, pinched_particles},
       {"stays_between", "m", "Particles inside two objects stay equally deep in both.",
@@ -303,7 +293,9 @@ std::vector<Quantity> quantities_of_shape_and_place() {
        Scope::this_shape, turning_rate, nullptr, nullptr},
       {"comes_to_rest", "1",
        "At the end the kinetic energy is small relative to its largest value.", Sense::at_most,
-       Scope::this_shape, nullptr, kinetic_at_end, nullptr},
+       Scope::this_shape, nullptr,
+       [](const RunView& run) { return run.summary.last_kinetic / run.summary.largest_kinetic; },
+       nullptr},
   };
 }
 

@@ -88,10 +88,18 @@ std::vector<Quantity> wrinkle_quantities();
 /// The table of quantities.
 const std::vector<Quantity>& quantities();
 
-/// Why a quantity of springs, of hinges, or of the vertical, is meaningless for the scene, or "".
+/// Why a quantity of springs, hinges, objects, or the vertical is meaningless for the scene, or "".
 std::string without_springs(const Scene& scene);
 std::string without_bending(const Scene& scene);
 std::string without_gravity(const Scene& scene);
+std::string without_objects(const Scene& scene);
+
+/// Against gravity; +y without it.
+Vector3 up_in(const Scene& scene);
+
+/// Length over rest length, less 1, of each edge. Rest lengths are those of the springs, if the
+/// scene has springs.
+std::vector<double> strains_of(const Scene& scene, const PerParticle3& x);
 
 /// The row of the key; nullptr if there is none.
 const Quantity* find_quantity(std::string_view key);

@@ -1,5 +1,4 @@
 // Quantities of cloth that is stretched or compressed: springs against their limits, length, area.
-#include <algorithm>
 #include <string>
 
 #include "verification/cases/quantities.h"
@@ -8,20 +7,9 @@ namespace foldproof {
 
 namespace {
 
-/// Length over rest length, less 1, of each spring.
-std::vector<double> strains(const Scene& scene, const State& s) {
-  const Eigen::VectorXd lengths = scene.stretch->rest_length_scale * rest_lengths(scene.mesh);
-  std::vector<double> values;
-  for (size_t e = 0; e < scene.mesh.edges.size(); ++e) {
-    const Edge& edge = scene.mesh.edges[e];
-    values.push_back((s.x.col(edge.b) - s.x.col(edge.a)).norm() / lengths[Eigen::Index(e)] - 1);
-  }
-  return values;
-}
-
 double violation(const Scene& scene, const State& s) {
   Worst worst;
-  for (const double strain : strains(scene, s)) {
+  for (const double strain : strains_of(scene, s.x)) {
     worst.observe(strain - scene.strain_limits->extension);
     worst.observe(-strain - scene.strain_limits->compression);
   }
@@ -30,7 +18,7 @@ double violation(const Scene& scene, const State& s) {
 
 double largest_extension(const Scene& scene, const State& s) {
   Worst worst;
-  for (const double strain : strains(scene, s)) worst.observe(strain);
+  for (const double strain : strains_of(scene, s.x)) worst.observe(strain);
   return worst.value();
 }
 
@@ -53,6 +41,17 @@ std::string without_limits(const Scene& scene) {
 }
 
 }  // namespace
+
+std::vector<double> strains_of(const Scene& scene, const PerParticle3& x) {
+  const double scale = scene.stretch ? scene.stretch->rest_length_scale : 1;
+  const Eigen::VectorXd lengths = scale * rest_lengths(scene.mesh);
+  std::vector<double> values;
+  for (size_t e = 0; e < scene.mesh.edges.size(); ++e) {
+    const Edge& edge = scene.mesh.edges[e];
+    values.push_back((x.col(edge.b) - x.col(edge.a)).norm() / lengths[Eigen::Index(e)] - 1);
+  }
+  return values;
+}
 
 std::vector<Quantity> strain_quantities() {
   return {

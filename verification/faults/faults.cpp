@@ -10,9 +10,10 @@ namespace foldproof {
 
 namespace {
 
-Fault fault_of(const KeyTable& row) {
+/// `file` is that of the row above; empty for the first row, which must name its own.
+Fault fault_of(const KeyTable& row, const std::string& file) {
   Fault fault{row.text("name"),
-              row.text("file"),
+              row.has("file") || file.empty() ? row.text("file") : file,
               row.text("find"),
               row.text("replace"),
               row.text("law"),
@@ -32,8 +33,7 @@ std::vector<std::filesystem::path> files_of_faults(const std::string& folder) {
   std::vector<std::filesystem::path> paths;
   std::error_code error;
   for (const auto& entry : std::filesystem::directory_iterator(folder, error))
-    if (entry.path().extension() == ".toml" && entry.path().stem() != "equivalent_mutants")
-      paths.push_back(entry.path());
+    if (entry.path().extension() == ".toml") paths.push_back(entry.path());
   if (paths.empty()) throw InputError(folder + ": there is no list of faults, ROOM.toml");
   std::sort(paths.begin(), paths.end());
   return paths;
@@ -54,9 +54,11 @@ std::vector<Fault> read_faults(const std::string& folder) {
   std::map<std::string, std::string> places;  // of each name
   for (const std::filesystem::path& path : files_of_faults(folder)) {
     const auto root = parse_keys(read_text(path.string()), path.string());
+    std::string file;
     for (const auto& row : root->tables("fault")) {
-      faults.push_back(fault_of(*row));
+      faults.push_back(fault_of(*row, file));
       const Fault& fault = faults.back();
+      file = fault.file;
       const auto [first, is_new] = places.try_emplace(fault.name, row->where("name"));
       if (!is_new)
         throw InputError(row->where("name") + ": the name '" + fault.name + "' is taken at " +

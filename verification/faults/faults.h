@@ -23,10 +23,10 @@ struct Fault {
 /// "program" for scripts/program/. Empty for any other file.
 std::string room_of(const std::string& file);
 
-/// The faults of every *.toml in the folder but equivalent_mutants.toml, in the order of file
-/// names. Throws InputError "file:line: ..." for a row that lacks a key, has an unknown one, stands
-/// in the file of another room, or repeats the name of an earlier row; "folder: ..." for a folder
-/// without such files.
+/// The faults of every *.toml in the folder, in the order of file names; a row without a file has
+/// that of the row above. Throws InputError "file:line: ..." for a row that lacks a key, has an
+/// unknown one, stands in the file of another room, or repeats the name of an earlier row;
+/// "folder: ..." for a folder without such files.
 std::vector<Fault> read_faults(const std::string& folder);
 
 /// Writes into each record the names of the faults that it catches.

@@ -21,9 +21,10 @@ Record record_of_check(std::function<Finding(const Subject&)> run) {
   return run_check({"group.name", "A sentence.", "nowhere", std::move(run)}, reference_subject());
 }
 
+const std::string edit = "find = \"+\"\nreplace = \"-\"\nlaw = \"sums\"\n";
+
 std::string fault_of(const std::string& name, const std::string& file) {
-  return "[[fault]]\nname = \"" + name + "\"\nfile = \"" + file +
-         "\"\nfind = \"+\"\nreplace = \"-\"\nlaw = \"sums\"\n";
+  return "[[fault]]\nname = \"" + name + "\"\nfile = \"" + file + "\"\n" + edit;
 }
 
 }  // namespace
@@ -163,10 +164,12 @@ TEST_CASE("faults are read with who catches them, and a key that no one knows is
   const std::string row = fault_of("slip", "reference/mesh/a.cpp");
   folder.write("mesh.toml", row +
                                 "caught_by = [\"sums.add-up\"]\nfast = true\n"
-                                "caught_by_tests = [\"one, and another\", \"test_sums\"]\n");
-  folder.write("equivalent_mutants.toml", "[[mutant]]\n");
+                                "caught_by_tests = [\"one, and another\", \"test_sums\"]\n"
+                                "[[fault]]\nname = \"next\"\n" +
+                                edit);
   const std::vector<Fault> faults = read_faults(folder.file("."));
-  REQUIRE(faults.size() == 1);
+  REQUIRE(faults.size() == 2);
+  CHECK(faults[1].file == "reference/mesh/a.cpp");  // as in the row above
   CHECK(faults[0].caught_by == std::vector<std::string>{"sums.add-up"});
   CHECK(faults[0].caught_by_tests == std::vector<std::string>{"one, and another", "test_sums"});
   std::vector<Record> records(2);

@@ -156,25 +156,6 @@ TEST_CASE("the enclosing circle is about the longest side unless all angles are 
   CHECK(enclosing_radius(o, x, {2, 2 * std::sqrt(3.), 0}) == Approx(4 / std::sqrt(3.)));
 }
 
-TEST_CASE("bounds of faces: the enclosing circle of any triangle holds it, and is the smallest") {
-  std::mt19937 bits(3);
-  for (int k = 0; k < 200; ++k) {
-    const auto [a, b, c] = random_face(bits, 1);
-    // the smallest that holds all corners, of the circles about two corners and through three
-    Eigen::Matrix3d planes;
-    planes << (b - a).transpose(), (c - a).transpose(), (b - a).cross(c - a).transpose();
-    const Vector3 through =
-        a + planes.inverse() * Vector3((b - a).squaredNorm(), (c - a).squaredNorm(), 0) / 2;
-    double smallest = 9;
-    for (const Vector3& centre :
-         {Vector3((a + b) / 2), Vector3((b + c) / 2), Vector3((c + a) / 2), through})
-      smallest = std::min(
-          smallest, std::max({(a - centre).norm(), (b - centre).norm(), (c - centre).norm()}));
-    CHECK(enclosing_radius(a, b, c) == Approx(smallest).epsilon(1e-8));
-    CHECK(enclosing_radius(c, a, b) == exactly(enclosing_radius(a, b, c)));
-  }
-}
-
 TEST_CASE("corners outside a round body bound the depth between them") {
   std::mt19937 bits(23);
   double closest = 0;

@@ -114,32 +114,6 @@ TEST_CASE("comparison: a surface that is not oriented has no folds, depths are a
   CHECK(cloth.with(frame, 0.1).run.depth == exactly(0.01));
 }
 
-TEST_CASE("comparison: each column and each curve of the evidence has its own numbers") {
-  const std::vector<FrameComparison> all = {
-      {"f", 1, {2, 3, 4}, {5, 7, {13, 14}, 9, 11}, {6, 8, {15, 16}, 10, 12}}};
-  const ComparisonEvidence evidence = evidence_of(all, Matching::particles);
-  double value = 0;
-  for (const char* column : {"time", "rms distance", "largest distance", "weighted rms",
-                             "stretch, run", "stretch, frame", "bending, run", "bending, frame",
-                             "crossings, run", "crossings, frame", "depth, run", "depth, frame"})
-    CHECK(evidence.tables.at(0).numbers(column) == std::vector<double>{++value});
-  const Table& folds = evidence.tables.at(1);
-  CHECK(folds.numbers("time") == std::vector<double>(5, 1));
-  CHECK(folds.texts("fold angle")[1] == "5 to 15 degrees");
-  CHECK(folds.numbers("share, run") == std::vector<double>{13, 14, 0, 0, 0});
-  CHECK(folds.numbers("share, frame") == std::vector<double>{15, 16, 0, 0, 0});
-  std::string drawn;
-  for (const Figure& figure : evidence.figures)
-    for (const Curve& curve : figure.curves)
-      drawn += curve.label + ": " + std::to_string(int(curve.y.at(0))) + "; ";
-  CHECK(drawn ==
-        "root mean square: 2; largest: 3; weighted with masses or areas: 4; stretch, run: 5; "
-        "stretch, frames: 6; bending, run: 7; bending, frames: 8; ");
-  CHECK_THAT(evidence.figures[0].caption, Contains("vertex by vertex"));
-  CHECK(evidence_of(all, Matching::surface).figures.size() == 1);
-  CHECK_THAT(evidence_of(all, Matching::surface).figures[0].caption, Contains("nearest points"));
-}
-
 TEST_CASE("between frames a cubic motion is met exactly") {
   const auto at = [](double t) {
     State s{t, PerParticle3::Zero(3, 2), PerParticle3::Zero(3, 2)};

@@ -51,17 +51,8 @@ TEST_CASE("evidence of frames: numbers over time, folds of the last, and their f
   const FoldSpectrum last = fold_spectrum(of.scene.mesh, cloth.frames[3].x);
   CHECK(folds.numbers("share of the hinges' length") ==
         std::vector<double>(last.begin(), last.end()));
-  CHECK(folds.texts("fold angle")[1] == "5 to 15 degrees");
-  CHECK(folds.texts("fold angle")[4] == "90 to 180 degrees");
-  std::vector<const char*> drawn = {"lowest vertex", "mean height", "largest extension",
-                                    "largest compression", "mean speed"};
   for (const Figure& figure : evidence.figures)
-    for (const Curve& curve : figure.curves) {
-      CHECK(curve.x == table.numbers("time"));
-      CHECK(curve.y == table.numbers(drawn.at(0)));
-      drawn.erase(drawn.begin());
-    }
-  CHECK(drawn.empty());
+    for (const Curve& curve : figure.curves) CHECK(curve.x == table.numbers("time"));
 }
 
 TEST_CASE("evidence of frames: heights are along y without a weight, and against a small one") {

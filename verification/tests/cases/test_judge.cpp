@@ -113,27 +113,22 @@ TEST_CASE("judge: each expectation has a record, with the largest value of all f
                                               {"is_carried", 0.01, "far"},
                                               {"is_carried", 0.01, "far", "not here"},
                                               {"lengthens_by", 0.5, "w"}});
-  const std::vector<double> measured = {8e-3, -3, 2e-3, 0, 0.5};
-  std::string read;
+  const std::vector<double> measured = {8e-3, -3, 2e-3, foldproof::nan, 0.5};
+  const std::vector<std::string> units = {"m", "steps short of 20", "m short of 0.01",
+                                          "m short of 0.01", "short of 0.5"};
+  const std::vector<Outcome> outcomes = {Outcome::holds, Outcome::holds, Outcome::fails,
+                                         Outcome::not_applicable, Outcome::fails};
   for (std::size_t k = 0; k < records.size(); ++k) {
     const Verdict& verdict = records[k].finding.verdict;
-    if (k != 3) CHECK(verdict.measured == exactly(measured[k]));
+    if (k == 3)
+      CHECK(std::isnan(verdict.measured));
+    else
+      CHECK(verdict.measured == exactly(measured[k]));
     CHECK(verdict.bound == (k == 0 ? 0.009 : 0));
-    CHECK(verdict.uncertainty == 0);
-    read += verdict.unit + (records[k].outcome == Outcome::holds ? " holds; " : "; ");
+    CHECK(verdict.unit == units[k]);
+    CHECK(records[k].outcome == outcomes[k]);
   }
-  CHECK(read ==
-        "m holds; steps short of 20 holds; m short of 0.01; m short of 0.01; short of 0.5; ");
-  CHECK(records[2].outcome == Outcome::fails);
-  CHECK(records[3].outcome == Outcome::not_applicable);
-  CHECK(std::isnan(records[3].finding.verdict.measured));
   CHECK(records[0].name == "case.judge.keeps-its-place");
-  CHECK(records[0].kind == "check");
-  CHECK(records[0].source == "a title");
-  CHECK(records[0].claim == find_quantity("keeps_its_place")->claim);
-  CHECK(records[0].finding.note == "");
-  CHECK(records[0].finding.verdict.why_bound == "why so");
-  CHECK(records[1].finding.verdict.why_bound == "many");
   CHECK_THAT(records[1].finding.note, Contains("reached 23 steps"));
   CHECK(records[3].finding.note == "not here");
 }

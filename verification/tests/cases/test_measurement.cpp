@@ -214,19 +214,6 @@ TEST_CASE("of several quantities each has its own instants and regions, as has [
   CHECK(unit_of({"", "reaches_turning_rate"}) == "degrees/s");
 }
 
-TEST_CASE("what is measured without being asked depends on the scene") {
-  Scene scene = trial("").scene;
-  std::vector<std::string> names;
-  for (const Measurement& m :
-       usual_measurements(scene, {"runs_to_its_end", "stays_flat", "is_reproducible", "takes_steps",
-                                  "solves_converge", "keeps_its_place"}))
-    names.push_back(m.name);
-  CHECK(names == std::vector<std::string>{"kinetic_energy", "elastic_energy", "height", "lowest",
-                                          "stays_flat", "keeps_its_place"});
-  scene.gravity.reset();
-  CHECK(usual_measurements(scene, {}).size() == 2);
-}
-
 TEST_CASE("a quantity that cannot be is refused with its place") {
   const std::string q = "[[quantity]]\nwhat = ";
   const std::vector<std::pair<std::string, std::string>> rows = {

@@ -45,14 +45,6 @@ DeformingBody read_back(const std::string& path) {
   return read_level_sets(path, "an origin", coarse, BetweenFrames::blended);
 }
 
-/// The entries of rows of 27, as the library lists them.
-template <class T>
-std::string nodes_text(const std::vector<BranchNodes<T>>& rows, Lengths shape) {
-  const double* first = rows.empty() ? nullptr : reinterpret_cast<const double*>(rows.data());
-  shape.insert(shape.begin(), rows.size());
-  return array_text(shape, Numbers(first, first + rows.size() * sizeof(rows[0]) / sizeof(double)));
-}
-
 /// Other numbers in place of those of a dataset.
 void replace(const std::string& path, const std::string& name, const Numbers& values) {
   const RawFile raw(path);
@@ -98,31 +90,6 @@ TEST_CASE("level set file: a body comes back to the bit, ready for queries") {
     CHECK((a.field.start_level == b.field.start_level && !a.field.starts.empty()));
     CHECK(a.field.starts.size() == b.field.starts.size());
   }
-}
-
-TEST_CASE("level set file: its arrays have a row for each branch, channel and frame, in metres") {
-  const ScratchFolder scratch;
-  const std::string path = scratch.file("a.h5");
-  write_level_sets(path, body(), "an origin");
-  Listing expected;
-  add_listed(expected, "/", R"(@format = foldproof level sets 1; @origin = an origin
-    times = [3] 0.1 | 0.4 | 0.5; times@unit = s; frames/)");
-  expected["/@content"] = content_key(body());
-  for (const std::size_t k : {0, 1, 2}) {
-    const DeformingFrame& frame = body().frames[k];
-    const std::string group = "/frames/" + std::to_string(k) + "/";
-    add_listed(expected, group, "phi@unit = m; to_next@unit = m; from_previous@unit = m");
-    std::vector<int> branches;
-    for (const OctreeBranch& branch : frame.field.branches)
-      branches.insert(branches.end(),
-                      {branch.children, branch.channels, branch.inner, branch.parts});
-    expected[group + "branches"] = array_text({branches.size() / 4, 4}, branches);
-    expected[group + "part"] = array_text({frame.field.phi.size()}, frame.field.part);
-    expected[group + "phi"] = nodes_text(frame.field.phi, {27});
-    expected[group + "to_next"] = nodes_text(frame.to_next, {27, 3});
-    expected[group + "from_previous"] = nodes_text(frame.from_previous, {27, 3});
-  }
-  CHECK(difference_of(hdf5_listing(path), expected) == "");
 }
 
 TEST_CASE("level set file: content that means nothing is refused, though it is what was written") {

@@ -5,7 +5,6 @@
 #include <sys/stat.h>
 
 #include <catch2/catch.hpp>
-#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -181,27 +180,6 @@ TEST_CASE("a store that is a file, or cannot be written, is refused by its name"
   fs::create_directory(kept.folder);
   std::ofstream(kept.folder + "/arrays") << "a file where a folder is to be";
   CHECK_THROWS_WITH(ResultStore(kept.folder).keep("abc", specimen), Contains(kept.folder));
-}
-
-TEST_CASE("shards: a name is made of host, process, microseconds and a count") {
-  char host[256] = {};
-  gethostname(host, sizeof host - 1);
-  CHECK(host_name() == host);
-  const std::string begin = host_name() + "-" + std::to_string(getpid()) + "-";
-  const auto microseconds = [] {
-    const auto now = std::chrono::system_clock::now().time_since_epoch();
-    return std::chrono::duration_cast<std::chrono::microseconds>(now).count();
-  };
-  const auto before = microseconds();
-  long long counts[2] = {};
-  for (long long& count : counts) {
-    const std::string name = new_shard_name();
-    REQUIRE(name.starts_with(begin));
-    long long time = 0;
-    REQUIRE(std::sscanf(name.c_str() + begin.size(), "%lld-%lld", &time, &count) == 2);
-    CHECK((before <= time && time <= microseconds()));
-  }
-  CHECK(counts[1] == counts[0] + 1);
 }
 
 TEST_CASE("shards: a program without standard input may get its descriptor, 0") {

@@ -171,16 +171,6 @@ TEST_CASE("run file: a run is written whole, without faults and parts if it has 
   CHECK_THROWS_WITH(write_run(folder.file("none/run.h5"), run), Catch::Contains("none/run.h5"));
 }
 
-TEST_CASE("run file: numbers that nothing was entered for are zero") {
-  const RunRecord run;
-  CHECK((run.seed == 0 && run.seconds == 0 && run.provenance.cores == 0));
-  CHECK((CaseRecord().seconds == 0 && RunOrigin().jobs == 0));
-  const Declared declared;
-  CHECK((declared.level == 0 && declared.order == 0 && declared.solve_tolerance == 0));
-  const KeptVerdict kept;
-  CHECK((kept.measured == 0 && kept.bound == 0));
-}
-
 TEST_CASE("kept results: what is read and written again is the same to the bit") {
   const ScratchFolder scratch;
   const std::string path = scratch.file("part"), again = scratch.file("again");

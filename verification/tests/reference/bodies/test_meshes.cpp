@@ -1,10 +1,9 @@
-// Bodies: meshes that are refused as solids, their inspection and deformations.
+// Bodies: meshes that are refused as solids, and deformations.
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 
 #include "reference/bodies/body_deformation.h"
 #include "reference/bodies/closed_mesh.h"
-#include "reference/bodies/mesh_inspection.h"
 #include "reference/bodies/repair.h"
 #include "reference/mesh/shapes.h"
 
@@ -73,40 +72,6 @@ TEST_CASE("a piece turned inward within a cavity has nothing around it to be hol
   CHECK_NOTHROW(make_closed_mesh(soup_of({cavity, ball, {1, here, false}})));
   CHECK_THROWS_WITH(make_closed_mesh(soup_of({ball, cavity, {1, here, true}})),
                     Contains("triangle 160: "));
-}
-
-TEST_CASE("an inspection counts vertices, pieces and nodes, and says why a mesh is no solid") {
-  TriangleSoup soup = soup_of({{0.9, here, false}, {0.4, there, false}});
-  const MeshInspection whole = inspect_mesh(soup, 24);
-  CHECK(std::array{whole.vertices, whole.triangles, long(whole.pieces)} ==
-        std::array{84L, 160L, 2L});
-  const TriangleMesh unit = make_icosphere(1, 1);
-  CHECK(whole.volume == Approx((0.729 + 0.064) * enclosed_volume(unit.rest, unit.triangles)));
-  CHECK(whole.rejection.empty());
-  CHECK(whole.repair_failure.empty());
-  CHECK(whole.bounds.min() == Vector3(soup.rest.rowwise().minCoeff()));
-  CHECK(whole.bounds.max() == Vector3(soup.rest.rowwise().maxCoeff()));
-  CHECK(whole.nodes == lattice_about(whole.bounds, 24, 4).size());
-  CHECK(whole.against_sign + whole.among_rays == 0);
-
-  soup.triangles.erase(soup.triangles.begin() + 3);
-  const MeshInspection open = inspect_mesh(soup, 24);
-  CHECK_THAT(open.rejection, Contains("1 hole"));
-  CHECK(open.pieces == 0);
-  CHECK(open.volume == 0);
-  CHECK(open.repair_failure.empty());
-  CHECK(open.nodes == whole.nodes);
-  CHECK(open.among_rays > 0);
-
-  // within two balls that face outward rays cross an even number of triangles
-  const MeshInspection twice = inspect_mesh(soup_of({{3, here, false}, {2, here, false}}), 16);
-  CHECK(twice.against_sign > 100);
-  CHECK(twice.repair_failure.empty());
-
-  const MeshInspection inward = inspect_mesh(soup_of({{0.9, here, true}}), 12);
-  CHECK_THAT(inward.rejection, Contains("inside out"));
-  CHECK_THAT(inward.repair_failure, Contains("repair finds no inside"));
-  CHECK(inward.nodes + inward.against_sign + inward.among_rays == 0);
 }
 
 TEST_CASE("bodies bend along an arc, twist with the height and breathe at mid-height, in turn") {

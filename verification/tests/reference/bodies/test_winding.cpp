@@ -1,10 +1,8 @@
-// Winding numbers far away, and repaired meshes: which way triangles are turned, and distances.
+// Repaired meshes: which way triangles are turned.
 #include <catch2/catch.hpp>
 #include <random>
 
 #include "reference/bodies/repair.h"
-#include "reference/bodies/winding.h"
-#include "reference/mesh/nearest_point.h"
 #include "reference/mesh/shapes.h"
 
 using namespace foldproof;
@@ -17,28 +15,6 @@ std::vector<Triangle> flipped(std::vector<Triangle> triangles, const std::vector
 }
 
 }  // namespace
-
-TEST_CASE("far from a patch its winding number is as good as that of its second-order expansion") {
-  TriangleMesh bowl = make_icosphere(0.7, 1);
-  bowl.triangles.resize(30);
-  const MeshDistance mesh = make_mesh_distance(bowl.rest, bowl.triangles);
-  const std::vector<Dipole> dipoles = make_dipoles(mesh);
-  std::mt19937 random(3);
-  std::normal_distribution<double> normal;
-  const auto worst_error = [&](double radii, double far) {
-    double worst = 0;
-    for (int k = 0; k < 30; ++k) {
-      const Vector3 way = Vector3(normal(random), normal(random), normal(random)).normalized();
-      const Vector3 p = dipoles[0].centre + radii * dipoles[0].radius * way;
-      worst = std::max(worst, std::abs(winding_number(mesh, dipoles, p, far) -
-                                       winding_number(mesh.x, mesh.triangles, p)));
-    }
-    return worst;
-  };
-  CHECK(worst_error(1.5, 1e9) < 1e-12);
-  // what is left falls with the fourth power of the distance
-  CHECK(worst_error(100, 2) < 5e-10);
-}
 
 TEST_CASE("triangles without area, by their shape, are left out of a repair") {
   for (const double size : {1e-4, 1.0, 1e4})
@@ -89,33 +65,4 @@ TEST_CASE("patches are turned by their own larger area, of equal ones to their f
   // three triangles at the edge 0-1, of which two run the same way: sheets of their own
   const std::vector<Triangle> fins{{0, 1, 2}, {0, 1, 3}, {1, 0, 4}};
   CHECK(orient_triangles({strip(5, 2), fins, {}}) == fins);
-}
-
-TEST_CASE("a repaired level set has exact distances at the surface, and closes over holes") {
-  const TriangleMesh ball = make_icosphere(0.8, 2);
-  std::vector<Triangle> open;
-  for (const Triangle& t : ball.triangles)
-    if ((ball.rest.col(t[0]) + ball.rest.col(t[1]) + ball.rest.col(t[2])).x() < 1.65)
-      open.push_back(t);
-  const std::shared_ptr<const Grid> grid = make_level_set(
-      {ball.rest, flipped(open, {3, 4}), {}}, {11, 3, 2, MarchingOrder::first}, Repair::winding);
-  const MeshDistance mesh = make_mesh_distance(ball.rest, open);
-  const std::vector<Dipole> dipoles = make_dipoles(mesh);
-  const Lattice& lattice = grid->lattice;
-  int exact = 0, over_the_hole = 0;
-  for (long i = 0; i + 1 < lattice.size(); ++i) {
-    const double phi = grid->phi[size_t(i)];
-    const Vector3 p = lattice.position(lattice.node(i));
-    CHECK((phi < 0) == (winding_number(mesh, dipoles, p, 2) > 0.5));
-    const bool is_next = lattice.position(lattice.node(i + 1)).x() > p.x();
-    if (!is_next || (phi < 0) == (grid->phi[size_t(i) + 1] < 0)) continue;
-    double nearest = 1e300;
-    for (const Corners3& t : mesh.corners)
-      nearest = std::min(nearest, std::sqrt(nearest_on_triangle(t, p).squared_distance));
-    const bool is_near = nearest < lattice.spacing;
-    if (is_near) CHECK(std::abs(phi) == Approx(nearest).margin(1e-13));
-    ++(is_near ? exact : over_the_hole);
-  }
-  CHECK(exact > 50);
-  CHECK(over_the_hole > 0);
 }

@@ -1,4 +1,4 @@
-// Solvers of the implicit velocity and of a Newton step: iterates, ends, ties and breakdowns.
+// Solvers of the implicit velocity and of a Newton step: solutions, ends, ties and breakdowns.
 #include <catch2/catch.hpp>
 
 #include "reference/dynamics/biconjugate_gradient.h"
@@ -26,13 +26,6 @@ struct LinearSystem {
         [D = D](const PerParticle3& p, PerParticle3& f) { f += columns(D * flat(p)); });
     return damping;
   }
-  MatrixXd newton() const { return MatrixXd(of_particles(mass).asDiagonal()) - s * D - s * s * K; }
-  VectorXd of_particles(const PerParticle& a) const {
-    return a.replicate(1, 3).transpose().reshaped();
-  }
-  VectorXd free(const VectorXd& a) const {
-    return (VectorXd(9) << a.head(6), a.tail(3)).finished();
-  }
   /// solve_unsymmetric_step with the Newton matrix.
   SolveResult solved(const SolverSettings& settings, const PerParticle3& r, PerParticle3& dw,
                      Work& work) const {
@@ -45,68 +38,11 @@ struct LinearSystem {
   }
 };
 
-/// The iterates of BiCGSTAB for B y = b from 0 (van der Vorst 1992).
-VectorXd stabilised_gradients(const MatrixXd& B, const VectorXd& b, int iterations) {
-  VectorXd y = VectorXd::Zero(b.size()), r = b, p = y, v = y;
-  double rho = 1, alpha = 1, omega = 1;
-  for (int k = 0; k < iterations; ++k) {
-    const double rho_next = b.dot(r), beta = rho_next / rho * (alpha / omega);
-    rho = rho_next;
-    p = r + beta * (p - omega * v);
-    v = B * p;
-    alpha = rho / b.dot(v);
-    const VectorXd left = r - alpha * v, t = B * left;
-    omega = t.dot(left) / t.dot(t);
-    y += alpha * p + omega * left;
-    r = left - omega * t;
-  }
-  return y;
-}
-
 SolverSettings settings_of(double tolerance, int iterations) {
   return {tolerance, iterations, ResidualScale::momentum};
 }
 
 }  // namespace
-
-TEST_CASE("each iterate of an unsymmetric Newton step is that of plain BiCGSTAB") {
-  LinearSystem of;
-  of.K += uneven_matrix(12, 60, 1.9);
-  PerParticle3 r = of.v;
-  r.col(2).setZero();
-  const VectorXd roots = of.free(of.of_particles(of.mass)).cwiseSqrt(),
-                 b = of.free(flat(r)).cwiseQuotient(roots);
-  const std::vector<int> kept{0, 1, 2, 3, 4, 5, 9, 10, 11};
-  const VectorXd inverse = roots.cwiseInverse();
-  const MatrixXd B = inverse.asDiagonal() * of.newton()(kept, kept) * inverse.asDiagonal();
-  for (int iterations = 0; iterations < 4; ++iterations) {
-    const VectorXd expected = stabilised_gradients(B, b, iterations);
-    PerParticle3 dw = PerParticle3::Constant(3, 4, 77);
-    Work work;
-    const SolveResult solve = of.solved(settings_of(1e-9, iterations), r, dw, work);
-    CHECK((of.free(flat(dw)) - expected.cwiseQuotient(roots)).cwiseAbs().maxCoeff() < 1e-10);
-    CHECK(dw.col(2) == Vector3::Zero());
-    CHECK(solve.residual == Approx((b - B * expected).norm() / b.norm()).epsilon(1e-7));
-    CHECK(solve.iterations == iterations);
-    CHECK_FALSE(solve.converged);
-    CHECK_FALSE(solve.indefinite);
-    CHECK(work.solves == 1);
-    for (const long count : {work.cg_iterations, work.damping_products, work.stiffness_products})
-      CHECK(count == 2 * iterations);
-  }
-  PerParticle3 dw;
-  Work work;
-  const auto solved = [&](double tolerance, int most) {
-    return of.solved(settings_of(tolerance, most), r, dw, work);
-  };
-  const double reached = solved(1e-9, 1).residual;
-  REQUIRE(reached < 1);
-  const SolveResult same = solved(reached, 9);
-  CHECK(same.converged);
-  CHECK(same.iterations == 1);
-  CHECK(solved(1e-10, 99).converged);
-  CHECK((of.free(of.newton() * flat(dw) - flat(r))).norm() < 1e-8);
-}
 
 TEST_CASE("BiCGSTAB ends where it breaks down, at its latest iterate") {
   const auto expect = [](const Matrix3d& block, double first, double residual, double part) {

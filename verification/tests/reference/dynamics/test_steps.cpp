@@ -1,4 +1,4 @@
-// The length of a step: what limits it, how it may grow, and where events end it.
+// The length of a step: limits that are no number, and where events end it.
 #include "reference/forces/degenerate.h"
 #include "verification/tests/reference/dynamics/noted_run.h"
 
@@ -12,82 +12,7 @@ double step_of(const System& system, Family family, const StepRule& rule, double
   return allowed_step(system, drifting(1, family), {&s, 1}, rule, limit);
 }
 
-/// The largest rate at which a spring's length changes, over its rest length [1/s].
-double fastest_of(const Elements<Spring>& springs) {
-  double fastest = 0;
-  for (const Spring& spring : springs) {
-    const State s = start_state();
-    const Vector3 d = s.x.col(spring.b) - s.x.col(spring.a),
-                  dv = s.v.col(spring.b) - s.v.col(spring.a);
-    const double dt = 1e-6, change = (d + dt * dv).norm() - (d - dt * dv).norm();
-    fastest = std::max(fastest, std::abs(change) / (2 * dt) / spring.rest_length);
-  }
-  return fastest;
-}
-
-// of each list of springs another one changes fastest, relative to its rest length
-const Elements<Spring> changing{{0, 1, 3, 1, 0}, {1, 2, 0.7, 1, 0}, {2, 0, 2, 1, 0}};
-
 }  // namespace
-
-TEST_CASE("an automatic step is a part of the limit, and less where lengths change fast") {
-  System system = masses();
-  StepRule rule{0, 0.7, 0.03};
-  const auto allowed = [&](double limit) { return step_of(system, Family::mixed, rule, limit); };
-  CHECK(allowed(0.02) == Approx(0.7 * 0.02).epsilon(1e-14));
-  CHECK(allowed(infinite) == infinite);
-
-  const std::vector<Elements<Spring>> lists{
-      {changing[0], changing[1]}, {changing[1], changing[0]}, {changing[2]}};
-  for (const auto& list : lists) {
-    system.forces = {CustomForce{}, StretchSprings{list}, CustomForce{}};
-    CHECK(allowed(infinite) == Approx(0.03 / fastest_of(list)).epsilon(1e-8));
-    CHECK(allowed(1e-4) == Approx(0.7e-4).epsilon(1e-14));
-  }
-  system.forces = {StretchSprings{{changing[1]}}, StretchSprings{{changing[2]}}};
-  for (int order = 0; order < 2; ++order) {
-    CHECK(allowed(infinite) == Approx(0.03 / fastest_of({changing[1], changing[2]})).epsilon(1e-8));
-    std::swap(system.forces[0], system.forces[1]);
-  }
-  State still = start_state();
-  still.v.setZero();
-  CHECK(allowed_step(system, drifting(1), {&still, 1}, rule, infinite) == infinite);
-  rule.fixed = 7;
-  CHECK(allowed(infinite) == 7);
-}
-
-TEST_CASE("threads find the fastest spring, wherever it is in the list") {
-  System system = masses();
-  Elements<Spring> turned = changing;
-  turned.push_back({0, 2, 5, 1, 0});
-  for (int turn = 0; turn < 4; ++turn) {
-    std::rotate(turned.begin(), turned.begin() + 1, turned.end());
-    for (const int threads : {1, 2, 3}) {
-      system.forces = {StretchSprings{turned}};
-      set_team(system, threads);
-      CHECK(step_of(system, Family::mixed, {}, infinite) ==
-            Approx(0.1 / fastest_of(turned)).epsilon(1e-8));
-    }
-  }
-}
-
-TEST_CASE("damping limits the steps of explicit methods alone") {
-  System system = masses();
-  system.forces = {StretchSprings{{{0, 2, 1e9, 0, 0.6}}}};
-  // rows of 2 c over the masses; the lighter end is the faster
-  const double limit = 2 / (2 * 0.6 / 0.4);
-  const auto allowed = [&](Family family, double elastic) {
-    return step_of(system, family, {0, 0.7}, elastic);
-  };
-  CHECK(allowed(Family::fully_explicit, infinite) == Approx(0.7 * limit).epsilon(1e-14));
-  CHECK(allowed(Family::fully_explicit, 0.1) == Approx(0.07).epsilon(1e-14));
-  CHECK(allowed(Family::fully_explicit, 1.1 * limit) == Approx(0.7 * limit).epsilon(1e-14));
-  CHECK(allowed(Family::mixed, 9) == Approx(6.3).epsilon(1e-14));
-  CHECK(allowed(Family::fully_implicit, 9) == Approx(6.3).epsilon(1e-14));
-  prescribe(system, {0, start_state().x.col(0), {}});
-  CHECK(allowed(Family::fully_explicit, infinite) ==
-        Approx(0.7 * 2 / (2 * 0.6 / 0.9)).epsilon(1e-14));
-}
 
 TEST_CASE("a limit that is not a number is reported, of elasticity or of damping") {
   System system = masses();

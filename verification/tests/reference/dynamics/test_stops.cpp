@@ -19,38 +19,6 @@ void expect_stop(const RunResult& result, const char* reason, long step, int par
 
 }  // namespace
 
-TEST_CASE("a run stops at its largest number of steps, or where steps do not advance the time") {
-  Schedule schedule = schedule_of(1.5, 0.4, 0.2);
-  schedule.max_steps = 4;
-  CHECK(steps_of(schedule).size() == 4);
-  schedule.max_steps = 3;
-  Seen seen;
-  expect_stop(run(masses(), drifting(1), start_state(), schedule, seen.observer()), "cap", 4, -1,
-              1.3);
-  CHECK(seen.frames.size() == 2);
-  CHECK(seen.checkpoints.size() == 2);
-  expect_stop(run(masses(), drifting(1), start_state(), schedule_of(0.9, 0.9, 1e-30), {}),
-              "too short", 1, -1, 0.7);
-}
-
-TEST_CASE("numbers that are not finite stop a run at the state before, with their particle") {
-  for (const int particle : {0, 2, 3})
-    for (const bool of_velocity : {false, true})
-      for (const double value : {double(NAN), -infinite}) {
-        next_state = [&](const State& now) {
-          State next = now;
-          if (now.time > 0.75) (of_velocity ? next.v : next.x)(1, particle) = value;
-          return next;
-        };
-        Seen seen;
-        expect_stop(
-            run(masses(), choosing, start_state(), schedule_of(0.9, 0.9, 0.1), seen.observer()),
-            "NaN or infinite", 2, particle, 0.8);
-        CHECK(seen.rows.size() == 2);
-        CHECK(seen.frames.size() == 1);
-      }
-}
-
 TEST_CASE("a particle that moves more than ten times the cloth's size stops the run") {
   // the cloth is 2 m, 3 m and 6 m long: 7 m
   const auto stopped = [](const std::vector<double>& moves) {

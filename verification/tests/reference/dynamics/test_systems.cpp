@@ -1,11 +1,8 @@
-// Systems, the table of integrators, and events.
+// Systems and events.
 #include <catch2/catch.hpp>
 
 #include "reference/dynamics/events.h"
-#include "reference/dynamics/explicit.h"
-#include "reference/dynamics/implicit.h"
 #include "reference/dynamics/integrator.h"
-#include "reference/dynamics/mixed.h"
 
 using namespace foldproof;
 using Catch::Matchers::Contains;
@@ -44,43 +41,6 @@ TEST_CASE("a particle's motion is prescribed once, and only if there is the part
   CHECK(system.prescribed[1].start == Vector3(4, 5, 6));
 }
 
-TEST_CASE("the table's rows say each method's order, history, family and limits") {
-  struct Row {
-    std::string name;
-    int order, history;
-    decltype(Integrator::step) step;
-    Family family;
-  };
-  using enum Family;
-  const std::vector<Row> rows{
-      {"A", 2, 1, mixed_explicit_implicit, mixed},
-      {"B", 2, 1, central_newmark, mixed},
-      {"C", 2, 1, variable_step_newmark, mixed},
-      {"forward-euler", 1, 1, forward_euler, fully_explicit},
-      {"RK2", 2, 1, explicit_midpoint, fully_explicit},
-      {"SSP-RK3", 3, 1, ssp_runge_kutta_3, fully_explicit},
-      {"RK4", 4, 1, runge_kutta_4, fully_explicit},
-      {"backward-euler", 1, 1, backward_euler, fully_implicit},
-      {"linear-backward-euler", 1, 1, linearised_backward_euler, fully_implicit},
-      {"BDF2", 2, 2, bdf2, fully_implicit},
-      {"implicit-midpoint", 2, 1, implicit_midpoint, fully_implicit},
-  };
-  REQUIRE(integrators().size() == rows.size());
-  for (size_t k = 0; k < rows.size(); ++k) {
-    const Integrator& found = integrator_named(rows[k].name);
-    INFO(rows[k].name);
-    CHECK(&found == &integrators()[k]);
-    CHECK(found.order == rows[k].order);
-    CHECK(found.history == rows[k].history);
-    CHECK(found.step == rows[k].step);
-    CHECK(found.family == rows[k].family);
-    CHECK(found.damping_widens_limit == (found.name == "C"));
-    // BDF2 is stable up to 1 + sqrt(2)
-    CHECK(found.largest_growth == (found.name == "BDF2" ? 2.4 : infinite));
-  }
-  CHECK_THROWS_WITH(integrator_named("a"), Contains("'a'; known: A, B, C, forward-euler"));
-}
-
 namespace {
 
 RigidObject moving(const RigidMotion& motion) { return {{}, {}, motion}; }
@@ -90,11 +50,6 @@ Motion between(double from, double until) {
   motion.from = from, motion.until = until;
   motion.velocity = {0.5, 0.25, -2};
   return motion;
-}
-
-std::vector<double> sorted(std::vector<double> times) {
-  std::sort(times.begin(), times.end());
-  return times;
 }
 
 System system_of_events() {
@@ -132,20 +87,6 @@ std::vector<double> times_passed(const System& system, double start, double tole
 
 }  // namespace
 
-TEST_CASE("objects have events where their motions start, stop or pass a frame") {
-  const System system = system_of_events();
-  CHECK(sorted(object_event_times(system, 0.1)) ==
-        std::vector<double>{0.15, 0.2, 0.3, 0.5, 0.55, 0.6, 0.75, 0.85});
-  CHECK(sorted(object_event_times(system, 0.55)) == std::vector<double>{0.6, 0.75, 0.85});
-}
-
-TEST_CASE("sticky patches have events where they start, begin their release and end") {
-  const System system = system_of_events();
-  CHECK(sorted(sticking_event_times(system, 0.1)) ==
-        std::vector<double>{0.35, 0.45, 0.95 - 0.25, 0.95});
-  CHECK(sorted(sticking_event_times(system, 0.45)) == std::vector<double>{0.95 - 0.25, 0.95});
-}
-
 TEST_CASE("events are passed in order, those up to a tolerance apart at once") {
   const System system = system_of_events();
   CHECK(times_passed(system, 0.51, 0.02) ==
@@ -161,51 +102,6 @@ TEST_CASE("events are passed in order, those up to a tolerance apart at once") {
   // a run begins without passing an event close to its start
   prescribe(one, {1, Vector3::Zero(), between(0.31, 0.9)});
   CHECK(Events(one, 0.3, 0.02, 0.3).next() == 0.31);
-}
-
-TEST_CASE(
-    "between events prescribed motions go on as they began, and change where they are passed") {
-  System system = make_system(three_masses());
-  const Vector3 first(0.2, 0.4, 0.6), second(-0.3, 0.7, 1.1);
-  prescribe(system, {2, first, between(0.5, 0.9)});
-  prescribe(system, {0, second, between(0.2, 0.7)});
-  Events events(system, 0.3, 1e-9);
-  const System& own = events.system();
-  CHECK(&own != &system);
-  CHECK(events.next() == 0.5);
-  const auto place = [](const System& in, size_t k, double t) {
-    return position_at(in.prescribed[k].motion, in.prescribed[k].start, t);
-  };
-  const auto speed = [](const System& in, size_t k, double t) {
-    return velocity_at(in.prescribed[k].motion, in.prescribed[k].start, t).norm();
-  };
-  const double v = Vector3(0.5, 0.25, -2).norm();
-  CHECK(speed(own, 0, 0.6) == 0);
-  CHECK(speed(own, 1, 0.8) == Approx(v));
-  CHECK((place(own, 1, 0.4) - place(system, 1, 0.4)).norm() < 1e-15);
-
-  State s = three_particles(0.5);
-  const State after = events.pass_events(s);
-  CHECK(&events.system() == &own);
-  CHECK(after.v.col(2) == Vector3(0.5, 0.25, -2));
-  CHECK(after.v.col(0) == Vector3(0.5, 0.25, -2));
-  CHECK(after.v.col(1) == s.v.col(1));
-  CHECK(after.x == s.x);
-  CHECK(events.next() == 0.7);
-  CHECK(speed(own, 0, 0.6) == Approx(v));
-  s.time = 0.7;
-  CHECK(events.pass_events(s).v.col(0) == Vector3::Zero());
-  CHECK(speed(own, 1, 0.71) == 0);
-  CHECK((place(own, 1, 0.71) - place(system, 1, 0.71)).norm() < 1e-15);
-  CHECK(events.next() == 0.9);
-
-  // resumed after the event at 0.5, and before any
-  for (const double last : {0.5, 0.3}) {
-    const Events resumed(system, 0.3, 1e-9, last);
-    CHECK(resumed.last() == last);
-    CHECK(resumed.next() == (last == 0.5 ? 0.7 : 0.5));
-    CHECK(speed(resumed.system(), 0, 0.6) == Approx(last == 0.5 ? v : 0));
-  }
 }
 
 TEST_CASE("sticking that forecasts allows steps of twice its time, if nothing else forbids them") {

@@ -1,19 +1,14 @@
-// Loops on several threads, a shared table, and points out of reach.
+// Loops on several threads, and points out of reach.
 #include <atomic>
 #include <catch2/catch.hpp>
-#include <cmath>
-#include <functional>
 #include <limits>
 
 #include "reference/fast/out_of_reach.h"
 #include "reference/fast/elements.h"
-#include "reference/fast/shared_map.h"
 
 using namespace foldproof;
 
 namespace {
-
-using Range = std::pair<long, long>;  // first, count
 
 struct Link {
   int a, b;
@@ -49,77 +44,6 @@ TEST_CASE("threads: each part is done once, and then what the lowest part threw 
   CHECK_THROWS_AS(Team(0), InputError);
 }
 
-TEST_CASE("threads: ranges follow each other and make up the whole") {
-  const auto find = [](Eigen::Index first, Eigen::Index count, std::vector<Range>& found) {
-    found.push_back({first, count});
-  };
-  for (const auto& [threads, n, expected] :
-       std::vector<std::tuple<int, long, std::vector<Range>>>{{3, 17, {{0, 5}, {5, 6}, {11, 6}}},
-                                                              {2, 7, {{0, 3}, {3, 4}}},
-                                                              {1, 7, {{0, 7}}},
-                                                              {3, 0, {{0, 0}, {0, 0}, {0, 0}}}}) {
-    CHECK(found_in_order<Range>(threads, n, find) == expected);
-  }
-}
-
-TEST_CASE("threads: blocks have their size, but the last one what is left") {
-  const auto part = [](Eigen::Index first, Eigen::Index count) {
-    return 1000.0 * double(first) + double(count);
-  };
-  for (const int threads : {1, 2, 3})
-    for (const auto& [n, sum] :
-         {std::pair(11, 12011), {9, 12009}, {12, 12012}, {3, 3}, {0, 0}})  // blocks of 4
-      CHECK(sum_of_blocks(threads, n, 4, part) == sum);
-  // batches of 8192 start from the same value
-  const std::vector<int> items(8192 + 3, 1);
-  CHECK(for_each_with(2, items, 100, [](int item, int& own) { own += item; }) ==
-        std::vector<int>{8292, 103});
-  // long sums are taken in blocks of 8192: 2^53 swallows each 1 that is added to it, that of its
-  // own block, not the 2 of the next
-  Elements<double> terms;
-  for (int k = 0; k < 3 * 8192 + 5; ++k)
-    terms.push_back(k == 0 ? std::ldexp(1, 53) : k == 8191 || k == 8192 || k == 8193);
-  CHECK(terms.sum(terms, [](double term, double) { return term; }) == std::ldexp(1, 53) + 2);
-}
-
-TEST_CASE("threads: acts in order, and asks anew what an act has changed") {
-  // each act takes from its right neighbour, which may then have nothing left
-  for (const int threads : {1, 3}) {
-    std::vector<int> left{1, 0, 2, 1, 1, 0, 1, 0}, acted;
-    std::vector<char> changed(left.size(), 0);
-    const long count = act_in_order(
-        threads, std::vector<size_t>{0, 1, 2, 3, 4, 5, 6},
-        [&](size_t k) { return left[k] > 0 ? std::optional(left[k]) : std::nullopt; },
-        [&](size_t k) { return changed[k] != 0; },
-        [&](size_t k, int amount) {
-          acted.push_back(10 * int(k) + amount);
-          left[k + 1] = k == 4 ? 5 : 0;
-          changed[k + 1] = 1;
-        });
-    CHECK(count == 4);
-    CHECK(acted == std::vector<int>{1, 22, 41, 55});
-  }
-}
-
-TEST_CASE("elements: one that touches a thread's particles is in its runs, which are of one kind") {
-  using Numbers = std::vector<size_t>;  // of each thread its particles, and of each of its runs
-  const auto divided = [](int particles, const std::vector<std::array<int, 4>>& elements) {
-    std::vector<Numbers> threads;
-    const Division division = divide(2, particles, elements);
-    for (const OwnedParticles& owner : division->owners) {
-      threads.push_back({size_t(owner.first), size_t(owner.end)});
-      for (const ElementRun& run : owner.runs)
-        threads.back().insert(threads.back().end(), {run.first, run.end, size_t(run.is_inside)});
-    }
-    return threads;
-  };
-  CHECK(divided(6, {{0, 1, 2, 3}, {3, 4, 5, 2}, {5, 4, 3, 5}, {0, 1, 2, 1}}) ==
-        std::vector<Numbers>{{0, 3, 0, 2, 0, 3, 4, 1}, {3, 6, 0, 2, 0, 2, 3, 1}});
-  CHECK(divided(7, {{0, 1, 0, 1}, {1, 2, 1, 2}, {4, 5, 4, 5}, {0, 2, 3, 4}, {2, 5, 2, 5}}) ==
-        std::vector<Numbers>{{0, 3, 0, 2, 1, 3, 5, 0}, {3, 7, 2, 3, 1, 3, 5, 0}});
-  CHECK_FALSE(divide(1, 17, {}));
-}
-
 TEST_CASE("elements: every particle adds up its elements in ascending order") {
   for (const int threads : {1, 2, 3}) {
     PerParticle digits = PerParticle::Zero(6);
@@ -151,15 +75,6 @@ TEST_CASE("elements: an error is that of the first element that one thread would
   Elements<Link> more = chain(2);
   more.push_back({5, 0});
   CHECK_THROWS_WITH(more.push(f, fail), "elements were added or removed");
-}
-
-TEST_CASE("a shared map makes each value once, and finds no other") {
-  SharedMap<int, long, std::hash<int>> squares;
-  squares.at(7, [] { return 49L; });
-  CHECK(squares.at(7, [] { return 50L; }) == 49);
-  CHECK(*squares.find(7) == 49);
-  CHECK_FALSE(squares.find(8));
-  CHECK(squares.size() == 1);
 }
 
 TEST_CASE("a point is out of reach if its clearance is more than the way it may go") {

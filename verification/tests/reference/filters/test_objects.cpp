@@ -1,4 +1,4 @@
-// Cloth points against objects: responses, the points of the cloth, and how far ahead they look.
+// Cloth points against objects: responses, and how far ahead they look.
 #include <catch2/catch.hpp>
 
 #include "reference/filters/object_collision.h"
@@ -27,46 +27,6 @@ const Span step{1, 1.5, 0.5};
 
 }  // namespace
 
-TEST_CASE("a pinched point goes to the surface between two objects, with the friction of both") {
-  // phi_a = -0.3, phi_b = -0.1; normals up and down; velocities differ
-  const ObjectPoint a = answer(-0.3, up, {0.2, 0, 0.4}, 0.25),
-                    b = answer(-0.1, -up, {0, 0.6, -0.2}, 0.5);
-  const MovingPoint point = moving({0.7, 1.1, 0.1}, step, 0.5);
-  // forecasts -0.3 + 0.5 * (0.1 - 0.4) = -0.45 and -0.1 - 0.5 * (0.1 + 0.2) = -0.25:
-  // pushes 0.9 and 0.5; psi -0.2, so v_n rises by 0.2 / (0.5 * 2)
-  const Vector3 sliding(0.6, 0.8, 0);  // against the mean (0.1, 0.3)
-  const double stopped = 0.25 * 0.9 + 0.5 * 0.5;
-  CHECK(near(velocity_between(a, b, point),
-             Vector3(point.v - stopped * sliding + Vector3(0, 0, 0.2))));
-  // an object that the point leaves pushes nothing: friction against the other alone; psi = 0.5
-  const ObjectPoint left = answer(0.4, up, {0.2, 0, 0.4}, 9);
-  const Vector3 between = point.v - 0.25 * sliding - Vector3(0, 0, 0.5);
-  CHECK(near(velocity_between(left, b, point), between));
-  CHECK(near(velocity_between(b, left, point), between));
-  // between normals that nearly coincide there is no surface: the first object alone
-  for (const double angle : {0.0999, 0.1002}) {  // |N_a - N_b| = 2 sin(angle / 2)
-    const Vector3 tilted(std::sin(angle), 0, std::cos(angle));
-    const bool is_alone =
-        near(velocity_between(a, answer(-0.1, tilted, {0, 0.6, -0.2}, 0.5), point),
-             forecast_velocity(a, point.v, 0.5));
-    CHECK(is_alone == (angle < 0.1));
-  }
-}
-
-TEST_CASE("the table of responses begins with the paper's; an unknown name lists the known") {
-  std::string names;
-  for (const Response& response : responses()) {
-    names += std::string(response.name) + " ";
-    CHECK(&response_named(response.name) == &response);
-    CHECK(response.query_time ==
-          (response.name == "projection" ? QueryTime::at_end : QueryTime::at_start));
-  }
-  CHECK(names == "forecast forecast_deepest projection push_out ");
-  CHECK_THROWS_WITH(
-      response_named("forcast"),
-      "unknown response 'forcast'; known: forecast, forecast_deepest, projection, push_out");
-}
-
 TEST_CASE("forecasting answers each object in turn, the deepest forecast first") {
   // walls with normals x and y, both to be entered: neither is forgotten
   const ObjectPoint x = answer(0.1, {1, 0, 0}, Vector3::Zero(), 0.5),
@@ -92,33 +52,6 @@ TEST_CASE("forecasting holds a point inside two objects between the two deepest"
   // on the surface of one is not inside it
   const ObjectPoint on = answer(0, Vector3(1, 0, 0), Vector3::Zero(), 0);
   CHECK(near(respond("forecast", {on, a}, point), forecast_velocity(a, point.v, 0.5)));
-}
-
-TEST_CASE("points of the cloth: triangle centres, edge midpoints, particles, in this order") {
-  PerParticle3 rest(3, 4);
-  rest << 0.1, 1.2, 1.1, -0.2, 0.2, 0.1, 1.3, 0.9, 0.5, 0.6, 0.4, 0.7;
-  const TriangleMesh mesh = make_triangle_mesh(rest, {{0, 1, 2}, {0, 2, 3}});
-  PerParticle w(4);
-  w << 0.3, 0.5, 0, 0.7;
-  const auto points = collision_points(mesh, w, PointKind::faces);
-  REQUIRE(points.size() == 2 + 5 + 3);
-  // equal weights of a third or a half: shares w_i over their mean
-  CHECK(points[1].particles == std::array<int, 3>{0, 2, 3});
-  CHECK(near(points[1].shares, Vector3(0.3, 0, 0.7) * 3));
-  CHECK(near(points[1].mean(rest), (rest.col(0) + rest.col(2) + rest.col(3)) / 3));
-  CHECK(points[2].particles == std::array<int, 3>{0, 1, -1});
-  CHECK(near(points[2].shares, Vector3(0.3, 0.5, 0) * 2 / 0.8));
-  CHECK(points[9].particles == std::array<int, 3>{3, -1, -1});
-  // points that share particles are corrected on one thread
-  for (const PointKind kind : {PointKind::particles, PointKind::edges}) {
-    ObjectCollision filter;
-    filter.points = collision_points(mesh, w, kind);
-    filter.set_team(3, 4);
-    CHECK(filter.points.size() == (kind == PointKind::particles ? 3 : 8));
-    CHECK(filter.team.threads() == (kind == PointKind::particles ? 3 : 1));
-  }
-  w << 0, 0, 0, 0.7;  // edge 0-3, 2-3 and one triangle have a free particle
-  CHECK(collision_points(mesh, w, PointKind::faces).size() == 1 + 2 + 1);
 }
 
 TEST_CASE("a forecast longer than the step reaches as far for every point") {

@@ -1,4 +1,4 @@
-// Repulsion of close layers: impulses of a pair, friction, and which pairs bear load.
+// Repulsion of close layers: which pairs bear load.
 #include <catch2/catch.hpp>
 
 #include "reference/filters/repulsion.h"
@@ -25,58 +25,6 @@ PerParticle3 columns(std::initializer_list<Vector3> of) {
 }
 
 }  // namespace
-
-TEST_CASE("a pair's impulses change its relative velocity as asked, shared by weights and masses") {
-  const FeaturePair pair{PairKind::edge_edge, {4, 1, 2, 0}};
-  const Eigen::Vector4d w(0.25, 0.75, -0.4, -0.6);
-  const PerParticle inverse_mass = (PerParticle(5) << 0.5, 0, 0.3, 9, 0.2).finished();
-  const Vector3 change(0.3, -0.7, 1.1);
-  PerParticle3 v(3, 5);
-  v << 1, 2, 3, 4, 5, 6, 7, 8, 9, 1.5, 2.5, 3.5, 4.5, 5.5, 6.5;
-  const PerParticle3 before = v;
-  push_apart(pair, w, change, inverse_mass, v);
-  const double compliance = 0.0625 * 0.2 + 0.16 * 0.3 + 0.36 * 0.5;
-  CHECK((v.col(4) - before.col(4) - 0.25 * 0.2 / compliance * change).norm() < 1e-14);
-  CHECK(v.col(1) == before.col(1));
-  CHECK((v.col(2) - before.col(2) + 0.4 * 0.3 / compliance * change).norm() < 1e-14);
-  CHECK((v.col(0) - before.col(0) + 0.6 * 0.5 / compliance * change).norm() < 1e-14);
-  CHECK(v.col(3) == before.col(3));
-
-  v = before;
-  push_apart(pair, w, change, PerParticle::Zero(5), v);
-  CHECK(v == before);
-  // nor is there an impulse where the only free particle has no weight
-  push_apart(pair, {1, 0, -0.4, -0.6}, change, (PerParticle(5) << 0, 0.3, 0, 9, 0).finished(), v);
-  CHECK(v == before);
-}
-
-TEST_CASE("repulsion stops an approach and takes away a tenth of the overlap in a step at most") {
-  // a vertex 0.006 above the point of a triangle with the weights 0.2, 0.3 and 0.5
-  const Eigen::Vector4d weights(1, -0.2, -0.3, -0.5);
-  PerParticle3 x = columns({{0, 0, 0}, {0.1, 0.2, 0.5}, {1.1, 0.3, 0.5}, {0.2, 1.4, 0.5}});
-  x.col(0) = Vector3(0, 0, 0.006) - x.rightCols(3) * weights.tail(3);
-  const PerParticle masses = (PerParticle(4) << 0.3, 0.7, 0.2, 0.4).finished();  // inverse ones
-  const auto check = [&](const Vector3& relative, double stiffness, double friction,
-                         const Vector3& after, const PerParticle& inverse_mass, long pairs) {
-    PerParticle3 v(3, 4);
-    v.rightCols(3) << 0.3, -0.1, 0.6, 0.2, 0.9, -0.4, -0.7, 0.5, 0.1;
-    v.col(0) = relative - v.rightCols(3) * weights.tail(3);
-    const SelfCollisionSettings settings{0.01, stiffness, friction, 8, true};
-    CHECK(repel({vertex_over_triangle}, x, settings, 0.02, inverse_mass, v, 1) == pairs);
-    CHECK((v * weights - after).norm() < 1e-12);
-  };
-  // the overlap is 0.004, so a tenth of it over the step is 0.02; the compliance is
-  // 0.3 + 0.04 * 0.7 + 0.09 * 0.2 + 0.25 * 0.4
-  constexpr double soft = 0.02 * 90 * 0.004 * 0.446;
-  check({0.2, -0.1, -0.3}, 1e9, 0, {0.2, -0.1, 0.02}, masses, 1);
-  check({0.2, -0.1, -0.3}, 90, 0, {0.2, -0.1, soft}, masses, 1);
-  // parting, but slowly; fast enough; with friction against the push; prescribed
-  check({0.2, -0.1, 0.015}, 1e9, 0, {0.2, -0.1, 0.02}, masses, 1);
-  check({0.2, -0.1, 0.015}, 90, 0, {0.2, -0.1, 0.015 + soft}, masses, 1);
-  check({0.2, -0.1, 0.021}, 1e9, 0.7, {0.2, -0.1, 0.021}, masses, 0);
-  check({0.3, -0.4, -0.08}, 1e9, 0.6, {0.3 * 0.88, -0.4 * 0.88, 0.02}, masses, 1);
-  check({0.2, -0.1, -0.3}, 1e9, 0.7, {0.2, -0.1, -0.3}, PerParticle::Zero(4), 0);
-}
 
 TEST_CASE("pairs repel below the thickness and apart, two edges if they are nearest inside both") {
   const auto vertex = [](double height, double thickness) {

@@ -74,25 +74,6 @@ TEST_CASE("a particle's bonds to a patch break together, and hold while their me
   CHECK(updated(Sticking{{two}}, s) == std::vector<Key>{{0, 1, 0}, {0, 1, 1}});
 }
 
-TEST_CASE("a patch sticks from its beginning on, and at its end no more") {
-  StickyPatch early = palm({0}, 0.125, 0.5), late = early;
-  early.from = 0.3, early.until = 0.7;
-  late.from = 0.7, late.until = 1.9;
-  const Vector3 at(0.25, 0.25, 0.0625);
-  for (const std::vector<Bond>& bonds : {std::vector<Bond>{}, {{0, 0, 0, at}, {1, 0, 0, at}}}) {
-    const auto expect = [&](double time, const std::vector<Key>& keys) {
-      State s = state_of(at, bonds);
-      s.time = time;
-      CHECK(updated(Sticking{{early, late}}, s) == keys);
-    };
-    expect(std::nextafter(0.3, 0), {});
-    expect(0.3, {{0, 0, 0}});
-    expect(std::nextafter(0.7, 0), {{0, 0, 0}});
-    expect(0.7, {{1, 0, 0}});
-    expect(1.9, {});
-  }
-}
-
 TEST_CASE("a particle that sticks to a patch forms no more bonds with it, but does with others") {
   StickyPatch two = palm({1, 0}, 0.125, 0.5);
   two.triangles.push_back({0, 2, 1});

@@ -1,4 +1,4 @@
-// Targets, dampers, derivatives and bounds of sticking.
+// Targets, derivatives and forecasts of sticking.
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -47,14 +47,6 @@ State state() {
   return s;
 }
 
-/// The same, but some targets are beyond `far`: the third at 1.5 times it.
-Sticking out_of_reach() {
-  Sticking all = sticking();
-  all.patches[0].far = 0.3;
-  all.patches[1].far = all.targets_at(state())[2].distance / 1.5;
-  return all;
-}
-
 /// A particle on its target on cloth.
 State state_at_target(const Sticking& of) {
   State s = state();
@@ -92,20 +84,6 @@ TEST_CASE("the energy and the slope of the stiffness fall as it does during the 
   }
 }
 
-TEST_CASE("a damper of sticking whose coefficient is 1 is kept, one of 0 is not") {
-  Sticking one{{patch({{0, 1, 2}}, 8, 0.125, 0.7)}};
-  const State s = state_at_target(one);
-  DampingOperator damping;
-  one.prepare_damping(s, damping);
-  REQUIRE(damping.targets.size() == 1);
-  CHECK(damping.targets[0].coefficient == 1);
-  CHECK(damping.targets[0].particle == 4);
-  one.patches[0].forecast_time = 0;
-  damping.targets.clear();
-  one.prepare_damping(s, damping);
-  CHECK(damping.targets.empty());
-}
-
 TEST_CASE("the semidefinite derivative of sticking never pushes along its springs") {
   const auto product = [](const Sticking& of, const State& s, const Vector3& direction) {
     ForceDifferential K;
@@ -133,64 +111,6 @@ TEST_CASE("the semidefinite derivative of sticking never pushes along its spring
   // at its target a spring has one stiffness in all directions
   const Sticking one{{patch({{0, 1, 2}}, 8, 0, 0.7)}};
   CHECK(agree(product(one, state_at_target(one), u), -8 * u, 1e-14));
-}
-
-namespace {
-
-/// Norm bounds of J at the corners of a target's frames: |w| + |height| |g|.
-std::vector<std::pair<int, double>> corner_norms(const StickyTarget& target) {
-  std::vector<std::pair<int, double>> list;
-  for (const TriangleFrame& frame : target.frames)
-    for (int i = 0; i < 3; ++i)
-      list.emplace_back(
-          frame.corners[size_t(i)],
-          std::abs(frame.weights[i]) + std::abs(frame.height) * frame.slopes.col(i).norm());
-  return list;
-}
-
-void add_rows(const StickyTarget& target, double coefficient, PerParticle& rows) {
-  double sum = 1;
-  for (const auto& [corner, norm] : corner_norms(target)) sum += norm;
-  rows[target.particle] += coefficient * sum;
-  for (const auto& [corner, norm] : corner_norms(target)) rows[corner] += coefficient * norm * sum;
-}
-
-}  // namespace
-
-TEST_CASE(
-    "the row sums of sticking are those of G^T G, and of frames that turn under its springs") {
-  State s = state();
-  s.v = {};
-  const PerParticle start = scattered(n, 5.1).row(0).transpose();
-  for (const Sticking& all : {sticking(), out_of_reach()}) {
-    PerParticle expected = start, turning = start, rows = start;
-    int steeper_along = 0, in_reach = 0;
-    for (const StickyTarget& target : all.targets_at(s)) {
-      const double k = target.stiffness, d = target.distance,
-                   along = std::abs(k + slope_of(all.patches[size_t(target.patch)], d) * d * d);
-      steeper_along += along > k;
-      in_reach += k > 0;
-      add_rows(target, std::max(k, along), expected);
-      for (const TriangleFrame& frame : target.frames)
-        for (int i = 0; i < 3; ++i)
-          for (int j = 0; j < 3; ++j)
-            turning[frame.corners[size_t(i)]] += 3 * k * d * std::abs(frame.height) *
-                                                 frame.slopes.col(i).norm() *
-                                                 frame.slopes.col(j).norm();
-    }
-    CHECK(steeper_along > 0);
-    CHECK(steeper_along < in_reach);
-    all.add_bound_without_springs(s, rows);
-    CHECK(agree(rows, turning, 1e-12));
-    rows = start;
-    all.add_stiffness_bound(s, rows);
-    CHECK(agree(rows, expected + turning - start, 1e-12));
-  }
-  const StickyTarget two = sticking().targets_at(s)[0];
-  PerParticle rows = start, expected = start;
-  add_row_sums(4, two.frames, 0.37, rows);
-  add_rows(two, 0.37, expected);
-  CHECK(agree(rows, expected, 1e-14));
 }
 
 TEST_CASE("the shortest forecast is that of the patches that have bonds") {

@@ -1,10 +1,5 @@
-// What an octree refuses: each setting at its limit, and bodies that reach the cube's boundary.
+// What an octree refuses: too many bodies, and those that reach the cube's boundary.
 #include <catch2/catch.hpp>
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <limits>
 
 #include "reference/level_set/octree.h"
 
@@ -26,8 +21,6 @@ OctreeSettings usable() {
   return {{0.25, -0.5, 0.75}, 0.5, 2, 1, 0.01, 0.02, 0.1, 0.03, HangingNodes::constrained};
 }
 
-constexpr double tiny = std::numeric_limits<double>::denorm_min();
-
 /// A tree of the depth about a point of its cube, given by its place among 8 cells along each axis.
 void check_boundary(const Vector3& eighths, int depth, bool is_on_boundary) {
   OctreeSettings settings = usable();
@@ -46,44 +39,6 @@ void check_boundary(const Vector3& eighths, int depth, bool is_on_boundary) {
 }
 
 }  // namespace
-
-TEST_CASE("an octree has 1 to 20 levels of cells") {
-  OctreeSettings settings = usable();
-  for (const int depth : {0, 1, 20, 21}) {
-    settings.depth = depth;
-    settings.surface_depth = std::min(depth, 1);
-    if (depth == 1 || depth == 20)
-      CHECK_NOTHROW(make_octree({constant(5)}, settings));
-    else
-      CHECK_THROWS_WITH(make_octree({constant(5)}, settings), Contains("depth must be 1 to 20"));
-  }
-}
-
-TEST_CASE("an octree's settings are refused beyond their limits, with the reason") {
-  struct Limit {
-    std::function<void(OctreeSettings&, double)> set;
-    double last_good;
-    std::vector<double> bad;
-    std::string reason;
-  };
-  const std::vector<Limit> limits = {
-      {[](auto& s, double v) { s.width = v; }, 0.01, {0, NAN}, "width must be positive"},
-      {[](auto& s, double v) { s.surface_depth = int(v); }, 0, {-1, 3}, "surface's depth must"},
-      {[](auto& s, double v) { s.surface_depth = int(v); }, 2, {3}, "must be 0 to the depth"},
-      {[](auto& s, double v) { s.tolerance = v; }, tiny, {0, NAN}, "tolerance must be positive"},
-      {[](auto& s, double v) { s.band = v; }, 0, {-tiny, NAN}, "must not be negative"},
-      {[](auto& s, double v) { s.beyond = v; }, 0, {-tiny, NAN}, "must not be negative"},
-      {[](auto& s, double v) { s.reach = v; }, 0, {-tiny, NAN}, "reach must not be negative"}};
-  for (const Limit& limit : limits) {
-    OctreeSettings settings = usable();
-    limit.set(settings, limit.last_good);
-    CHECK_NOTHROW(make_octree({constant(5)}, settings));
-    for (const double bad : limit.bad) {
-      limit.set(settings, bad);
-      CHECK_THROWS_WITH(make_octree({constant(5)}, settings), Contains(limit.reason));
-    }
-  }
-}
 
 TEST_CASE("an octree covers 1 to 255 bodies, each with a channel if it needs one") {
   OctreeSettings settings = usable();

@@ -1,5 +1,4 @@
-// Solids with a closed form, and objects made of them: distances worked out by hand, motion by way
-// of the body's own frame.
+// Solids with a closed form, and the nearest of several objects, worked out by hand.
 #include <catch2/catch.hpp>
 
 #include <cmath>
@@ -14,23 +13,6 @@ namespace {
 void check_distance(const Distance& found, double phi, const Vector3& normal) {
   CHECK(found.phi == Approx(phi).margin(1e-15));
   CHECK((found.normal - normal).norm() < 1e-15);
-}
-
-/// Turns, drifts and swings about a centre off the origin.
-RigidMotion turning() {
-  Motion motion;
-  motion.velocity = {0.3, -0.7, 0.2};
-  motion.amplitude = {0.05, 0.11, -0.08};
-  motion.frequency = 0.9;
-  motion.phase = 0.4;
-  motion.center = {0.6, -0.2, 1.1};
-  motion.angular_velocity = {0.8, -1.3, 0.5};
-  return motion;
-}
-
-RigidObject turning_box() {
-  const Eigen::Quaterniond tilt(Eigen::AngleAxisd(0.9, Vector3(0.36, 0.48, -0.8)));
-  return {Box{{0.3, 0.5, 0.9}}, {tilt, {-0.4, 0.25, 0.7}}, turning()};
 }
 
 ObjectPoint answer(double phi, int part) {
@@ -80,23 +62,6 @@ TEST_CASE("solids have the distances of their closed forms, with a normal at eve
                                  {torus, {0, 0, 1.2}, 1.25, {-0.6, 0, 0.8}},
                                  {torus, {-0.54, 0.72, 0}, -0.25, {-0.6, 0.8, 0}}};
   for (const Row& row : rows) check_distance(distance_to(row.solid, row.p), row.phi, row.normal);
-}
-
-TEST_CASE("an object has its solid's distance in its own frame, and takes points along") {
-  const RigidObject box = turning_box();
-  const Vector3 p(0.4, -0.9, 1.7);
-  for (const double t : {0.0, 0.7, 1.9}) {
-    const Pose pose = pose_at(box.motion, t);
-    const Distance own = distance_to(box.solid, to_body(box.place, to_body(pose, p)));
-    for (const double duration : {0.0, 0.6}) {
-      const ObjectPoint found = box.at(p, {t, t + duration, 0.1});
-      CHECK(found.phi == Approx(own.phi).epsilon(1e-14));
-      CHECK((found.normal - pose.rotation * (box.place.rotation * own.normal)).norm() < 1e-14);
-      const Vector3 moved = to_world(pose_at(box.motion, t + duration), to_body(pose, p));
-      CHECK((p + duration * found.velocity - moved).norm() < 1e-14);
-      if (duration == 0) CHECK((found.velocity - velocity_at(box.motion, p, t)).norm() < 1e-14);
-    }
-  }
 }
 
 TEST_CASE("the two nearest answers are found in any order, and containing objects are counted") {

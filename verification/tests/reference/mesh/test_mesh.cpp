@@ -1,6 +1,5 @@
 // The statue, in its two kinds of triangles.
 #include <Eigen/Geometry>
-#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
@@ -27,17 +26,6 @@ void check_stands(const TriangleMesh& statue) {
 }
 
 }  // namespace
-
-TEST_CASE("mesh: the statue is the figure that its limbs make") {
-  const TriangleMesh statue = make_statue(1, 3);
-  const PerParticle3& x = statue.rest;
-  // as it was designed: every limb and fold has a part in these
-  const std::array<double, 3> moments{0.0594365028, 0.268083368, 0.0301511016};  // m^4
-  CHECK(volume(statue) == Approx(0.116025753).epsilon(1e-8));
-  for (int axis = 0; axis < 3; ++axis)
-    CHECK(x.row(axis).cwiseAbs2().dot(lumped_masses(statue, 1).transpose()) ==
-          Approx(moments[size_t(axis)]).epsilon(1e-8));
-}
 
 TEST_CASE("mesh: the even statue is clean, too, and its smallest triangle is larger") {
   const TriangleMesh even = make_even_statue(1.7, 32), plain = make_statue(1.7, 5);

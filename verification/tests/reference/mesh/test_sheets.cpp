@@ -4,7 +4,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <random>
 
 #include "reference/mesh/delaunay.h"
@@ -16,45 +15,6 @@ namespace {
 
 /// The 53 leading bits of a number of the generator, over 2^53.
 double uniform(std::mt19937_64& random) { return std::ldexp(double(random() >> 11), -53); }
-
-/// Random points by darts, where the distance to every other point is measured.
-PerParticle3 darts(const Sheet& sheet) {
-  const double width = sheet.width / sheet.columns, height = sheet.height / sheet.rows;
-  const double least = 0.8 * std::min(width, height), bin = least / std::sqrt(2.0);
-  using Point = Eigen::Vector2d;
-  std::vector<Point> points;
-  for (int i = 0; i <= sheet.columns; ++i)
-    for (const double y : {0.0, sheet.height})
-      points.push_back({sheet.width * (double(i) / sheet.columns), y});
-  for (int j = 1; j < sheet.rows; ++j)
-    for (const double x : {0.0, sheet.width})
-      points.push_back({x, sheet.height * (double(j) / sheet.rows)});
-
-  std::mt19937_64 random(sheet.seed);
-  const int columns = int(sheet.width / bin) + 1, rows = int(sheet.height / bin) + 1;
-  std::vector<int> bins(size_t(columns * rows));
-  std::iota(bins.begin(), bins.end(), 0);
-  for (size_t k = bins.size() - 1; k > 0; --k) std::swap(bins[k], bins[random() % (k + 1)]);
-  for (int round = 0; round < 20; ++round)
-    for (const int b : bins) {
-      const int column = b % columns, row = b / columns;
-      if (std::ranges::any_of(points, [&](const Point& p) {
-            return int(p.x() / bin) == column && int(p.y() / bin) == row;
-          }))
-        continue;
-      const double x = (column + uniform(random)) * bin, y = (row + uniform(random)) * bin;
-      const double to_border = std::min({x, y, sheet.width - x, sheet.height - y});
-      const bool is_clear = std::ranges::all_of(
-          points, [&](const Point& p) { return (p - Point(x, y)).norm() >= least; });
-      if (to_border > least / 2 && is_clear) points.push_back({x, y});
-    }
-  std::ranges::sort(points, {}, [&](const Point& p) {
-    return std::array{std::floor(p.y() / sheet.height * sheet.rows), p.x(), p.y()};
-  });
-  PerParticle3 x = PerParticle3::Zero(3, Eigen::Index(points.size()));
-  for (size_t i = 0; i < points.size(); ++i) x.col(Eigen::Index(i)).head<2>() = points[i];
-  return x;
-}
 
 }  // namespace
 
@@ -120,20 +80,6 @@ TEST_CASE("rows are offset by half an edge; jitter is uniform in a disc that is 
     const TriangleMesh mesh = make_sheet(sheet);
     CHECK((mesh.rest - x).cwiseAbs().maxCoeff() < 1e-15);
     CHECK(mesh.triangles == delaunay(mesh.rest.topRows<2>()));
-  }
-}
-
-TEST_CASE("random sheets are those of darts that are thrown into empty bins") {
-  for (unsigned seed = 0; seed < 12; ++seed) {
-    const Sheet sheet =
-        std::array<Sheet, 3>{{{SheetPattern::random_delaunay, 1.3, 0.9, 7, 5, 0, seed},
-                              {SheetPattern::random_delaunay, 0.7, 2.9, 3, 4, 0, seed},
-                              {SheetPattern::random_delaunay, 2.9, 0.7, 4, 3, 0, seed}}}[seed % 3];
-    const TriangleMesh mesh = make_sheet(sheet);
-    const PerParticle3 x = darts(sheet);
-    REQUIRE(mesh.particles() == x.cols());
-    CHECK(mesh.rest == x);
-    CHECK(mesh.triangles == delaunay(x.topRows<2>()));
   }
 }
 

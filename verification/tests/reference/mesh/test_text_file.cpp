@@ -1,6 +1,5 @@
 // Whole text files, at the very bounds of what is read.
 #include <catch2/catch.hpp>
-#include <filesystem>
 
 #include "reference/mesh/obj.h"
 #include "reference/mesh/text_file.h"
@@ -53,17 +52,6 @@ TEST_CASE("texts and lines are read up to their limits, and refused from the nex
   CHECK(said_of(lines_of({piece - 1, 3, piece - 4, piece + 101}), limits).starts_with(":4" + said));
   CHECK(said_of(lines_of({3}) + std::string(piece + 100, 'z'), limits) == "");
   CHECK(said_of(lines_of({3}) + std::string(piece + 101, 'z'), limits).starts_with(":2" + said));
-}
-
-TEST_CASE("cases have a mebibyte, tables 256, and lines of both 64 kibibytes") {
-  CHECK(case_text_limits.bytes == 1048576);
-  CHECK(case_text_limits.line == 65536);
-  CHECK(table_text_limits.bytes == 268435456);
-  CHECK(table_text_limits.line == 65536);
-  const ScratchFolder folder;
-  const std::string path = folder.write("t.obj", "v 0 0 0\n");
-  std::filesystem::resize_file(path, (1 << 28) + 1);  // a file of holes
-  CHECK_THROWS_WITH(read_obj(path), Catch::StartsWith(path + ": longer than 268435456 bytes"));
 }
 
 TEST_CASE("what is no regular file is refused by its name") {

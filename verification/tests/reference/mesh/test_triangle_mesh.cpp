@@ -1,11 +1,9 @@
 // Edges, hinges, fans, areas and masses of triangle meshes, and what is refused.
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
 #include "reference/mesh/triangle_mesh.h"
 
@@ -54,40 +52,6 @@ TEST_CASE("edges and hinges of five triangles are those listed by hand") {
   CHECK(hinges == std::vector<std::array<int, 5>>{
                       {4, 2, 0, 3, 1}, {0, 5, 2, 3, 5}, {3, 6, 2, 5, 6}, {5, 1, 2, 6, 7}});
   CHECK(euler_characteristic(mesh) == 7 - 11 + 5);
-}
-
-TEST_CASE("mesh: what is no oriented manifold is refused, with the triangle or the vertex") {
-  PerParticle3 infinite = places(4), no_number = infinite, seven(3, 7);
-  infinite(1, 3) = -infinity;
-  no_number(2, 3) = std::nan("");
-  seven << 0, 1, 0, 0, -1, 0, 0,  //
-      0, 0, 1, 0, 0, -1, 0,       //
-      0, 0, 0, 1, 0, 0, -1;
-  // two closed fans about one vertex: no edge is wrong, and there is no border
-  const std::vector<Triangle> tetrahedra{{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3},
-                                         {0, 4, 5}, {0, 6, 4}, {0, 5, 6}, {4, 6, 5}};
-  using Row = std::tuple<PerParticle3, std::vector<Triangle>, std::string>;
-  for (const auto& [x, triangles, said] : std::vector<Row>{
-           {places(5), {}, "no triangles"},
-           {places(4), {{0, 1, 2}, {2, 1, 4}}, "triangle 1: vertex index 4 is out of range"},
-           {places(4), {{0, -1, 2}, {2, 1, 3}}, "triangle 0: vertex index -1 is out of range"},
-           {places(4), {{0, 1, 2}}, "vertex 3: in no triangle, the first of 1 unused vertices"},
-           {places(9), {{1, 2, 3}, {3, 2, 5}}, "vertex 0: in no triangle, the first of 5"},
-           {places(5), {{0, 1, 2}, {3, 4, 3}}, "triangle 1: no area: vertex 3, vertex 4 and"},
-           {infinite, {{0, 1, 2}, {2, 1, 3}}, "vertex 3: a coordinate is not finite"},
-           {no_number, {{0, 1, 2}, {2, 1, 3}}, "vertex 3: a coordinate is not finite"},
-           {places(5), {{0, 1, 2}, {0, 1, 3}, {3, 1, 4}}, "triangle 1: opposite orientation"},
-           {places(5), {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}, "triangle 2: the edge between vertex 0"},
-           {places(7),
-            {{3, 1, 2}, {3, 2, 0}, {6, 3, 5}, {4, 3, 6}},
-            "vertex 3: its triangles form more than one fan (triangle 0 and triangle 2"},
-           {places(5), {{0, 1, 2}, {0, 3, 4}}, "vertex 0: its triangles form more than one fan"},
-           {seven, tetrahedra, "vertex 0: its triangles form more than one fan"}}) {
-    CHECK(refusal_of(x, triangles).starts_with("mesh: " + said));
-  }
-  CHECK(refusal_of(places(3), {{0, 1, 2}}, {"a.obj", {1, 2, 3}, {4}}) == "not refused");
-  for (const MeshOrigin& origin : {MeshOrigin{"a.obj", {1, 2}, {4}}, {"a.obj", {1, 2, 3}, {4, 5}}})
-    CHECK_THROWS_AS(refusal_of(places(3), {{0, 1, 2}}, origin), std::logic_error);
 }
 
 TEST_CASE("edges of three triangles and of opposite ones are refused with each triangle") {

@@ -109,20 +109,6 @@ TEST_CASE("a pose turns, then shifts, is undone in reverse, and of two the first
   CHECK(are_near(to_world(after(next, pose), start), turned(placed, tilt, -0.7) + tilt));
 }
 
-TEST_CASE("between keyframes the velocity is that of the turn and of the line") {
-  const Keyframes keys = three_keys();
-  const auto expected = [&](double part) {
-    const Vector3 origin = first_place + part * (second_place - first_place);
-    return Vector3((1.1 / 0.6 * hinge.normalized()).cross(start - origin) +
-                   (second_place - first_place) / 0.6);
-  };
-  CHECK(are_near(velocity_at(keys, start, 0.45), expected(0.25)));
-  CHECK(are_near(velocity_at(keys, start, 0.3), expected(0)));  // that of the interval that begins
-  const Vector3 next = (-0.7 / 1.5 * tilt.normalized()).cross(start - second_place) +
-                       (third_place - second_place) / 1.5;
-  CHECK(are_near(velocity_at(keys, start, 0.9), next));
-}
-
 TEST_CASE("a turn between keyframes takes the short way, whichever sign its quaternions have") {
   Keyframes keys = three_keys();
   const Vector3 place = to_world(pose_at(keys, 0.45), start),
@@ -174,20 +160,4 @@ TEST_CASE("the events of prescribed particles ascend, each once, without those t
   CHECK(event_times(particles, 0.3) == std::vector<double>{0.7, 1.9});
   CHECK(event_times(particles, 0.1) == std::vector<double>{0.3, 0.7, 1.9});
   CHECK(event_times(particles, 1.9).empty());  // and some motions never end
-}
-
-TEST_CASE("prescribed motion has no velocity before it begins and from its end on") {
-  Motion motion;
-  motion.from = 0.3, motion.until = 0.7;
-  motion.velocity = {1, 0, 0};
-  for (const double time : {0.1, 0.7, 0.9})
-    CHECK(velocity_at(motion, start, time) == Vector3::Zero());
-  for (const double time : {0.3, 0.5}) CHECK(velocity_at(motion, start, time) == motion.velocity);
-}
-
-TEST_CASE("rotations of keyframes are normalised") {
-  std::vector<Keyframe> keys(2);
-  keys[1].time = 1;
-  for (Keyframe& key : keys) key.pose.rotation.coeffs() *= 2;
-  for (const Keyframe& key : make_keyframes(keys).keys) CHECK(key.pose.rotation.norm() == 1);
 }

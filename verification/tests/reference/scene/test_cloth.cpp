@@ -1,7 +1,6 @@
-// The cloth of a case: shapes, their keys and limits, and its place.
+// The cloth of a case: limits of its shapes, and seams.
 #include <catch2/catch.hpp>
 
-#include "reference/mesh/shapes.h"
 #include "reference/scene/read_cloth_mesh.h"
 #include "verification/specimens/scratch_folder.h"
 #include "verification/tests/reference/scene/scene_texts.h"
@@ -17,10 +16,6 @@ PlacedMesh cloth(const std::string& keys, double most = 1e7, const std::string& 
                          {most, 1000});
 }
 
-bool same(const TriangleMesh& a, const TriangleMesh& b) {
-  return a.triangles == b.triangles && a.rest.cols() == b.rest.cols() && a.rest == b.rest;
-}
-
 void check_limit(const std::string& keys, double triangles, const std::string& key) {
   INFO(keys);
   CHECK_NOTHROW(cloth(keys, triangles));
@@ -30,49 +25,6 @@ void check_limit(const std::string& keys, double triangles, const std::string& k
 const std::string sheet = "shape = \"sheet\"\nwidth = 0.7\nheight = 0.9\ncolumns = 5\nrows = 3\n";
 
 }  // namespace
-
-TEST_CASE("a sheet has the pattern, grading and seed of its keys", "[scene]") {
-  const std::vector<std::pair<std::string, SheetPattern>> patterns = {
-      {"one_diagonal", SheetPattern::one_diagonal},      {"alternating", SheetPattern::alternating},
-      {"union_jack", SheetPattern::union_jack},          {"criss_cross", SheetPattern::criss_cross},
-      {"equilateral", SheetPattern::equilateral},        {"jittered", SheetPattern::jittered},
-      {"random_delaunay", SheetPattern::random_delaunay}};
-  for (const auto& [name, pattern] : patterns) {
-    INFO(name);
-    const bool jitters = pattern == SheetPattern::jittered;
-    const std::string keys =
-        sheet + "pattern = \"" + name + "\"\n" + (jitters ? "jitter = 0.2\n" : "");
-    const double jitter = jitters ? 0.2 : 0;
-    CHECK(same(cloth(keys).mesh, make_sheet({pattern, 0.7, 0.9, 5, 3, jitter, 1, 1})));
-    if (jitters || pattern == SheetPattern::random_delaunay)
-      CHECK(same(cloth(keys + "seed = 4294967295\n").mesh,
-                 make_sheet({pattern, 0.7, 0.9, 5, 3, jitter, 4294967295u, 1})));
-  }
-  CHECK(same(cloth(sheet + "grading = 1.7\n").mesh,
-             make_sheet({SheetPattern::one_diagonal, 0.7, 0.9, 5, 3, 0, 1, 1.7})));
-}
-
-TEST_CASE("keys of a cloth are refused beyond their limits, with their place", "[scene]") {
-  const std::string row = "shape = \"sheet\"\nwidth = 0.7\nheight = 0.9\nrows = 1\ncolumns = ",
-                    statue = "shape = \"statue\"\nheight = -7\n",
-                    either = "[cloth] needs either 'shape' or 'mesh'";
-  CHECK(cloth(row + "1\n", 1000).mesh.triangles.size() == 2);
-  CHECK_NOTHROW(cloth(sheet + "seed = 0\n"));
-  check_refused([](const std::string& keys) { return cloth(keys, 1000); },
-                {{row + "0\n", "some.toml:6: 'columns' must lie in 1 .. 1,000,000"},
-                 {row + "1000001\n", "'columns' must lie in 1 .. 1,000,000"},
-                 {row + "1000000\n", "'columns' asks for 3e+06 triangles; 1000 at most are made"},
-                 {sheet + "seed = -1\n", "some.toml:7: 'seed' must lie in 0 .. 4294967295"},
-                 {sheet + "seed = 4294967296\n", "'seed' must lie in 0 .. 4294967295"},
-                 {"shape = \"disc\"\nradius = -1\nrings = 3\n", "some.toml:2: "},
-                 {statue + "subdivisions = 1\n", "some.toml:2: make_statue: "},
-                 {sheet + "pleats = { columns = 2, angle = 180 }\n", "some.toml:7: "},
-                 {sheet + "copies = { count = 2 }\n", "[cloth.copies] needs the key 'move'"},
-                 {"", "some.toml:1: " + either},
-                 {"shape = \"disc\"\nmesh = \"a.obj\"\n", "some.toml:3: " + either}});
-  CHECK_THROWS_WITH(mesh_file(*parse_keys("mesh = \"\"\n", "some.toml"), "", "object"),
-                    Contains("--set object.mesh=FILE.obj"));
-}
 
 TEST_CASE("each shape is refused where it has more triangles than the limit", "[scene]") {
   check_limit("shape = \"sheet\"\nwidth = 1\nheight = 1\ncolumns = 5\nrows = 3\n", 45, "columns");

@@ -107,15 +107,6 @@ TEST_CASE("a field that is not a number somewhere has no error to trust", "[scen
       field_error(box_distance(), GridSolid{std::make_shared<const Grid>(broken)}, 0.1)));
 }
 
-TEST_CASE("the bytes of a field are those of its nodes, or of its tree", "[scene]") {
-  const GridSolid grid = coarse_grid();
-  CHECK(field_bytes(grid) == 8.0 * double(grid.grid->lattice.size()));
-  const OctreeSolid octree = coarse_octree();
-  CHECK(field_bytes(octree) == double(bytes(*octree.tree)));
-  CHECK(field_bytes(Sphere{1}) == 0);
-  CHECK(largest_field == 536870912);
-}
-
 TEST_CASE("cells grow by the excess of the error, until a finer field is too large", "[scene]") {
   const MeshDistance box = box_distance();
   // a box a tenth of a millimetre larger: its error hardly depends on the cells
@@ -139,16 +130,4 @@ TEST_CASE("cells grow by the excess of the error, until a finer field is too lar
   CHECK_THROWS_WITH(field_of_accuracy(box, 2.5, 1e-9, make, 1),
                     Contains("an error of 1e-09 m cannot be had; 16 cells have one of ") &&
                         Contains(" m, and 32 would take more than 0 MB"));
-}
-
-TEST_CASE("an octree for an accuracy has half of it as tolerance", "[scene]") {
-  const MeshDistance box = box_distance();
-  Body body = RigidObject{};
-  const FieldRecipe recipe{OctreeRecipe{box.x, box.triangles, {}}, "w", 0.25};
-  make_field(recipe, computing_provider(), body);
-  const OctreeSettings settings =
-      std::get<OctreeSolid>(std::get<RigidObject>(body).solid).tree->settings;
-  CHECK(settings.tolerance == 0.125);
-  CHECK(settings.width == Approx(octree_about(bounds_of(box.x), 2.5 / 16, 1).width).epsilon(1e-14));
-  CHECK_THAT(accuracy_report(recipe, body), Contains("16 cells, error "));
 }

@@ -99,6 +99,15 @@ TEST_CASE("an unused key is refused with the known ones, below tables and in lis
   CHECK_THROWS_WITH(lists->reject_unused(), "some.toml:1: unknown key 'n' in [k]; known here: ");
 }
 
+TEST_CASE("an empty text, and a mark of its encoding alone, have no keys") {
+  for (const std::string nothing : {"", "\xEF\xBB\xBF"}) CHECK(parsed(nothing)->entries.empty());
+}
+
+TEST_CASE("quotes begin a text after a sign or a blank, not inside a word") {
+  CHECK(parsed("a=\"\xC3\xA9\"\n")->text("a") == "\xC3\xA9");
+  CHECK_THROWS_WITH(parsed("a = b\"\xC3\xA9\"\n"), Contains("outside ASCII"));
+}
+
 TEST_CASE("32 lists and tables in each other are read, 33 are refused", "[scene]") {
   // each list with a table in it is two
   std::string key = "a", mixed = "1";

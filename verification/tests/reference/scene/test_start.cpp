@@ -45,35 +45,6 @@ TEST_CASE("a fold of two layers ends above its begin, along x and up y by defaul
   CHECK(plain.x.row(1).maxCoeff() - plain.x.row(1).minCoeff() == Approx(0.05).epsilon(1e-12));
 }
 
-TEST_CASE("a fold has 2 to 1000 layers, longer than the gap, square to the flat cloth", "[scene]") {
-  const auto folded = [](const std::string& keys) { return strip(keys); };
-  const std::string up = ", up = [0, 0, 1]", fold = "layers = 2, gap = 0.05" + up;
-  // two layers: (2 - pi gap/2)/2 > gap
-  const double most = 2 / (2 + pi / 2);
-  for (const std::string& good :
-       {"layers = 2, gap = 0.001" + up, "layers = 1000, gap = 1e-6" + up,
-        "layers = 2, gap = " + std::to_string(most - 2e-6) + up, fold + ", along = [1, 0, 5e-10]"})
-    CHECK_NOTHROW(folded(good));
-  const std::string square = "some.toml:10: 'up' must be square to 'along'";
-  check_refused(
-      folded, {{"layers = 1, gap = 0.001" + up, "some.toml:10: 'layers' must lie in 2 .. 1000"},
-               {"layers = 1001, gap = 1e-6" + up, "'layers' must lie in 2 .. 1000"},
-               {"layers = 2, gap = 0" + up, "'gap' must be > 0"},
-               {"layers = 2, gap = " + std::to_string(most + 2e-6) + up, "the cloth is too short"},
-               {fold + ", along = [1, 0, 1e-9]", square},
-               {fold + ", along = [1, 0, -2e-9]", square},
-               {"layers = 2, gap = 0.05, up = [0, 0, 0]", square},
-               {fold + ", along = [0, 0, 0]", square},
-               {"layers = 2, gap = 0.05", "some.toml:10: the cloth must lie flat"}});
-  // 0.4 m wide, tilted by less and more than a millionth of the length of 2 m
-  const auto tilted = [&](double factor) {
-    const double angle = factor * 2e-6 / 0.4 * 180 / pi;
-    return strip(fold, "turn = { axis = [1, 0, 0], angle = " + std::to_string(angle) + " }\n");
-  };
-  CHECK_NOTHROW(tilted(0.9));
-  CHECK_THROWS_WITH(tilted(1.1), Catch::Contains("some.toml:11: the cloth must lie flat"));
-}
-
 TEST_CASE("a cloth is refined 0 to 8 times", "[scene]") {
   const auto refined = [](const std::string& times, double most = 1e7) {
     return scene_of_cloth("shape = \"hinge\"\nlength = 1\nangle = 40\nrefine = " + times + "\n",
