@@ -141,17 +141,6 @@ class Kills(FileTest):
         self.assertIn(f"{last}: this checkpoint is damaged and left out", said)
         self.assertIn(f"resumed from frame {int(last.stem) - 1},", said)
 
-    def test_a_checkpoint_of_something_else_is_refused_and_stays(self) -> None:
-        case, kept = self.stop_short()
-        before = {path.name: path.read_bytes() for path in kept.glob("*.h5")}
-        self.assert_refused(
-            self.simulate(case.file, "--set", "gravity.acceleration=[0,-9,0]", "--resume"),
-            "another case text", "--restart")
-        with h5py.File(kept / "000000.h5") as file:
-            self.assertIn("code ", file.attrs["program"])
-        self.assertEqual(before, {path.name: path.read_bytes() for path in kept.glob("*.h5")})
-        self.finish(case)
-
     def test_another_mesh_is_told_from_the_one_that_was_read(self) -> None:
         mesh = self.write("any.obj", TRIANGLES)
         case = self.write("own.toml", '[cloth]\nmesh = "any.obj"\ndensity = 0.1\n[gravity]\n'

@@ -227,8 +227,9 @@ class Judge(JudgeCase):
 
     def test_folders_that_are_not_all_trials_are_refused(self) -> None:
         (self.path / "empty").mkdir()
+        kept = str(trial_of(TOY))
         self.assertIn("only if `foldproof judge --out` wrote each of them", self.assert_rejected(
-            "report", str(trial_of(TOY)), str(self.path / "empty")))
+            "report", kept, kept, str(self.path / "empty")))
         shutil.copytree(trial_of(TOY), self.out)
         self.write("out/solver.json", "[]")
         self.assert_refused(run("report", self.out, self.out), "solver.json")
