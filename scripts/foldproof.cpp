@@ -9,17 +9,32 @@
 #include <memory>
 #include <new>
 
-#include "scripts/program/command_line/all_commands.h"
+#include "scripts/program/command_line/options_of_commands.h"
 #include "scripts/program/command_line/command_line.h"
-#include "scripts/program/commands.h"
 #include "scripts/program/data_folder.h"
-#include "scripts/program/command_line/help_texts.h"
-#include "scripts/program/command_line/typed_command.h"
+#include "scripts/program/command_line/typed_words.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
 
 namespace foldproof {
+
+void add_all_commands(CLI::App& app, Program& program);  // the build lists *_command.cpp
+
 namespace {
+
+constexpr const char* examples =
+    R"(Examples:
+  foldproof verify                                     the quick tier, and results/report.html
+  foldproof simulate hanging_sheet                     one case, into results/
+  foldproof check bending                              all checks of bending
+  foldproof list                                       what there is: checks, laws, cases, claims
+`foldproof COMMAND --help` explains a command, with examples.
+
+Exit codes:
+  0    everything holds
+  1    something fails
+  2    bad input, or a file that cannot be read or written
+  130  ended by Ctrl-C (143: by SIGTERM))";
 
 std::string command_line(int argc, char** argv) {
   std::string command = program_command();
@@ -28,36 +43,25 @@ std::string command_line(int argc, char** argv) {
 }
 
 int run(int argc, char** argv) {
-  Options options;
-  options.command = command_line(argc, argv);
-  options.words.assign(argv, argv + argc);
+  Program program{command_line(argc, argv), {argv, argv + argc}, nullptr};
   CLI::App app(
       "Verification suite and reference implementation for cloth simulation, after Bridson, "
       "Marino, Fedkiw (2003).");
-  app.footer(help::whole_program);
+  app.footer(examples);
   app.formatter(std::make_shared<PlainHelp>());
   app.require_subcommand(0, 1);  // a word that is none is named, rather than said to be missing
   app.set_version_flag("--version", [] {
     const Provenance p = provenance("");
     return fmt::format("foldproof {} ({}, {})", p.version, p.commit, p.tree);
   });
-  add_runs(app, options);
-  add_selections(app, options);
-  add_readers(app, options);
-  add_ablate(app, options);
-  add_converge(app, options);
-  add_precision(app, options);
-  add_project(app, options);
-  add_smooth(app, options);
-  add_judge(app, options);
-  add_campaign(app, options);
+  add_all_commands(app, program);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return end_parse(app, error);
   }
-  if (!options.run) return reject_missing_command(app);
-  return options.run(options);
+  if (!program.run) return reject_missing_command(app);
+  return program.run();
 }
 
 }  // namespace

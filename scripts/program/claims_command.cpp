@@ -5,15 +5,19 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "scripts/program/command_line/options_of_commands.h"
 #include "reference/mesh/text_file.h"
 #include "reference/types.h"
-#include "scripts/program/commands.h"
 #include "scripts/program/data_folder.h"
 #include "scripts/program/json_text.h"
 
 namespace foldproof {
 
 namespace {
+
+struct ClaimsOptions : Options {
+  std::string paper;  // its key, or empty for all
+};
 
 using nlohmann::json;
 
@@ -135,9 +139,7 @@ void print_whole(const json& claim, const json& findings) {
     print_decider(decider, findings);
 }
 
-}  // namespace
-
-int show_claims(const Options& options) {
+int show_claims(const ClaimsOptions& options) {
   const json findings = findings_of(options.out);
   const json claims =
       chosen_of(of_paper(claims_in(findings, options.out), options.paper), options.names);
@@ -158,6 +160,30 @@ int show_claims(const Options& options) {
       print_whole(claim, findings);
   }
   return all_hold;
+}
+
+constexpr const char* below =
+    R"(Examples:
+  foldproof claims B10                                 one claim: its ruling, and the findings
+  foldproof claims --paper BFA02                       the claims of one paper
+
+Exit codes:
+  0    shown; the rulings do not matter
+  2    bad input; there is no finished run, or no such claim)";
+
+}  // namespace
+
+void add_claims_command(CLI::App& app, Program& program) {
+  auto [claims, options] = add_command(
+      app, program, {"claims", "Show the rulings of a finished run on the papers' claims", below},
+      show_claims);
+  claims->add_option(
+      "ID", options.names,
+      "One claim, such as T17: its ruling, the reason, and the findings that decide it");
+  claims->add_option("--paper", options.paper, "Only the claims of one paper, such as BFA02")
+      ->type_name("KEY");
+  add_folder(claims, options, "Folder of the finished run")->capture_default_str();
+  add_json(claims, options);
 }
 
 }  // namespace foldproof

@@ -4,8 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "scripts/program/command_line/options_of_commands.h"
 #include "reference/mesh/obj.h"
-#include "scripts/program/commands.h"
 #include "scripts/program/command_line/input_files.h"
 #include "scripts/program/json_text.h"
 #include "verification/oracles/exact_crossings.h"
@@ -70,8 +70,6 @@ nlohmann::json to_json(const std::vector<JudgedFrame>& all) {
   return frames;
 }
 
-}  // namespace
-
 int show_crossings(const Options& options) {
   std::vector<JudgedFrame> all;
   for (const std::string& file : options.names) judge_file(file, all);
@@ -82,6 +80,27 @@ int show_crossings(const Options& options) {
   for (const JudgedFrame& frame : all)
     if (!frame.pairs.empty()) return some_fail;
   return all_hold;
+}
+
+constexpr const char* below =
+    R"(Examples:
+  foldproof crossings results/fast.h5
+  foldproof crossings cases/skirt.obj cases/robe.obj
+
+Exit codes:
+  0    nothing crosses
+  1    in some frame an edge crosses a triangle
+  2    bad input)";
+
+}  // namespace
+
+void add_crossings_command(CLI::App& app, Program& program) {
+  auto [crossings, options] = add_command(
+      app, program,
+      {"crossings", "Does a cloth pass through itself in any frame? Decided exactly", below},
+      show_crossings);
+  add_input(crossings, "FILE", options.names, "Stored runs (.h5), or meshes (.obj), each a frame");
+  add_json(crossings, options);
 }
 
 }  // namespace foldproof

@@ -11,7 +11,6 @@
 #include "reference/mesh/obj.h"
 #include "reference/mesh/rigidity_map.h"
 #include "reference/scene/scene.h"
-#include "scripts/program/commands.h"
 #include "scripts/program/json_text.h"
 
 namespace foldproof {

@@ -3,9 +3,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "scripts/program/command_line/options_of_commands.h"
 #include "reference/bodies/mesh_inspection.h"
 #include "reference/mesh/obj.h"
-#include "scripts/program/commands.h"
 #include "scripts/program/command_line/input_files.h"
 #include "scripts/program/inspect_cloth.h"
 #include "scripts/program/json_text.h"
@@ -13,6 +13,11 @@
 namespace foldproof {
 
 namespace {
+
+struct InspectOptions : Options {
+  bool as_cloth = false;  // rather than as a body
+  int cells = 64;         // along the longest side
+};
 
 std::string point(const Vector3& p) {
   return fmt::format("({:.4g}, {:.4g}, {:.4g})", p.x(), p.y(), p.z());
@@ -53,9 +58,7 @@ nlohmann::json to_json(const std::string& file, const MeshInspection& found) {
           {"among_rays", found.among_rays}};
 }
 
-}  // namespace
-
-int inspect(const Options& options) {
+int inspect(const InspectOptions& options) {
   require_input(options.file, mesh_kind);
   if (options.as_cloth) return inspect_cloth(options);
   const MeshInspection found = inspect_mesh(read_obj_soup(options.file), options.cells);
@@ -64,6 +67,33 @@ int inspect(const Options& options) {
   else
     print(options.file, found);
   return found.rejection.empty() && found.against_sign == 0 ? all_hold : some_fail;
+}
+
+constexpr const char* below =
+    R"(Examples:
+  foldproof inspect cases/limb.obj --cells 100 --json
+  foldproof inspect cases/skirt.obj --cloth            its rigidity by direction, its elastic limit
+
+Exit codes:
+  0    the mesh is a solid, and ray casting agrees on what is inside; or a cloth was inspected
+  1    the mesh is not a solid, or ray casting disagrees
+  2    bad input)";
+
+}  // namespace
+
+void add_inspect_command(CLI::App& app, Program& program) {
+  auto [mesh, options] = add_command(
+      app, program,
+      {"inspect", "Is a mesh valid as a body? With --cloth: how stiff is it as a cloth?", below},
+      inspect);
+  add_input(mesh, "MESH.obj", options.file, "An OBJ file");
+  mesh->add_flag("--cloth", options.as_cloth,
+                 "As a cloth: rigidity by direction, elastic limit, thinnest triangles");
+  mesh->add_option("--cells", options.cells, "Grid cells along the longest side")
+      ->type_name("N")
+      ->check(whole_number(4, 1000))
+      ->capture_default_str();
+  add_json(mesh, options);
 }
 
 }  // namespace foldproof

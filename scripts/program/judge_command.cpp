@@ -7,13 +7,14 @@
 #include <optional>
 #include <string_view>
 
+#include "scripts/program/command_line/options_of_commands.h"
 #include "scripts/program/command_line/out_folder.h"
 #include "scripts/program/command_line/suggestions.h"
-#include "scripts/program/commands.h"
+#include "scripts/program/judge_frames.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
 #include "scripts/program/run_all.h"
-#include "scripts/program/solver_command.h"
+#include "scripts/program/typed_solver.h"
 #include "scripts/program/trial_output.h"
 #include "verification/files/baseline_file.h"
 #include "verification/subjects/served/reference_server.h"
@@ -198,8 +199,6 @@ RunRecord run_of(const Judgement& judgement, double seconds, const Options& opti
 constexpr const char* smoke_failed =
     "A smoke law fails: suspect the adapter before the engine. Try `foldproof subject --check`.\n";
 
-}  // namespace
-
 int judge_another_solver(const Options& options) {
   if (!options.frames.empty()) return judge_frames_of_a_case(options);
   if (options.solver.empty())
@@ -237,8 +236,137 @@ int check_subject(const Options& options) {
   return is_broken ? some_fail : all_hold;
 }
 
-int serve(const Options& options) {
+struct ServeOptions : Options {
+  std::string integrator = "C", precision = "f8";
+};
+
+int serve(const ServeOptions& options) {
   return serve_reference({options.integrator, options.precision == "f4"});
+}
+
+/// Frames instead of a solver.
+void add_judged_frames(CLI::App* judge, CLI::Option* solver, Options& options) {
+  CLI::Option* frames =
+      judge->add_option("--frames", options.frames,
+                        "Instead of a solver: folder of its OBJ or PLY files, one a frame");
+  frames->type_name("DIR")->check(some_text("a folder"))->excludes(solver);
+  CLI::Option* of = judge->add_option("--case", options.file,
+                                      std::string("The case of the frames. ") + case_words);
+  of->type_name("CASE")->check(some_text("a case"))->needs(frames);
+  for (CLI::Option* time : add_frame_times(judge, options)) time->needs(frames);
+  add_overrides(judge, options);
+  add_cache(judge, options);
+  for (const char* of_a_case : {"--set", "--cache"}) judge->get_option(of_a_case)->needs(frames);
+}
+
+constexpr const char* below_judge =
+    R"(Without an adapter: --frames judges files that any program wrote, as a motion of the case's cloth:
+crossings, depth in objects, strain, folds, energy, and what the case expects.
+
+CMD starts an adapter that speaks the protocol of verification/subjects/PROTOCOL.md, in a process of
+its own. Simple laws (smoke) come first: if one fails, suspect the adapter. If the solver crashes,
+hangs or answers nonsense, the current law fails and shows its last output; the next law then runs.
+If it cannot be started, hangs a third time, or --total-seconds are over, the laws that are left do
+not run. Name laws or groups to judge only those, such as: contact symmetry.mirror
+
+Examples:
+  foldproof judge --frames my_frames --case drape_sphere --rate 60 --out mine
+  foldproof judge --solver ./adapter --name mine --settings iterations=20 --out mine
+
+Exit codes:
+  0    every law holds, or does not apply; with --baseline: nothing got worse
+  1    a law fails, is inconclusive or did not run; with --baseline: something got worse
+  2    bad input)";
+
+constexpr const char* below_subject =
+    R"(Calls each operation of the declared level once, on a small sheet.
+
+Examples:
+  foldproof subject --check "/usr/bin/python3 verification/subjects/adapters/toy_solver.py"
+  (in a clone; needs the Debian package python3-numpy)
+
+Exit codes:
+  0    the adapter keeps to the protocol
+  1    the adapter breaks the protocol; the message names the first violation
+  2    bad input)";
+
+constexpr const char* below_serve =
+    R"(Started by `judge`, `subject` or another program that speaks verification/subjects/PROTOCOL.md: it
+reads from the descriptor FOLDPROOF_IN and writes to FOLDPROOF_OUT.
+
+Examples:
+  foldproof judge --solver "foldproof serve"
+  foldproof judge --solver "foldproof serve --integrator A --precision f4"
+
+Exit codes:
+  0    asked to stop
+  2    bad input, or no other program has started it)";
+
+void add_subject(CLI::App& app, Program& program) {
+  auto [subject, options] =
+      add_command(app, program,
+                  {"subject", "Test whether a solver's adapter keeps to the protocol of `judge`",
+                   below_subject},
+                  check_subject);
+  subject->add_option("--check", options.solver, "Command that starts the adapter")
+      ->type_name("CMD")
+      ->check(some_text("a command"))
+      ->required();
+  add_solver_options(subject, options);
+}
+
+void add_serve(CLI::App& app, Program& program) {
+  auto [served, options] =
+      add_command(app, program,
+                  {"serve", "Answer the protocol of `judge` as the reference: `judge` starts this",
+                   below_serve},
+                  serve);
+  served->add_option("--integrator", options.integrator, "One of `foldproof list integrators`")
+      ->type_name("NAME")
+      ->check(some_text("an integrator"))
+      ->capture_default_str();
+  served->add_option("--precision", options.precision, "Number format of its answers: f8 or f4")
+      ->type_name("TYPE")
+      ->check(one_of({"f8", "f4"}))
+      ->capture_default_str();
+}
+
+}  // namespace
+
+void add_judge_command(CLI::App& app, Program& program) {
+  auto [judge, options] = add_command(
+      app, program, {"judge", "Test another solver against the laws of cloth", below_judge},
+      judge_another_solver);
+  CLI::Option* solver =
+      judge->add_option("--solver", options.solver, "Command that starts the solver's adapter");
+  solver->type_name("CMD")->check(some_text("a command"));
+  judge
+      ->add_option("LAW", options.names,
+                   "Laws or groups to judge, as `foldproof list laws` shows them")
+      ->needs(solver);
+  add_judged_frames(judge, solver, options);
+  judge->add_option("--name", options.name, "Name in the report (default: the solver's own)")
+      ->type_name("NAME")
+      ->check(some_text("a name"));
+  judge
+      ->add_option("--baseline", options.baseline,
+                   "A kept verdicts.json of `judge`: fail only where the solver got worse since")
+      ->type_name("FILE")
+      ->check(some_text("a file"));
+  add_solver_options(judge, options);
+  judge->get_option("--settings")->needs("--solver");
+  judge
+      ->add_option("--total-seconds", options.total_seconds,
+                   "Longest time of all laws together [s] (default: no limit); laws that it does "
+                   "not reach did not run")
+      ->type_name("S")
+      ->check(positive_number())
+      ->needs(solver);
+  add_out_if_typed(judge, options,
+                   "Also write run.h5, verdicts.json, junit.xml and solver.json into this folder");
+  add_json(judge, options);
+  add_subject(app, program);
+  add_serve(app, program);
 }
 
 }  // namespace foldproof

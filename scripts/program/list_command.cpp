@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "scripts/program/command_line/options_of_commands.h"
 #include "convergence/studies.h"
 #include "reference/dynamics/integrator.h"
-#include "scripts/program/commands.h"
 #include "scripts/program/data_folder.h"
 #include "scripts/program/json_text.h"
 #include "scripts/program/ledger.h"
@@ -22,6 +22,10 @@
 namespace foldproof {
 
 namespace {
+
+struct ListOptions : Options {
+  std::string kind;  // of names; without it, counts
+};
 
 /// A name, and a sentence; empty if the name says enough.
 using Row = std::pair<std::string, std::string>;
@@ -110,9 +114,7 @@ nlohmann::json everything() {
   return json;
 }
 
-}  // namespace
-
-int list(const Options& options) {
+int list(const ListOptions& options) {
   if (options.json) {
     fmt::print("{}\n", json_text(everything()));
     return all_hold;
@@ -122,6 +124,27 @@ int list(const Options& options) {
   for (const Kind& kind : all)
     if (kind.name == options.kind) print_names(kind);
   return all_hold;
+}
+
+constexpr const char* below =
+    R"(Examples:
+  foldproof list cases                                 the names of the shipped cases
+  foldproof list --json                                everything, also the findings of cases
+
+Exit codes:
+  0    listed
+  2    bad input)";
+
+}  // namespace
+
+void add_list_command(CLI::App& app, Program& program) {
+  auto [names, options] = add_command(
+      app, program, {"list", "Show what there is: checks, studies, laws, cases, claims", below},
+      list);
+  names->add_option("KIND", options.kind, "The names of one kind; without it, how many there are")
+      ->check(CLI::IsMember(
+          {"checks", "studies", "laws", "frame-laws", "cases", "claims", "integrators"}));
+  add_json(names, options);
 }
 
 }  // namespace foldproof

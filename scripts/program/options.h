@@ -1,7 +1,7 @@
-// The command line options.
+// Options that several commands have; a struct derived from Options adds those of one command.
 #pragma once
 
-#include <limits>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -15,26 +15,11 @@ constexpr int all_hold = 0, some_fail = 1, bad_input = 2;  // exit codes
 struct Options {
   std::string command;             // as typed, for the record of a run
   std::vector<std::string> words;  // as typed, the program's name first
-  std::string out = "results", tier = "quick", file, rest_file;
+  std::string out = "results", tier = "quick", file;
   std::vector<std::string> names, overrides;
-  std::string log;                 // of history: file of JSON lines
-  std::string paper;               // of claims: key of a paper, or empty for all
-  bool as_cloth = false;           // of inspect: as a cloth, not as a body
-  std::string cache;               // folder that keeps level sets; none if empty
-  std::string map, rule = "loop";  // of project: a depth map, a rule of subdivision
-  double reach = 0, eps = 0;       // of project [m]
-  // of project [m]; NaN: the deepest in the run
-  double deepest = std::numeric_limits<double>::quiet_NaN();
-  std::string kind;                 // of list; of evaluate crossings: of pair; of export: of file
-  std::string field, size, fps;     // of film: as its script takes them
-  double keep = 1e-6;               // of evaluate crossings [m]
-  int count = 10;                   // of golden: rows
-  unsigned seed = 1;                // of golden
+  std::string cache;                // folder that keeps level sets; none if empty
   unsigned seed_shift = 0;          // of check, study and verify (verification/seeds.h)
   JobSettings running;              // of check, study and verify; threads: of simulate, too
-  int cells = 64;                   // of inspect: along the longest side
-  int subdivisions = 0;             // of project
-  int smooth_levels = 1;            // of smooth
   int levels = 4;                   // of converge: runs
   int mesh_levels = 2;              // of ablate: meshes
   double hours = 0;                 // of converge: of the clock, for all runs; 0: no limit
@@ -50,16 +35,20 @@ struct Options {
   std::vector<std::string> errors = {"1e-2", "1e-3"};  // of precision: wanted, as typed [1]
   double effort = 1;         // of precision: largest work of a run over the usual budget [1]
   std::string solver, name;  // of judge, subject, converge: command; of judge: name in the report
-  std::vector<std::string> settings;               // of a solver, KEY=VALUE
-  std::string baseline;                            // of judge: a kept verdicts.json, or empty
-  double patience = 60;                            // of judge, subject: limit of silence [s]
-  double total_seconds = 0;                        // of judge: of the clock; 0: no limit
-  std::string integrator = "C", precision = "f8";  // of serve
+  std::vector<std::string> settings;  // of a solver, KEY=VALUE
+  std::string baseline;               // of judge: a kept verdicts.json, or empty
+  double patience = 60;               // of judge, subject: limit of silence [s]
+  double total_seconds = 0;           // of judge: of the clock; 0: no limit
   std::string engine = "local", engine_options, scratch;  // of campaign
   int slice = 0;  // of campaign: jobs a slice, 0: as the engine likes; of work: number of the slice
-  bool json = false, quick = false, no_report = false, no_bench = false, resumes = false,
-       restarts = false, pdf = false, papers = false, summary = false, one_file = false;
-  int (*run)(const Options&) = nullptr;  // the command; returns the exit code
+  bool json = false, resumes = false, restarts = false;
+};
+
+/// The words that were typed, and what they ask for.
+struct Program {
+  std::string command;             // for the record of a run
+  std::vector<std::string> words;  // the program's name first
+  std::function<int()> run;        // the command; returns the exit code
 };
 
 inline Tier tier_of(const Options& options) {

@@ -9,12 +9,12 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "scripts/program/command_line/options_of_commands.h"
 #include "convergence/contact/section_profile.h"
 #include "convergence/contact/wrinkle_measure.h"
 #include "reference/bodies/level_set_provider.h"
 #include "reference/mesh/subdivision.h"
 #include "reference/post/fold_projection.h"
-#include "scripts/program/commands.h"
 #include "scripts/program/command_line/input_files.h"
 #include "scripts/program/json_text.h"
 #include "scripts/program/command_line/out_folder.h"
@@ -28,6 +28,13 @@
 namespace foldproof {
 
 namespace {
+
+struct ProjectOptions : Options {
+  std::string map, rule = "loop";                             // a depth map, a rule of subdivision
+  double reach = 0, eps = 0;                                  // m
+  double deepest = std::numeric_limits<double>::quiet_NaN();  // m; NaN: the deepest in the run
+  int subdivisions = 0;
+};
 
 constexpr int samples_along = 256;  // of a section
 
@@ -44,7 +51,7 @@ struct Source {
   }
 };
 
-Source source_of(const Options& options) {
+Source source_of(const ProjectOptions& options) {
   Source source;
   source.run = read_stored_run(options.file);
   const Scene& scene = source.run.scene;
@@ -76,7 +83,7 @@ double deepest_in(const Source& source) {
   return deepest;
 }
 
-FoldProjection projection_of(const Options& options, const Source& source) {
+FoldProjection projection_of(const ProjectOptions& options, const Source& source) {
   const double deepest = std::isnan(options.deepest) ? deepest_in(source) : options.deepest;
   return {options.map,
           {options.eps, options.reach, deepest},
@@ -143,7 +150,7 @@ double deepest_face(const Source& source, const State& s) {
   return value_at(*find_quantity("faces_outside"), source.scene, source.objects, s);
 }
 
-Report project_all(const Source& source, const Options& options) {
+Report project_all(const Source& source, const ProjectOptions& options) {
   Report report;
   report.projection = projection_of(options, source);
   check_band(report.projection.band);  // before a file is begun
@@ -214,9 +221,7 @@ nlohmann::json to_json(const Report& report, const std::string& folder) {
   return json;
 }
 
-}  // namespace
-
-int project_run(const Options& options) {
+int project_run(const ProjectOptions& options) {
   require_input(options.file, run_kind);
   const OutFolder folder(options.out);
   const Report report = project_all(source_of(options), options);
@@ -225,6 +230,56 @@ int project_run(const Options& options) {
   else
     print(report, options.out);
   return report.unfinished == 0 ? all_hold : some_fail;
+}
+
+constexpr const char* below =
+    R"(Prints how many points moved. For the last frame it also prints how much of the wrinkles is left
+before projection, after plain projection, and after the map: the standard deviation of the depths
+of points that were inside, and the peak of the spectrum of depth along a section of the cloth.
+Points between two objects are left alone. Points end at most tau/10^6 farther out than the map
+says.
+
+Examples:
+  foldproof project results/half_inside.h5 --map blend --tau 0.01
+
+Exit codes:
+  0    all points are out
+  1    some points have too little clearance between objects
+  2    bad input, or a file that cannot be written)";
+
+}  // namespace
+
+void add_project_command(CLI::App& app, Program& program) {
+  auto [project, options] = add_command(
+      app, program,
+      {"project", "Move the cloth of a stored run out of its objects; writes NAME_projected.h5",
+       below},
+      project_run);
+  add_input(project, "RUN.h5", options.file, "Run stored by `foldproof simulate`");
+  project->add_option("--map", options.map, "Map of depth: plain, power or blend")
+      ->type_name("MAP")
+      ->check(one_of({"plain", "power", "blend"}))
+      ->required();
+  add_length(project, "--tau", options.reach, "Move also points outside, up to this distance [m]")
+      ->required();
+  add_length(project, "--eps", options.eps,
+             "Final distance of the deepest points outside the object [m]")
+      ->capture_default_str();
+  add_length(project, "--deepest", options.deepest,
+             "Depths [m] beyond this are treated alike (default: the deepest in the run)");
+  project
+      ->add_option("--subdivide", options.subdivisions,
+                   "Levels of subdivision before the projection, 0 to 8")
+      ->type_name("N")
+      ->check(whole_number(0, 8))
+      ->capture_default_str();
+  project->add_option("--rule", options.rule, "Rule of subdivision: loop or midpoint")
+      ->type_name("RULE")
+      ->check(one_of({"loop", "midpoint"}))
+      ->capture_default_str();
+  add_cache(project, options);
+  add_folder(project, options, "Folder for the projected run")->capture_default_str();
+  add_json(project, options);
 }
 
 }  // namespace foldproof

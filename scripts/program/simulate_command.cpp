@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "scripts/program/command_line/options_of_commands.h"
 #include "reference/scene/field_recipe.h"
-#include "scripts/program/commands.h"
 #include "scripts/program/command_line/input_files.h"
 #include "scripts/program/interruption.h"
 #include "scripts/program/json_text.h"
@@ -14,7 +14,7 @@
 #include "scripts/program/provenance.h"
 #include "scripts/program/run_all.h"
 #include "scripts/program/run_case.h"
-#include "scripts/program/command_line/typed_command.h"
+#include "scripts/program/command_line/typed_words.h"
 #include "scripts/program/listing.h"
 
 namespace foldproof {
@@ -128,8 +128,6 @@ CaseRun run_of(const BuiltCase& of, const Options& options) {
                                    });
 }
 
-}  // namespace
-
 int simulate_case(const Options& options) {
   Case input_case = read_case(case_file(options.file), options.overrides);
   const bool may_delete = options.resumes || options.restarts;
@@ -151,6 +149,42 @@ int simulate_case(const Options& options) {
     say_how_to_resume(scene, options);
     end_by(interrupted);
   }
+}
+
+constexpr const char* below =
+    R"(A checkpoint is written at every frame and removed at the end. An interrupted run prints how to
+resume it. The same command without --resume or --restart then stops, and deletes nothing.
+
+Examples:
+  foldproof simulate hanging_sheet --set bending.stiffness=1e-3 --out mine
+  foldproof simulate any_mesh --set cloth.mesh=cases/skirt.obj --out mine
+
+Exit codes:
+  0    the run reached its end time, and every expectation of the case holds
+  1    an expectation fails, or the run stopped early and prints why
+  2    bad input, checkpoints of an interrupted run, or a file that cannot be written
+  130  interrupted by Ctrl-C (143: by SIGTERM))";
+
+}  // namespace
+
+void add_simulate_command(CLI::App& app, Program& program) {
+  auto [simulate, options] = add_command(
+      app, program, {"simulate", "Simulate a case; writes NAME.h5 and NAME.xdmf", below},
+      simulate_case);
+  add_input(simulate, "CASE", options.file, case_words);
+  add_overrides(simulate, options);
+  CLI::Option* resume = add_switch(
+      simulate, "--resume", options.resumes,
+      "Resume from the last checkpoint of an interrupted run; the results are the same to the bit");
+  add_switch(simulate, "--restart", options.restarts,
+             "Start over; deletes checkpoints of an interrupted run")
+      ->excludes(resume);
+  add_threads(simulate, options,
+              "Threads of the run; the results are the same to the bit (default: one a core, fewer "
+              "in small scenes)");
+  add_cache(simulate, options);
+  add_folder(simulate, options, "Folder for results")->capture_default_str();
+  add_json(simulate, options);
 }
 
 }  // namespace foldproof

@@ -6,11 +6,11 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "scripts/program/command_line/options_of_commands.h"
 #include "reference/bodies/level_set_provider.h"
 #include "reference/post/smooth_cloth.h"
 #include "scripts/program/command_line/input_files.h"
 #include "scripts/program/command_line/out_folder.h"
-#include "scripts/program/commands.h"
 #include "scripts/program/json_text.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
@@ -22,6 +22,10 @@
 namespace foldproof {
 
 namespace {
+
+struct SmoothOptions : Options {
+  int levels = 1;  // of subdivision
+};
 
 /// Pairs of an edge and a triangle that cross in one frame.
 struct SmoothedFrame {
@@ -48,11 +52,11 @@ SmoothedFrame smooth_frame(const ClothSmoother& smoother, const std::vector<Tria
   return frame;
 }
 
-SmoothedRun smooth_all(const Options& options) {
+SmoothedRun smooth_all(const SmoothOptions& options) {
   const StoredRun run = read_stored_run(options.file);
   const std::vector<Object> objects =
       build_objects(run.scene, provider_for(options.cache, threads_of(options.running)));
-  const ClothSmoother smoother(run.scene.mesh, options.smooth_levels);
+  const ClothSmoother smoother(run.scene.mesh, options.levels);
   Scene scene = run.scene;
   scene.mesh = make_triangle_mesh(smoother.flat.of(scene.mesh.rest), smoother.smooth.triangles);
   scene.name += "_smooth";
@@ -94,9 +98,7 @@ nlohmann::json to_json(const SmoothedRun& run, const std::string& folder) {
   return json;
 }
 
-}  // namespace
-
-int smooth_run(const Options& options) {
+int smooth_run(const SmoothOptions& options) {
   require_input(options.file, run_kind);
   const OutFolder folder(options.out);
   const SmoothedRun run = smooth_all(options);
@@ -107,6 +109,38 @@ int smooth_run(const Options& options) {
   const bool crosses =
       std::ranges::any_of(run.frames, [](const SmoothedFrame& frame) { return frame.left > 0; });
   return crosses ? some_fail : all_hold;
+}
+
+constexpr const char* below =
+    R"(Subdivides the cloth of every frame by Loop's rule, each triangle into four a level. Where the
+smooth surface would cross itself, points stop on the way there from the cloth's own triangles.
+Prints, for each frame, how many pairs of an edge and a triangle cross in the run, on Loop's surface
+and on the smooth one (decided exactly), and how far points came on average. A cloth that crosses
+itself stays crossed.
+
+Examples:
+  foldproof smooth results/grab.h5 --levels 2
+
+Exit codes:
+  0    no frame crosses itself
+  1    a frame of the smooth surface crosses itself, as the run's does
+  2    bad input, or a file that cannot be written)";
+
+}  // namespace
+
+void add_smooth_command(CLI::App& app, Program& program) {
+  auto [smooth, options] = add_command(
+      app, program,
+      {"smooth", "Give the cloth of a stored run a smooth surface; writes NAME_smooth.h5", below},
+      smooth_run);
+  add_input(smooth, "RUN.h5", options.file, "Run stored by `foldproof simulate`");
+  smooth->add_option("--levels", options.levels, "Levels of subdivision, 1 to 4")
+      ->type_name("N")
+      ->check(whole_number(1, 4))
+      ->capture_default_str();
+  add_cache(smooth, options);
+  add_folder(smooth, options, "Folder for the smooth run")->capture_default_str();
+  add_json(smooth, options);
 }
 
 }  // namespace foldproof

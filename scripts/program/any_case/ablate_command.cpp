@@ -10,17 +10,17 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "scripts/program/command_line/options_of_commands.h"
 #include "convergence/any_case/ablation.h"
 #include "convergence/any_case/coarser_mesh.h"
 #include "convergence/any_case/distances.h"
 #include "convergence/any_case/own_error.h"
 #include "reference/bodies/level_set_provider.h"
-#include "scripts/program/commands.h"
 #include "scripts/program/command_line/input_files.h"
 #include "scripts/program/interruption.h"
 #include "scripts/program/json_text.h"
 #include "scripts/program/command_line/out_folder.h"
-#include "scripts/program/command_line/typed_command.h"
+#include "scripts/program/command_line/typed_words.h"
 #include "scripts/program/program_json.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
@@ -336,6 +336,60 @@ int ablate(const Options& options) {
   for (const Ablation& one : all)
     if (!options.json && one.runs_left == 0) print(one);
   return is_minimal ? all_hold : some_fail;
+}
+
+namespace {
+
+constexpr const char* below =
+    R"(First finds the scene's own error, as converge does: that of its steps, from steps halved twice,
+and that of its mesh, from edges halved once (--mesh-levels 3: twice, in ten times the time). With
+two meshes, the error bar is three times their difference. OUT/store keeps these runs; those that
+converge left there are not repeated. Then ablate removes one part at a time, and adds, one at a
+time, the missing parts that need no parameters: self-collision, strain limits, points between
+particles. A part is needed, or missing, if one of these happens without it:
+- particles move by more than the scene's own error, error bar included;
+- the run does not reach its end, or an expectation of the case fails or loses its meaning;
+- the cloth crosses itself, or lies deeper in an object by more than the scene's own error.
+Where a change exceeds the error, but not the error with its bar, ablate says "cannot tell". The
+table [ablation] of a case file can justify a part that is not needed, or the lack of one that is.
+It can name a coarser mesh where a finer one would take hours, and limit ablate to the beginning of
+a run.
+
+Examples:
+  foldproof ablate hinge
+  foldproof ablate grab --set time.end=0.2 --out mine
+
+Exit codes:
+  0    every part is needed, none is missing
+  1    a part (marked !) is not needed, or is missing, and the case gives no reason; or it gives one
+       that is not called for; or the unchanged scene stops early, or fails an expectation
+  2    bad input, or a file that cannot be written)";
+
+}  // namespace
+
+void add_ablate_command(CLI::App& app, Program& program) {
+  auto [command, options] = add_command(
+      app, program,
+      {"ablate",
+       "Which of its parts does a case need, and which does it lack? Adds to ablation.json", below},
+      ablate);
+  command
+      ->add_option("CASE", options.names,
+                   "Case files, or names of shipped cases (default: all of the tier)")
+      ->check(some_text("a case file"));
+  command
+      ->add_option("--mesh-levels", options.mesh_levels,
+                   "Meshes that measure the mesh's error, 2 to 5; each takes about ten times as "
+                   "long as the one before")
+      ->type_name("N")
+      ->check(whole_number(2, 5))
+      ->capture_default_str();
+  add_tier(command, options);
+  add_overrides(command, options);
+  add_threads(command, options);
+  add_cache(command, options);
+  add_folder(command, options, "Folder for ablation.json")->capture_default_str();
+  add_json(command, options);
 }
 
 }  // namespace foldproof

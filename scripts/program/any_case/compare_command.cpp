@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "scripts/program/command_line/options_of_commands.h"
 #include "scripts/program/command_line/input_files.h"
 #include "scripts/program/command_line/out_folder.h"
-#include "scripts/program/commands.h"
 #include "scripts/program/frame_files.h"
 #include "scripts/program/json_text.h"
 #include "scripts/program/provenance.h"
@@ -159,6 +159,39 @@ int compare_frames(const Options& options) {
   else
     print(comparison);
   return all_hold;
+}
+
+namespace {
+
+constexpr const char* below =
+    R"(Frames that have the run's vertices and triangles are compared vertex by vertex, other meshes by
+the nearest points of both surfaces. Prints for each frame: distances, energies of stretching and
+bending computed with the run's forces, the distribution of fold angles, self-crossing pairs, and
+the depth in the run's objects. Between two frames of the run, its cloth is interpolated from
+positions and velocities.
+
+Examples:
+  foldproof compare results/grab.h5 captured --rate 60 --start 0.5
+  foldproof compare results/grab.h5 frames --out mine && foldproof report mine
+
+Exit codes:
+  0    compared; the distance does not matter
+  2    bad input; a frame cannot be read, or none lies in the run's time)";
+
+}  // namespace
+
+void add_compare_command(CLI::App& app, Program& program) {
+  auto [compare, options] = add_command(
+      app, program,
+      {"compare", "How far are frames of another program, or a captured cloth, from a stored run?",
+       below},
+      compare_frames);
+  add_input(compare, "RUN.h5", options.file, "Run stored by `foldproof simulate`");
+  add_input(compare, "FRAMES", options.frames, "Folder of OBJ or PLY files, one a frame [m]");
+  add_frame_times(compare, options);
+  add_cache(compare, options);
+  add_out_if_typed(compare, options, "Also write run.h5 into this folder, for `foldproof report`");
+  add_json(compare, options);
 }
 
 }  // namespace foldproof

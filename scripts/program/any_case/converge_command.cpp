@@ -6,14 +6,14 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "scripts/program/command_line/options_of_commands.h"
 #include "convergence/any_case/converge.h"
 #include "convergence/any_case/error_map.h"
 #include "convergence/any_case/ladder_study.h"
 #include "convergence/any_case/space_ladder.h"
 #include "scripts/program/command_line/input_files.h"
 #include "scripts/program/command_line/out_folder.h"
-#include "scripts/program/command_line/typed_command.h"
-#include "scripts/program/commands.h"
+#include "scripts/program/command_line/typed_words.h"
 #include "scripts/program/any_case/converge_file.h"
 #include "scripts/program/any_case/converge_report.h"
 #include "scripts/program/interruption.h"
@@ -24,7 +24,7 @@
 #include "scripts/program/program_json.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/run_case.h"
-#include "scripts/program/solver_command.h"
+#include "scripts/program/typed_solver.h"
 #include "verification/files/atomic_file.h"
 
 namespace foldproof {
@@ -205,6 +205,122 @@ int converge(const Options& options) {
   }
   write_studies(options.out + "/converge.h5", std::move(studies), options.command);
   return report(all, options);
+}
+
+namespace {
+
+/// Options of the ladder: its direction, levels, methods and limits.
+void add_ladder(CLI::App* converge, Options& options) {
+  converge
+      ->add_option("--in", options.in,
+                   "Refine time (the steps), space (the mesh), or both, one after the other")
+      ->type_name("WHAT")
+      ->check(one_of({"time", "space", "both"}))
+      ->capture_default_str();
+  converge
+      ->add_option("--levels", options.levels,
+                   "Runs, 3 to 12, each with half the steps, or edges half as long")
+      ->type_name("N")
+      ->check(whole_number(3, 12))
+      ->capture_default_str();
+  add_method(converge, options, "case's own");
+  converge->add_flag("--refine-objects", options.refines_objects,
+                     "In space: also refine the level sets of objects, by the same factor");
+  converge
+      ->add_option("--until", options.until,
+                   "Use only the beginning of the run, up to this time [s]")
+      ->type_name("TIME")
+      ->check(positive_number());
+  converge
+      ->add_option("--hours", options.hours,
+                   "Refuse levels that would make the whole call take longer than this [h]")
+      ->type_name("H")
+      ->check(positive_number());
+}
+
+/// Options of the disturbed runs.
+void add_twins(CLI::App* converge, Options& options) {
+  converge
+      ->add_option(
+          "--fraction", options.fraction,
+          "Positions count as unpredictable once disturbed runs differ by this share of the motion")
+      ->type_name("SHARE")
+      ->check(share())
+      ->capture_default_str();
+  converge
+      ->add_option("--ensemble", options.ensemble,
+                   "Runs with disturbed starts, whose statistics are compared once positions are "
+                   "not predictable; below 2: none")
+      ->type_name("N")
+      ->check(whole_number(0, 1000))
+      ->capture_default_str();
+}
+
+constexpr const char* below =
+    R"(Runs the case as it is, then refined level by level. Prints for each quantity the order at which
+differences between levels fall, Richardson's limit, and the grid convergence index as error bar
+(safety factor 1.25 where the order has settled at the method's, else 3). Quantities are those of
+the case's [[quantity]] tables; without any: positions, energies, heights, quantities in [expect].
+
+--in time    halves every step at each level.
+--in space   halves every edge at each level: shapes by their counts, such as columns and rows;
+             other meshes are split at the middles of edges. Positions are compared at the case's
+             own particles. In [[hold]], a box holds a region, a list of particles holds points.
+             All meshes take the steps that the finest one needs; one more run, with half the
+             step, measures their error.
+--in both    does both, and maps the error over step and mesh: names the cheapest pair for each of
+             --errors, forecasts its cost, and says what half the error costs.
+
+Two more runs start disturbed: by 1e-12 of the cloth's extent, and by the size of the step's error.
+When they differ from the undisturbed run by --fraction of its motion, positions are no longer
+predictable. Orders and error bars use only the time before that. For the time after it, --ensemble
+disturbed runs give means over time of height, energies, contacts and fold angles, and their spread.
+
+--solver CMD also runs another solver (verification/subjects/PROTOCOL.md), with equal steps from
+frame to frame that are halved in the same way. Says how far its finest run is from the reference's,
+and whether both error bars explain that. A case can have what the protocol can say: particles held
+still, self-collision, and planes, boxes, spheres and capsules at rest. The solver's runs are not
+kept.
+
+The folder keeps every run: an interrupted call resumes; a second call runs only what is missing.
+The two coarsest levels run alone first and show what the others will cost. A level that exceeds the
+memory or --hours is refused; the other levels still give a result. Seconds are processor time of a
+run's own thread. DIR/converge.h5 is for `foldproof report DIR`.
+
+Examples:
+  foldproof converge hanging_sheet --solver ./adapter --settings iterations=20
+  foldproof converge hanging_sheet --in space --set cloth.columns=6 --set cloth.rows=6 --until 0.3
+
+Exit codes:
+  0    the positions have an order, or at least an error bar
+  1    the order of the positions is inconclusive
+  2    bad input, or a file that cannot be written)";
+
+}  // namespace
+
+void add_converge_command(CLI::App& app, Program& program) {
+  auto [command, options] = add_command(
+      app, program,
+      {"converge",
+       "How large are the errors of a case's step and mesh? Orders, limits and error bars", below},
+      converge);
+  add_input(command, "CASE", options.file, case_words);
+  add_ladder(command, options);
+  add_twins(command, options);
+  add_errors(command, options,
+             "In both: errors to find the cheapest step and mesh for, as shares of the motion "
+             "(default: 1e-2,1e-3)");
+  add_overrides(command, options);
+  add_other_solver(command, options,
+                   "Also halve the steps of another solver, started by this command")
+      ->excludes("--in")
+      ->excludes("--refine-objects");
+  add_folder(command, options,
+             "Folder whose store/ keeps every run; a second call runs only missing ones")
+      ->capture_default_str();
+  add_cache(command, options);
+  add_threads(command, options);
+  add_json(command, options);
 }
 
 }  // namespace foldproof

@@ -8,12 +8,12 @@
 #include <optional>
 #include <utility>
 
+#include "scripts/program/command_line/options_of_commands.h"
 #include "convergence/any_case/precision_report.h"
 #include "scripts/program/any_case/precision_of_solver.h"
 #include "scripts/program/command_line/input_files.h"
 #include "scripts/program/command_line/out_folder.h"
-#include "scripts/program/command_line/typed_command.h"
-#include "scripts/program/commands.h"
+#include "scripts/program/command_line/typed_words.h"
 #include "scripts/program/interruption.h"
 #include "scripts/program/json_text.h"
 #include "scripts/program/program_json.h"
@@ -312,6 +312,75 @@ int precision(const Options& options) {
     if (solver) print(*solver, answer, end_of_case(options));
   }
   return is_answered(answer) && (!solver || solver->precision.is_answered()) ? all_hold : some_fail;
+}
+
+namespace {
+
+constexpr const char* below =
+    R"(Runs the case with every integrator, at constant steps that are halved from run to run. Prints for
+each wanted error the cheapest method and its step, and the price of each other method as a multiple
+of the cheapest. A price counts applications of force operators.
+
+error   distance from the truth, divided by the motion. The distance is the root mean square over
+        the free particles, weighted by mass, in the worst frame; the motion is the largest such
+        distance from the start.
+truth   two methods of different families, each extrapolated where its order has settled. An error
+        less than ten times their distance gets no price.
+price   interpolated between the two runs that bracket the error. Methods are tied if their prices
+        are closer than the steps tried. The steps of the cheapest methods must also last: in a run
+        at least three times as long, and at least to the end of the case (--until shortens it),
+        the kinetic energy is at most twice that with half the step. If such a run costs more than
+        20 times the budget, the answer is the automatic step.
+
+--solver CMD also finds step and price of another solver (verification/subjects/PROTOCOL.md).
+Its steps are equal from frame to frame, and halved until the error bar of the finest run is a tenth
+of the least wanted error, or a run would take 10 s (times --effort) by the clock. Longer steps are
+tried, up to a frame, until they miss the largest wanted error or are unstable; if a whole frame
+reaches an error, its step is a lower bound, printed as >=. The error is the distance from the
+finest run, and that run's error bar, over the reference's motion. Says how far the solver's limit
+is from the reference's truth, and whether steps explain it. Its runs are not kept.
+
+Examples:
+  foldproof precision hanging_sheet --until 0.2 --solver ./adapter --settings iterations=20
+  foldproof precision hanging_sheet --method A,C,RK4 --errors 1e-2 --out mine
+
+Exit codes:
+  0    every wanted error is reached by some method, and by the solver; the truth is good for it
+  1    no method, or not the solver, reaches an error; or the truth is not known well enough
+  2    bad input, or a file that cannot be written)";
+
+}  // namespace
+
+void add_precision_command(CLI::App& app, Program& program) {
+  auto [command, options] = add_command(
+      app, program,
+      {"precision",
+       "Which integrator is cheapest for a case at a wanted error? Writes precision.h5", below},
+      precision);
+  add_input(command, "CASE", options.file, case_words);
+  add_method(command, options, "all");
+  add_errors(command, options, "Wanted errors, as shares of the motion (default: 1e-2,1e-3)");
+  command
+      ->add_option("--until", options.until,
+                   "Use only the beginning of the run, up to this time [s]")
+      ->type_name("TIME")
+      ->check(positive_number());
+  command
+      ->add_option("--effort", options.effort,
+                   "Let each run take this many times the usual work, for shorter steps")
+      ->type_name("TIMES")
+      ->check(positive_number())
+      ->capture_default_str();
+  add_overrides(command, options);
+  add_other_solver(command, options,
+                   "Also find the steps of another solver, started by this command");
+  add_folder(command, options,
+             "Folder for precision.h5; its store/ keeps every run, and a second call makes only "
+             "what is missing")
+      ->capture_default_str();
+  add_cache(command, options);
+  add_threads(command, options);
+  add_json(command, options);
 }
 
 }  // namespace foldproof

@@ -9,7 +9,7 @@
 #include "convergence/any_case/distances.h"
 #include "convergence/any_case/trial_ladder.h"
 #include "scripts/program/progress.h"
-#include "scripts/program/solver_command.h"
+#include "scripts/program/typed_solver.h"
 
 namespace foldproof {
 

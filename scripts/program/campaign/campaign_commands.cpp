@@ -15,7 +15,7 @@
 #include "scripts/program/campaign/standing_text.h"
 #include "scripts/program/listing.h"
 #include "scripts/program/progress.h"
-#include "scripts/program/report_commands.h"
+#include "scripts/program/pages/report_script.h"
 #include "scripts/program/run_all.h"
 #include "scripts/program/run_case.h"
 #include "verification/files/atomic_file.h"

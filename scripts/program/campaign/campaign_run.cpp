@@ -13,7 +13,7 @@
 #include "scripts/program/campaign/standing.h"
 #include "scripts/program/campaign/standing_text.h"
 #include "scripts/program/data_folder.h"
-#include "scripts/program/command_line/typed_command.h"
+#include "scripts/program/command_line/typed_words.h"
 #include "scripts/program/interruption.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"

@@ -15,7 +15,7 @@
 
 #include "reference/types.h"
 #include "scripts/program/campaign/slice_mark.h"
-#include "scripts/program/command_line/typed_command.h"
+#include "scripts/program/command_line/typed_words.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
 

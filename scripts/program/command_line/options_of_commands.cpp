@@ -2,12 +2,10 @@
 
 namespace foldproof {
 
-CLI::App* add_command(CLI::App& app, Options& options, const CommandText& text,
-                      int (*run)(const Options&)) {
+CLI::App* add_subcommand(CLI::App& app, const CommandText& text) {
   CLI::App* command = app.add_subcommand(text.name, text.what);
   command->footer(text.below);
   command->group("Commands");
-  command->callback([&options, run] { options.run = run; });
   return command;
 }
 
@@ -117,6 +115,36 @@ void add_solver_options(CLI::App* command, Options& options) {
 CLI::Option* add_length(CLI::App* command, const std::string& name, double& value,
                         const std::string& what) {
   return command->add_option(name, value, what)->type_name("LENGTH")->check(finite_number());
+}
+
+/// The integrators to run; `usual` are those of a command without the option.
+void add_method(CLI::App* command, Options& options, const std::string& usual) {
+  command
+      ->add_option("--method", options.methods,
+                   "Integrators: a list such as A,C,RK4, or all (default: " + usual + ")")
+      ->type_name("METHODS")
+      ->check(some_text("integrators, or all"))
+      ->delimiter(',')
+      ->allow_extra_args(false);
+}
+
+void add_errors(CLI::App* command, Options& options, const std::string& what) {
+  command->add_option("--errors", options.errors, what)
+      ->type_name("ERRORS")
+      ->check(positive_number())
+      ->delimiter(',')
+      ->allow_extra_args(false);
+}
+
+/// Another solver, whose steps are halved beside the reference's.
+CLI::Option* add_other_solver(CLI::App* command, Options& options, const std::string& words) {
+  CLI::Option* solver = command->add_option("--solver", options.solver, words)
+                            ->type_name("CMD")
+                            ->check(some_text("a command"));
+  add_solver_options(command, options);
+  for (const char* of_solver : {"--seconds", "--settings"})
+    command->get_option(of_solver)->needs("--solver");
+  return solver;
 }
 
 }  // namespace foldproof

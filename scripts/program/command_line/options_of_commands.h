@@ -3,10 +3,11 @@
 
 #include <CLI/CLI.hpp>
 
+#include <memory>
 #include <string>
 
 #include "scripts/program/command_line/command_line.h"
-#include "scripts/program/commands.h"
+#include "scripts/program/options.h"
 
 namespace foldproof {
 
@@ -20,9 +21,29 @@ struct CommandText {
   const char* below;
 };
 
-/// A command that runs `run` when it was typed.
-CLI::App* add_command(CLI::App& app, Options& options, const CommandText& text,
-                      int (*run)(const Options&));
+/// A command and the options that its words set.
+template <class Own>
+struct Command {
+  CLI::App* app;
+  Own& options;
+};
+
+CLI::App* add_subcommand(CLI::App& app, const CommandText& text);
+
+/// A command that runs `run` when it was typed. Own: Options, or a struct derived from it that
+/// holds what this command alone can be told.
+template <class Own>
+Command<Own> add_command(CLI::App& app, Program& program, const CommandText& text,
+                         int (*run)(const Own&)) {
+  CLI::App* command = add_subcommand(app, text);
+  const auto options = std::make_shared<Own>();
+  command->callback([&program, options, run] {
+    options->command = program.command;
+    options->words = program.words;
+    program.run = [options, run] { return run(*options); };
+  });
+  return {command, *options};
+}
 
 void add_json(CLI::App* command, Options& options);
 
@@ -63,5 +84,13 @@ void add_solver_options(CLI::App* command, Options& options);
 
 CLI::Option* add_length(CLI::App* command, const std::string& name, double& value,
                         const std::string& what);
+
+/// Integrators to run; `usual` are those of a command without the option.
+void add_method(CLI::App* command, Options& options, const std::string& usual);
+
+void add_errors(CLI::App* command, Options& options, const std::string& what);
+
+/// Another solver, whose steps are halved beside the reference's.
+CLI::Option* add_other_solver(CLI::App* command, Options& options, const std::string& words);
 
 }  // namespace foldproof

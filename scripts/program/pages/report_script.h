@@ -1,4 +1,4 @@
-// Commands that run the scripts of reports/: pages, films, files for other programs.
+// Runs the scripts of reports/: pages, films, files for other programs.
 #pragma once
 
 #include <string>
@@ -11,5 +11,9 @@ namespace foldproof {
 /// or was killed. Only a script that `compares` runs may return some_fail.
 int run_report_script(const std::string& makes, const std::string& script,
                       const std::vector<std::string>& arguments, bool compares = false);
+
+/// Adds an option and its value; nothing if the value is empty.
+void add_option(std::vector<std::string>& arguments, const std::string& option,
+                const std::string& value);
 
 }  // namespace foldproof

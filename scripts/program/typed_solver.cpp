@@ -1,4 +1,4 @@
-#include "scripts/program/solver_command.h"
+#include "scripts/program/typed_solver.h"
 
 #include <fmt/format.h>
 

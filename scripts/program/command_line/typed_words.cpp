@@ -1,4 +1,4 @@
-#include "scripts/program/command_line/typed_command.h"
+#include "scripts/program/command_line/typed_words.h"
 
 namespace foldproof {
 

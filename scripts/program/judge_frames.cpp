@@ -5,8 +5,8 @@
 
 #include "scripts/program/command_line/input_files.h"
 #include "scripts/program/command_line/out_folder.h"
-#include "scripts/program/commands.h"
 #include "scripts/program/frame_files.h"
+#include "scripts/program/judge_frames.h"
 #include "scripts/program/provenance.h"
 #include "scripts/program/run_case.h"
 #include "scripts/program/trial_output.h"

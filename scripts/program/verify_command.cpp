@@ -1,4 +1,4 @@
-#include "scripts/program/commands.h"
+// foldproof check, study, verify: the suite, or parts of it.
 
 #include <fmt/format.h>
 
@@ -10,18 +10,16 @@
 #include "reference/bodies/level_set_provider.h"
 #include "scripts/program/bench/bench.h"
 #include "scripts/program/data_folder.h"
-#include "scripts/program/command_line/input_files.h"
-#include "verification/subjects/bending_rows.h"
-#include "verification/subjects/crossing_queries.h"
 #include "scripts/program/interruption.h"
 #include "scripts/program/kept_results.h"
 #include "scripts/program/ledger.h"
+#include "scripts/program/command_line/options_of_commands.h"
 #include "scripts/program/command_line/out_folder.h"
-#include "scripts/program/command_line/typed_command.h"
+#include "scripts/program/command_line/typed_words.h"
 #include "scripts/program/listing.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
-#include "scripts/program/report_commands.h"
+#include "scripts/program/pages/report_script.h"
 #include "scripts/program/run_all.h"
 #include "scripts/program/run_case.h"
 #include "verification/checks.h"
@@ -146,8 +144,6 @@ RunRecord run_whole_suite(const Options& options) {
   return run;
 }
 
-}  // namespace
-
 int run_checks(const Options& options) {
   require_folder_to_resume(options);
   const OutFolder folder(options.out);
@@ -178,31 +174,11 @@ int run_studies(const Options& options) {
   return conclude(run, options, options.out.empty() ? "" : "run.h5");
 }
 
-int evaluate_hinges(const Options& options) {
-  require_input(options.file, table_kind);
-  if (!options.rest_file.empty()) require_input(options.rest_file, table_kind);
-  evaluate_bending(options.file, options.rest_file);
-  return all_hold;
-}
+struct VerifyOptions : Options {
+  bool no_report = false, no_bench = false;
+};
 
-int evaluate_queries(const Options& options) {
-  if (!std::filesystem::is_directory(options.file)) require_input(options.file, table_kind);
-  return evaluate_crossings(options.file, options.kind, options.keep) ? all_hold : some_fail;
-}
-
-int run_bench(const Options& options) {
-  const OutFolder folder(options.out);
-  RunRecord run = bench(options.quick ? 110'000 : 1'100'000);
-  run.provenance = provenance(options.command);
-  write_run(options.out + "/bench.h5", run);
-  if (options.json)
-    fmt::print("{}", verdicts_json(run));
-  else
-    fmt::print("{}", listing(run));
-  return all_hold;
-}
-
-int verify(const Options& options) {
+int verify(const VerifyOptions& options) {
   const OutFolder folder(options.out);
   const RunRecord run = run_whole_suite(options);
   const InterruptionNotice notice(
@@ -220,6 +196,73 @@ int verify(const Options& options) {
   else
     fmt::print("{} ({:.0f} s)\n", summary(run), run.seconds);
   return reported != all_hold ? reported : exit_code(run);
+}
+
+/// check and study: they write files only if a folder is named.
+void add_selection(CLI::App& app, Program& program, const CommandText& text,
+                   int (*run)(const Options&)) {
+  auto [command, options] = add_command(app, program, text, run);
+  command->add_option("NAME", options.names,
+                      "Names or groups, as `foldproof list checks` shows them");
+  add_out_if_typed(command, options,
+                   "Also write run.h5, verdicts.json and junit.xml into this folder");
+  add_running(command, options);
+  add_tier(command, options);
+  add_json(command, options);
+}
+
+constexpr const char* below_check =
+    R"(Examples:
+  foldproof check bending                              all checks of bending
+  foldproof check case.hinge --json                    what is expected of a shipped case
+
+Exit codes:
+  0    everything holds
+  1    something fails or is inconclusive
+  2    bad input; a name matches nothing)";
+
+constexpr const char* below_study =
+    R"(Examples:
+  foldproof study time-order.hinge
+  foldproof study work-precision --tier full --out mine
+
+Exit codes:
+  0    everything holds
+  1    something fails or is inconclusive
+  2    bad input; a name matches nothing)";
+
+constexpr const char* below_verify =
+    R"(Results are kept in DIR/unfinished as they come, and deleted at the end. A run that was interrupted
+goes on with --resume, if program, tier and seed are the same; the report names the commits.
+
+Examples:
+  foldproof verify
+  foldproof verify --tier full --out full --resume     hours, also in parts
+
+Exit codes:
+  0    everything holds, and the ruling on every claim is as recorded
+  1    something fails or is inconclusive, or more than 5 % of the bounds are empirical
+  2    bad input, or a file that cannot be written)";
+
+}  // namespace
+
+void add_verify_command(CLI::App& app, Program& program) {
+  add_selection(app, program, {"check", "Run checks (all, or those named)", below_check},
+                run_checks);
+  add_selection(app, program, {"study", "Run studies (all, or those named)", below_study},
+                run_studies);
+  auto [everything, options] = add_command(
+      app, program,
+      {"verify", "Run all checks, studies and cases; give rulings on claims, write the report",
+       below_verify},
+      verify);
+  add_switch(everything, "--no-report", options.no_report, "Write the results only");
+  add_switch(everything, "--no-bench", options.no_bench, "Do not measure speed");
+  add_running(everything, options);
+  add_tier(everything, options);
+  add_cache(everything, options);
+  add_folder(everything, options, "Folder for results")->capture_default_str();
+  add_json(everything, options);
 }
 
 }  // namespace foldproof

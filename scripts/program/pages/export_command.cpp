@@ -1,0 +1,49 @@
+// foldproof export: the frames of a stored run as files for other programs.
+#include "scripts/program/command_line/input_files.h"
+#include "scripts/program/command_line/options_of_commands.h"
+#include "scripts/program/command_line/out_folder.h"
+#include "scripts/program/pages/report_script.h"
+
+namespace foldproof {
+
+namespace {
+
+struct ExportOptions : Options {
+  std::string format;  // obj, ply or xdmf
+};
+
+int export_frames(const ExportOptions& options) {
+  require_input(options.file, run_kind);
+  const OutFolder folder(options.out);
+  return run_report_script("files", "export.py",
+                           {options.file, "--format", options.format, "--out", options.out});
+}
+
+constexpr const char* below =
+    R"(Lengths are in metres, in world coordinates; each object has files of its own.
+Needs the Debian packages python3-h5py and python3-numpy.
+
+Examples:
+  foldproof export results/grab.h5 --format ply --out frames
+  foldproof export results/grab.h5 --format xdmf --out paraview
+
+Exit codes:
+  0    written
+  2    bad input, or a package is missing)";
+
+}  // namespace
+
+void add_export_command(CLI::App& app, Program& program) {
+  auto [files, options] =
+      add_command(app, program,
+                  {"export", "Write the frames of a stored run as files for other programs", below},
+                  export_frames);
+  add_input(files, "RUN.h5", options.file, "Run stored by `foldproof simulate`");
+  files->add_option("--format", options.format, "obj, ply or xdmf")
+      ->type_name("FORMAT")
+      ->check(one_of({"obj", "ply", "xdmf"}))
+      ->required();
+  add_folder(files, options, "Folder for the files")->required();
+}
+
+}  // namespace foldproof
