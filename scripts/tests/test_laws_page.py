@@ -65,9 +65,9 @@ def notes_of(adapter: Path, offered: tuple[str, ...], laws: list[str]) -> dict[s
 
 def needs_of_laws() -> dict[str, str]:
     """What each law needs, in the program's order."""
-    listed = subprocess.run([PROGRAM, "list", "laws"], capture_output=True, text=True, check=True)
+    listed = subprocess.run([str(PROGRAM), "list", "--json"], capture_output=True, check=True)
     needs: dict[str, tuple[str, ...]] = {
-        line.split()[0]: () for line in listed.stdout.splitlines()
+        law["name"]: () for law in json.loads(listed.stdout)["laws"]
     }
     asked = list(needs)
     with tempfile.TemporaryDirectory() as folder:
@@ -91,6 +91,14 @@ class LawsPage(unittest.TestCase):
         self.assertEqual([(law, more) for law, more, _ in rows], list(needs.items()))
         for law, _, seconds in rows:
             self.assertRegex(seconds, r"^(<0\.1|0\.[1-9]|[1-9]\d?)$", law)
+
+    def test_adapters_are_as_short_as_the_page_says(self) -> None:
+        text = " ".join((SUBJECTS / "PROTOCOL.md").read_text(encoding="utf-8").split())
+        self.assertIn("takes under sixty lines in [Python]", text)
+        self.assertIn("about a hundred in [C++]", text)
+        for name, least, most in (("py", 40, 59), ("mjs", 40, 59), ("cpp", 90, 110)):
+            lines = (SUBJECTS / f"adapters/toy_solver.{name}").read_text().count("\n")
+            self.assertTrue(least <= lines <= most, (name, lines))
 
 
 if __name__ == "__main__":
