@@ -29,34 +29,29 @@ def recorded_rows(record: Path) -> dict[str, dict[str, Any]]:
 
 def latest(rows: list[dict[str, Any]]) -> dict[str, dict[str, Any]]:
     """Of each case the row that was found last."""
-    return {
-        row["case"]: row
-        for row in sorted(rows, key=lambda row: datetime.fromisoformat(row["program"]["date"]))
-    }
+    by_date = sorted(rows, key=lambda row: datetime.fromisoformat(row["program"]["date"]))
+    return {row["case"]: row for row in by_date}
 
 
-def write_rows(record: Path, rows: dict[str, dict[str, Any]]) -> None:
-    """Replaces the record, as a whole."""
-    lines = ",\n".join(json.dumps(rows[name], sort_keys=True) for name in sorted(rows))
-    write_whole(record, f'{{"schema": 1, "cases": [\n{lines}\n]}}\n'.encode())
+def same_scene(file: Path, row: dict[str, Any], but: str = "") -> None:
+    """Throws Rejected for an answer about a changed scene; keys that begin with `but` are none."""
+    if any(not but or not typed.startswith(but) for typed in row["overrides"]):
+        raise Rejected(f"{file}: of {row['case']}, with --set {' '.join(row['overrides'])}, which"
+                       " is another scene than the shipped one")
 
 
 def origin(file: Path, case: str, program: dict[str, Any]) -> dict[str, Any]:
     """What a row says of its origin: the program, and the digest of the case as it was at the
-    program's commit. Throws Rejected for a program with uncommitted changes, and
-    for a case that is not shipped."""
+    program's commit. Throws Rejected for a program with uncommitted changes, and for a case that is
+    not shipped."""
     if program["tree"] != "clean":
         raise Rejected(f"{file}: found by a program with changes that were not committed")
-    kept = {key: program[key] for key in ("version", "commit", "date", "cpu")}
-    return {"program": kept, "digest": digest_at(program["commit"], case)}
-
-
-def digest_at(commit: str, case: str) -> str:
-    """Of the shipped case as it was at the commit."""
     files = case_files(ROOT / "cases")
     if case not in files:
         raise Rejected(f"{case} is not a shipped case")
-    return case_digest(files[case], lambda name: file_at(commit, name))
+    kept = {key: program[key] for key in ("version", "commit", "date", "cpu")}
+    digest = case_digest(files[case], lambda name: file_at(program["commit"], name))
+    return {"program": kept, "digest": digest}
 
 
 def file_at(commit: str, name: str) -> bytes:
@@ -70,15 +65,16 @@ def file_at(commit: str, name: str) -> bytes:
 
 
 def command(name: str, usage: str, record: Path, rows_after: Any) -> int:
-    """The command line of a script that records: rows_after(files) gives
-    all rows, old and new, by case."""
+    """The command line of a script that records: rows_after(rows, files) gives all rows, old and
+    new, by case."""
     if len(sys.argv) < 2 or sys.argv[1] in ("-h", "--help"):
         print(usage.strip())
         return 0 if len(sys.argv) > 1 else 2
     try:
         before = recorded_rows(record)
         rows = rows_after(before, [Path(file) for file in sys.argv[1:]])
-        write_rows(record, rows)
+        lines = ",\n".join(json.dumps(rows[case], sort_keys=True) for case in sorted(rows))
+        write_whole(record, f'{{"schema": 1, "cases": [\n{lines}\n]}}\n'.encode())
     except (OSError, Unreadable) as error:
         print(f"{name}: {error}", file=sys.stderr)
         return 2

@@ -19,10 +19,8 @@ def run(command: list, folder: Path, clock: float | None = None) -> subprocess.C
     nothing. A command is also stopped when neither it nor its children use the processor for 30 s,
     and killed when it writes a file of 2 GB. Raises TimeoutExpired."""
     if clock is None:
-        return subprocess.run(
-            command, cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, text=True,
-            errors="replace"
-        )
+        return subprocess.run(command, cwd=folder, stdin=subprocess.DEVNULL, capture_output=True,
+                              text=True, errors="replace", check=False)
     most = math.ceil(clock)
     limits = [f"--cpu={most}:{most + 5}", f"--fsize={LARGEST_FILE}"]
     limited = ["prlimit", *limits, "--", *command]
@@ -37,10 +35,9 @@ def run(command: list, folder: Path, clock: float | None = None) -> subprocess.C
 
 
 def run_until_still(command: list, folder: Path) -> subprocess.CompletedProcess:
-    with subprocess.Popen(
-        command, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE, text=True, errors="replace", start_new_session=True
-    ) as process:
+    with subprocess.Popen(command, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                          stderr=subprocess.PIPE, text=True, errors="replace",
+                          start_new_session=True) as process:
         used, since = 0.0, time.monotonic()
         try:
             while True:

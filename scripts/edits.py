@@ -31,11 +31,9 @@ def outside_templates(text: str, tokens: list[Piece]) -> Iterator[Piece]:
     """Leaves out `<...>` where no space stands before the `<`, or the word template does."""
     depth = 0
     for before, token in zip([None, *tokens], tokens):
-        opens = (
-            token.text == "<"
-            and not (before and before.text == "operator")
-            and (not text[token.at - 1].isspace() or (before and before.text == "template"))
-        )
+        name = before.text if before else ""
+        opens = (token.text == "<" and name != "operator"
+                 and (not text[token.at - 1].isspace() or name == "template"))
         if opens or (depth and token.text == "<"):
             depth += 1
         elif not depth:
@@ -51,17 +49,13 @@ OPERATORS = {
     ">": [">=", "<"], ">=": [">", "<="], "==": ["!="], "!=": ["=="], "&&": ["||"], "||": ["&&"],
     "+=": ["-=", "="], "-=": ["+=", "="], "*=": ["/="], "/=": ["*="]
 }
-NAMES = [
-    ("min", "max"), ("sin", "cos"), ("asin", "acos"), ("true", "false"), ("front", "back"),
-    ("first", "last"), ("begin", "rbegin"), ("lower", "upper"), ("lower_", "upper_"),
-    ("lower_squared_", "upper_squared_"), ("x", "v"), ("a", "b"), ("A", "B"), ("X", "V"),
-    ("wa", "wb"), ("here", "there"), ("now", "next"), ("before", "after"), ("mass", "inverse_mass"),
-    ("velocity", "acceleration"), ("start", "end"), ("from", "until"), ("near", "far"), ("p", "q"),
-    ("l", "r"), ("cwiseMin", "cwiseMax"), ("minCoeff", "maxCoeff"), ("left", "right"), ("w", "v"),
-    ("floor", "ceil"), ("row", "col"), ("size", "count"), ("theta", "rest_angle"), ("E", "N"),
-    ("normal", "velocity"), ("exact", "semidefinite"), ("rest", "current"), ("break", "continue"),
-    ("extension", "compression")
-]
+NAMES = [pair.split("/") for pair in """
+    min/max sin/cos asin/acos true/false front/back first/last begin/rbegin lower/upper
+    lower_/upper_ lower_squared_/upper_squared_ x/v a/b A/B X/V wa/wb here/there now/next
+    before/after mass/inverse_mass velocity/acceleration start/end from/until near/far p/q l/r
+    cwiseMin/cwiseMax minCoeff/maxCoeff left/right w/v floor/ceil row/col size/count
+    theta/rest_angle E/N normal/velocity exact/semidefinite rest/current break/continue
+    extension/compression""".split()]
 NEIGHBOURS = {name: other for pair in NAMES for name, other in (pair, pair[::-1])}
 VALUES = {"0": ["1"], "0.0": ["1.0"], "1": ["2", "0"], "2": ["1", "3"], "0.5": ["0.6"]}
 # there without being named
@@ -77,10 +71,8 @@ def changes_of(text: str) -> list[Change]:
     tokens = tokens_of(text)
     found: set[Change] = set()
     for k in range(len(tokens)):
-        found.update(
-            of_operator(text, tokens, k), of_unary(text, tokens, k), of_number(tokens, k),
-            of_name(text, tokens, k)
-        )
+        found.update(of_operator(text, tokens, k), of_unary(text, tokens, k),
+                     of_number(tokens, k), of_name(text, tokens, k))
     found.update(of_bounds(tokens))
     found.update(removals(text, tokens))
     return sorted(change for change in found if not asks_for_memory(text, change))
@@ -92,9 +84,8 @@ def asks_for_memory(text: str, change: Change) -> bool:
     line = place_of(text, change)[1]
     before = text[text.rfind("\n", 0, change.at) + 1:change.at]
     is_rows = change.before == "3" and text[change.at + 1:].startswith(", ")
-    return ".reserve(" in line or (
-        is_rows and re.search(r"\bPerParticle3\b[^;]*\($", before) is not None
-    )
+    makes_vectors = re.search(r"\bPerParticle3\b[^;]*\($", before) is not None
+    return ".reserve(" in line or (is_rows and makes_vectors)
 
 
 def is_spaced(text: str, token: Piece) -> bool:
@@ -104,12 +95,8 @@ def is_spaced(text: str, token: Piece) -> bool:
 
 def of_operator(text: str, tokens: list[Piece], k: int) -> Iterator[Change]:
     token = tokens[k]
-    if (
-        token.kind == "sign"
-        and k > 0
-        and tokens[k - 1].text != "operator"
-        and is_spaced(text, token)
-    ):
+    if (token.kind == "sign" and k > 0 and tokens[k - 1].text != "operator"
+            and is_spaced(text, token)):
         for after in OPERATORS.get(token.text, []):
             yield Change(token.at, token.text, after, "operator")
 
@@ -119,9 +106,8 @@ def of_unary(text: str, tokens: list[Piece], k: int) -> Iterator[Change]:
     token, before = tokens[k], tokens[k - 1].text if k > 0 else ""
     if token.text in ("++", "--"):
         yield Change(token.at, token.text, "--" if token.text == "++" else "++", "sign")
-    elif token.text == "!" or (
-        token.text == "-" and before in UNARY_AFTER and not is_spaced(text, token)
-    ):
+    elif token.text == "!" or (token.text == "-" and before in UNARY_AFTER
+                               and not is_spaced(text, token)):
         yield Change(token.at, token.text, "", "sign")
 
 
@@ -152,16 +138,9 @@ def of_name(text: str, tokens: list[Piece], k: int) -> Iterator[Change]:
     before = tokens[k - 1] if k > 0 else token
     follows = tokens[k + 1].text if k + 1 < len(tokens) else ""
     is_second = before.text == "," and follows == "="  # of several that one type declares
-    declares = (
-        (before.kind == "word" and before.text not in ("return", "throw"))
-        or is_second
-        or is_bound(tokens, k)
-    )
-    if (
-        token.kind != "word"
-        or declares
-        or (before.text in ("&", "&&", "*") and not is_spaced(text, before))
-    ):
+    is_of_type = before.kind == "word" and before.text not in ("return", "throw")
+    is_reference = before.text in ("&", "&&", "*") and not is_spaced(text, before)
+    if token.kind != "word" or is_of_type or is_second or is_bound(tokens, k) or is_reference:
         return
     known = {other.text for other in tokens}
     numbered = re.fullmatch(r"([A-Za-z_]*[A-Za-z_])([1-9])", token.text)
@@ -188,11 +167,8 @@ def of_bounds(tokens: list[Piece]) -> Iterator[Change]:
         if token.text != "for":
             continue
         ends = [i for i in range(k, min(k + 60, len(tokens))) if tokens[i].text == ";"][:2]
-        if (
-            len(ends) == 2
-            and tokens[ends[1] - 1].kind == "word"
-            and tokens[ends[1] - 2].text in ("<", "<=")
-        ):
+        if (len(ends) == 2 and tokens[ends[1] - 1].kind == "word"
+                and tokens[ends[1] - 2].text in ("<", "<=")):
             bound = tokens[ends[1] - 1]
             yield Change(bound.at, bound.text, f"{bound.text} - 1", "bound")
 
@@ -211,17 +187,12 @@ def removals(text: str, tokens: list[Piece]) -> Iterator[Change]:
     inside = inner_brackets(tokens)
     for k in range(1, len(tokens)):
         begins = tokens[k - 1].text in (";", "{", "}") or closes_condition(tokens, k - 1)
-        if (
-            inside[k] == "("
-            or not begins
-            or tokens[k].text in KEPT
-            or (tokens[k].kind != "word" and tokens[k].text not in ("++", "--"))
-        ):
+        is_word = tokens[k].kind == "word" or tokens[k].text in ("++", "--")
+        if inside[k] == "(" or not begins or tokens[k].text in KEPT or not is_word:
             continue
         end = statement_end(tokens, k)
-        if end and (
-            tokens[k].text in ("if", "throw", "continue", "break") or is_action(tokens[k:end])
-        ):
+        if end and (tokens[k].text in ("if", "throw", "continue", "break")
+                    or is_action(tokens[k:end])):
             at, stop = tokens[k].at, tokens[end].at
             yield Change(at, text[at:stop + 1], ";", "removal")
 
@@ -274,11 +245,8 @@ def is_action(statement: list[Piece]) -> bool:
     depth = 0
     for before, token in zip(statement, statement[1:]):
         depth += DEPTHS.get(before.text, 0)
-        if (
-            depth == 0
-            and token.kind == "word"
-            and (before.kind == "word" or before.text in ("&", "*", ">"))
-        ):
+        is_after_type = before.kind == "word" or before.text in ("&", "*", ">")
+        if depth == 0 and token.kind == "word" and is_after_type:
             return False  # `double x`, `Vector3& x`
         if depth == 0 and token.text in ("=", "+=", "-=", "*=", "/=", "<<"):
             return True

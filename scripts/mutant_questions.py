@@ -8,19 +8,8 @@ import time
 import tomllib
 from typing import NamedTuple
 
-from mutants import (
-    BUILD,
-    PROGRAM,
-    ROOT,
-    TESTS,
-    Plan,
-    Unusable,
-    findings,
-    keys_of,
-    listed,
-    unit_tests,
-    write_at_once,
-)
+from builds import PROGRAM, ROOT, Unusable, listed, write_at_once
+from mutants import BUILD, TESTS, Plan, findings, keys_of, unit_tests
 
 FOLDER = BUILD / "mutate"
 # s of the unedited program's time; each batch of findings takes so many times the one before
@@ -47,30 +36,22 @@ def seconds_by_name(plan: Plan, checks_only: bool) -> dict[str, float]:
     stored, keys = FOLDER / "seconds.json", keys_of(plan)
     known = json.loads(stored.read_text(encoding="utf-8")) if stored.is_file() else {}
     made_by = {kind: keys["tests" if kind == "unit tests" else "foldproof"] for kind in asked}
-    seconds = {
-        kind: known["seconds"][kind]
-        for kind in asked
-        if known.get("keys", {}).get(kind) == made_by[kind] and kind in known["seconds"]
-    }
-    for kind, ask in asked.items():
-        if kind not in seconds and not (checks_only and kind != "checks"):
+    seconds = {kind: each for kind, each in known.get("seconds", {}).items()
+               if known.get("keys", {}).get(kind) == made_by[kind]}
+    chosen = ["checks"] if checks_only else list(asked)
+    for kind in chosen:
+        if kind not in seconds:
             print(f"baseline: {kind} of the unedited program, once for this build", flush=True)
-            rows = sound(ask())
             prefix = TEST if kind == "unit tests" else ""
-            seconds[kind] = {prefix + row["name"]: row["seconds"] for row in rows}
+            seconds[kind] = {prefix + row["name"]: row["seconds"] for row in sound(asked[kind]())}
             write_at_once(stored, json.dumps({"keys": made_by, "seconds": seconds}))
-    chosen = ["checks"] if checks_only else asked
     return {name: each for kind in chosen for name, each in seconds[kind].items()}
 
 
 def studies_and_cases() -> list[str]:
     """Those of the quick tier."""
     long = set(listed()["long_cases"])
-    cases = [
-        "case." + name.split("/")[-1]
-        for name in listed()["cases"]
-        if name not in long
-    ]
+    cases = [f"case.{name.split('/')[-1]}" for name in listed()["cases"] if name not in long]
     return [study["name"] for study in listed()["studies"]] + cases
 
 
@@ -96,11 +77,8 @@ def kind_of(name: str, studies: set[str]) -> str:
         return "test"
     if name.startswith("case."):
         return "case"
-    return (
-        "study"
-        if any(name == study or name.startswith(study + ".") for study in studies)
-        else "check"
-    )
+    is_study = any(name == study or name.startswith(study + ".") for study in studies)
+    return "study" if is_study else "check"
 
 
 def batches_of(file: str, seconds: dict[str, float], studies: set[str]) -> list[Batch]:
@@ -127,11 +105,8 @@ def batches_of(file: str, seconds: dict[str, float], studies: set[str]) -> list[
 @functools.cache
 def faults_listed() -> list[dict]:
     lists = (ROOT / "verification/faults").glob("*.toml")
-    return [
-        row
-        for path in lists
-        for row in tomllib.loads(path.read_text(encoding="utf-8")).get("fault", [])
-    ]
+    return [row for path in lists
+            for row in tomllib.loads(path.read_text(encoding="utf-8")).get("fault", [])]
 
 
 def likely_catchers(file: str) -> set[str]:
@@ -141,9 +116,7 @@ def likely_catchers(file: str) -> set[str]:
 
 
 def catchers_of(fault: dict) -> set[str]:
-    return {*fault.get("caught_by", [])} | {
-        TEST + name for name in fault.get("caught_by_tests", [])
-    }
+    return {*fault.get("caught_by", []), *(TEST + one for one in fault.get("caught_by_tests", []))}
 
 
 def does_not_hold(rows: list[dict]) -> list[str]:

@@ -1,4 +1,5 @@
-"""The log of the mutants that were asked in this tree, and the scores that are shipped. Of
+"""What came of mutants: the log of those that were asked in this tree, the scores that are shipped,
+and the answers about edits that verification/faults/equivalent_mutants.txt explains. Of
 scripts/mutate; reports/data/mutation_scores.py says what a score is.
 """
 
@@ -9,20 +10,14 @@ from collections import Counter, defaultdict
 from dataclasses import asdict, replace
 from pathlib import Path
 
-from edits import Change
+from builds import ROOT, write_at_once
+from edits import Change, sample
 from mutant_questions import FOLDER
-from mutant_trials import Judgement, Mutant
-from mutants import ROOT, write_at_once
+from mutant_trials import Judgement, Mutant, read_explained
 
 sys.path.insert(0, str(ROOT / "reports"))
 from data.mutation_scores import (  # noqa: E402
-    SCORES,
-    Key,
-    Row,
-    Sample,
-    Score,
-    Scores,
-    key_of_row,
+    EXPLAINED_ASKED, SCORES, Key, Row, Sample, Score, Scores, key_of_row
 )
 
 ASKED = ("killed", "SURVIVED", "equivalent")
@@ -68,6 +63,10 @@ def read_asked(commit: str, path: Path = ASKED_LOG) -> list[Row]:
 # ---- the scores ----------------------------------------------------------------------------------
 
 
+def today() -> str:
+    return time.strftime("%Y-%m-%d", time.gmtime())
+
+
 def with_sample(scores: Scores, rows: list[Row], explained: set[Key]) -> Scores:
     """The scores with those of the rows, all of one commit, in place of any that it had. A mutant
     with a reason counts as equivalent."""
@@ -80,29 +79,22 @@ def with_sample(scores: Scores, rows: list[Row], explained: set[Key]) -> Scores:
         if outcome == "SURVIVED":
             edit = {name: row[name] for name in ("folder", "file", "line", "before", "after")}
             missed.append({**edit, "commit": commit})
-    folders = [
-        Score(name, count["killed"], count["SURVIVED"], 0, count["equivalent"])
-        for name, count in sorted(counts.items())
-    ]
-    sample = Sample(commit, time.strftime("%Y-%m-%d", time.gmtime()), folders)
-    return Scores(
-        [one for one in scores.samples if one.commit != commit] + [sample],
-        [one for one in scores.open if one["commit"] != commit] + missed
-    )
+    folders = [Score(name, count["killed"], count["SURVIVED"], 0, count["equivalent"])
+               for name, count in sorted(counts.items())]
+    others = [one for one in scores.samples if one.commit != commit]
+    return Scores([*others, Sample(commit, today(), folders)],
+                  [one for one in scores.open if one["commit"] != commit] + missed)
 
 
 def write_scores(scores: Scores, path: Path = SCORES) -> None:
-    samples = [
-        f' {{"commit": "{sample.commit}", "date": "{sample.date}", "folders": [\n'
-        + ",\n".join(f"  {json.dumps(asdict(one))}" for one in sample.folders) + "]}"
-        for sample in scores.samples
-    ]
-    still_open = [f" {json.dumps(row, ensure_ascii=False)}" for row in scores.open]
-    write_at_once(
-        path,
-        '{"samples": [\n' + ",\n".join(samples) + '],\n"open": [\n' + ",\n".join(still_open)
-        + "]}\n"
-    )
+    """A line for each folder and each open mutant."""
+    def lines(rows: list[Row], margin: str) -> str:
+        return ",\n".join(margin + json.dumps(row, ensure_ascii=False) for row in rows)
+
+    samples = [f' {{"commit": "{one.commit}", "date": "{one.date}", "folders": [\n'
+               + lines(list(map(asdict, one.folders)), "  ") + "]}" for one in scores.samples]
+    write_at_once(path, '{"samples": [\n' + ",\n".join(samples) + '],\n"open": [\n'
+                  + lines(scores.open, " ") + "]}\n")
 
 
 # ---- missed mutants, asked again -----------------------------------------------------------------
@@ -134,9 +126,8 @@ def nearest_line(text: str, line: str, to: int) -> tuple[int, int] | None:
 def with_noticed(scores: Scores, judged: list[Judgement]) -> Scores:
     """Open rows that are killed now are open no longer; their samples keep them as missed."""
     noticed = {one.mutant.number for one in judged if one.outcome == "killed"}
-    since = Counter(
-        (row["commit"], row["folder"]) for k, row in enumerate(scores.open) if k in noticed
-    )
+    since = Counter((row["commit"], row["folder"])
+                    for k, row in enumerate(scores.open) if k in noticed)
     samples = [
         replace(sample, folders=[
             replace(one, noticed_since=one.noticed_since + since[sample.commit, one.folder])
@@ -145,3 +136,40 @@ def with_noticed(scores: Scores, judged: list[Judgement]) -> Scores:
         for sample in scores.samples
     ]
     return Scores(samples, [row for k, row in enumerate(scores.open) if k not in noticed])
+
+
+# ---- explained edits -----------------------------------------------------------------------------
+
+
+def not_asked(rows: list[Row], seed: int) -> list[Mutant]:
+    """Explained edits that the rows do not have, in an order that the seed decides: those that are
+    asked first are a random sample."""
+    known = {key_of_row(row) for row in rows}
+    return [edit_of(number, *key)
+            for number, key in enumerate(sample(sorted(read_explained() - known), seed))]
+
+
+def edit_of(number: int, file: str, line: str, becomes: str) -> Mutant:
+    """Where the line stands first."""
+    place = nearest_line((ROOT / file).read_text(encoding="utf-8"), line, 0)
+    assert place is not None  # read_explained() has counted it
+    return Mutant(file, number, Change(place[1], line, becomes, "explained"), place[0], line,
+                  becomes)
+
+
+def with_answers(rows: list[Row], judged: list[Judgement], commit: str) -> list[Row]:
+    """The rows and those answered: what has no code of its own, or could not be asked, is left
+    out."""
+    return rows + [
+        {
+            "file": one.mutant.file, "before": one.mutant.before, "after": one.mutant.after,
+            "outcome": one.outcome, "by": one.by or one.what, "commit": commit, "date": today()
+        }
+        for one in judged if one.outcome in ("killed", "SURVIVED")
+    ]
+
+
+def write_answers(rows: list[Row], path: Path = EXPLAINED_ASKED) -> None:
+    """One line each, in a fixed order."""
+    lines = sorted(json.dumps(row, ensure_ascii=False) for row in rows)
+    write_at_once(path, '{"mutants": [\n' + ",\n".join(lines) + "\n]}\n")

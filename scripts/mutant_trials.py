@@ -16,19 +16,11 @@ from collections.abc import Callable, Set
 from pathlib import Path
 from typing import NamedTuple
 
+from builds import ROOT, Unusable
 from edits import Change, apply, changes_of, place_of, sample
 from mutant_questions import FOLDER, TEST, Batch, batches_of, clock_of, does_not_hold
 from mutants import (
-    ROOT,
-    DoesNotCompile,
-    Edit,
-    Plan,
-    Unusable,
-    compile_mutant,
-    compile_unedited,
-    findings,
-    link_mutant,
-    unit_tests,
+    DoesNotCompile, Edit, Plan, compile_mutant, compile_unedited, findings, link_mutant, unit_tests
 )
 from reach import Table
 
@@ -80,10 +72,8 @@ class Questions(NamedTuple):
 class Target:
     """One file to be mutated: its text, its own object code, and what is asked."""
 
-    def __init__(
-        self, file: str, plan: Plan, seed: int, questions: Questions,
-        explained: set[tuple[str, str, str]]
-    ) -> None:
+    def __init__(self, file: str, plan: Plan, seed: int, questions: Questions,
+                 explained: set[tuple[str, str, str]]) -> None:
         self.file, self.plan, self.questions, self.explained = file, plan, questions, explained
         self.text = (ROOT / file).read_text(encoding="utf-8")
         name = re.sub(r"\W", "-", file)
@@ -105,9 +95,8 @@ class Target:
             if code_of(objects) == self.code:
                 judged = Judgement(mutant, "same code")
             else:
-                link = functools.partial(
-                    link_mutant, self.plan, objects, overlay=self.folder(name)
-                )
+                link = functools.partial(link_mutant, self.plan, objects,
+                                         overlay=self.folder(name))
                 judged = self.ask_who_reaches(mutant, link)
         except DoesNotCompile as error:
             judged = Judgement(mutant, "not compiled", what=str(error))
@@ -126,9 +115,8 @@ class Target:
         asked = sum(len(batch.names) for batch in batches)
         return judged._replace(left_out=len(self.questions.seconds) - asked)
 
-    def judge_mutant(
-        self, mutant: Mutant, batches: list[Batch], link: Callable[[str], Path]
-    ) -> Judgement:
+    def judge_mutant(self, mutant: Mutant, batches: list[Batch],
+                     link: Callable[[str], Path]) -> Judgement:
         """Asks batch by batch, up to the first finding that fails; of one that is declared
         equivalent, only whether the checks that are near say otherwise."""
         is_explained = (mutant.file, mutant.before, mutant.after) in self.explained
@@ -137,10 +125,8 @@ class Target:
             try:
                 failing = self.first_failing(batch, link)
             except subprocess.TimeoutExpired:
-                limit = (
-                    f"{clock_of(batch):.0f} s, where the unedited program takes"
-                    f" {batch.seconds:.1f} s"
-                )
+                limit = (f"{clock_of(batch):.0f} s, where the unedited program takes"
+                         f" {batch.seconds:.1f} s")
                 return Judgement(mutant, "killed", "clock", limit)
             except ChildProcessError as error:
                 return Judgement(mutant, "killed", "crash", str(error))
@@ -157,9 +143,8 @@ class Target:
         tests = [name.removeprefix(TEST) for name in batch.names if name.startswith(TEST)]
         checks = [name for name in batch.names if not name.startswith(TEST)]
         clock, once_more = clock_of(batch), clock_of(Batch([], 10.0))
-        for names, prefix, program, ask in (
-            (checks, "", "foldproof", findings), (tests, TEST, "tests", unit_tests)
-        ):
+        for names, prefix, program, ask in ((checks, "", "foldproof", findings),
+                                            (tests, TEST, "tests", unit_tests)):
             for name in does_not_hold(ask(link(program), names, clock)) if names else []:
                 again = does_not_hold(ask(link(program), [name], once_more))
                 if again and not does_not_hold(ask(self.control(program), [name], once_more)):
@@ -185,10 +170,8 @@ def code_of(objects: dict[str, list[Path]]) -> list[bytes]:
 class Targets:
     """The files of a sample, each made ready when its first mutant comes."""
 
-    def __init__(
-        self, plan: Plan, seed: int, questions: Questions, explained: set[tuple[str, str, str]]
-    ) -> None:
-        self.explained = explained
+    def __init__(self, plan: Plan, seed: int, questions: Questions,
+                 explained: set[tuple[str, str, str]]) -> None:
         self.made: dict[str, Target] = {}
         self.lock = threading.Lock()
         self.make = lambda file: Target(file, plan, seed, questions, explained)
@@ -214,14 +197,11 @@ def sample_of(name: str, seed: int, left_out: Set[Path] = frozenset()) -> list[M
     if path.is_dir():
         sources = [file for ending in ("cpp", "h") for file in path.glob(f"*.{ending}")]
         sources = [file for file in sources if file.resolve() not in left_out]
-    texts = {
-        str(file.relative_to(ROOT)): file.read_text(encoding="utf-8") for file in sorted(sources)
-    }
+    texts = {str(file.relative_to(ROOT)): file.read_text(encoding="utf-8")
+             for file in sorted(sources)}
     edits = [(file, change) for file, text in texts.items() for change in changes_of(text)]
-    return [
-        mutant_of(file, texts[file], number, change)
-        for number, (file, change) in enumerate(sample(edits, seed))
-    ]
+    return [mutant_of(file, texts[file], number, change)
+            for number, (file, change) in enumerate(sample(edits, seed))]
 
 
 def mutant_of(file: str, text: str, number: int, change: Change) -> Mutant:
@@ -230,11 +210,10 @@ def mutant_of(file: str, text: str, number: int, change: Change) -> Mutant:
     return Mutant(file, number, change, line, before, after)
 
 
-def judge_sample(
-    targets: Targets, mutants: list[Mutant], count: int, jobs: int
-) -> list[Judgement]:
-    """Judges mutants in their order until `count` of them have code of
-    their own. Prints a line for each."""
+def judge_sample(targets: Targets, mutants: list[Mutant], count: int,
+                 jobs: int) -> list[Judgement]:
+    """Judges mutants in their order until `count` of them have code of their own. Prints a line
+    for each."""
     todo = iter(mutants)
     judged: list[Judgement] = []
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
@@ -253,13 +232,11 @@ def judge_sample(
 
 def line_of(one: Judgement) -> str:
     mutant = one.mutant
-    text = (
-        f"{one.outcome:12} {one.seconds:6.1f} s  {mutant.file}:{mutant.line} {mutant.change.kind}"
-    )
+    place = f"{mutant.file}:{mutant.line} {mutant.change.kind}"
+    text = f"{one.outcome:12} {one.seconds:6.1f} s  {place}"
     if one.outcome in ("SURVIVED", "equivalent", "ERROR"):
-        return f"{text}\n    - {mutant.before}\n    + {mutant.after}" + (
-            f"\n    {one.what}" if one.what else ""
-        )
+        said = f"\n    {one.what}" if one.what else ""
+        return f"{text}\n    - {mutant.before}\n    + {mutant.after}{said}"
     return f"{text}: {one.by} {one.what}".rstrip(": ")
 
 

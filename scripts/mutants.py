@@ -13,40 +13,30 @@ import math
 import os
 import re
 import shlex
-import subprocess
 import threading
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
+from builds import ROOT, Unusable
 from clocked import run
 
-ROOT = Path(__file__).resolve().parent.parent
 BUILD = ROOT / "build"
-PROGRAM = BUILD / "foldproof"
-LISTED = BUILD / "faults/listed.json"  # what the program names
 TESTS = BUILD / "tests"
 SHORT_TESTS = "~[.]~[long]"  # those that ctest runs as `units`
 # test class: its file; each takes --program FILE
 PYTHON_TESTS = {
-    "ProgramTest": ROOT / "scripts/tests/test_program.py",
-    "SimulateTest": ROOT / "scripts/tests/test_simulate.py",
-    "EvaluateTest": ROOT / "scripts/tests/test_evaluate.py",
-    "ResumeTest": ROOT / "scripts/tests/test_resume.py",
-    "CampaignTest": ROOT / "scripts/tests/test_campaign.py",
-    "SlicesTest": ROOT / "scripts/tests/test_slices.py",
-    "Judge": ROOT / "scripts/tests/test_judge.py",
-    "JudgeFrames": ROOT / "scripts/tests/test_judge_frames.py",
-    "SolverTest": ROOT / "scripts/tests/test_converge_solver.py",
-    "PrecisionSolverTest": ROOT / "scripts/tests/test_precision_solver.py",
-    "IndependentTest": ROOT / "verification/independent/test_independent.py",
-}
+    name: ROOT / "scripts/tests" / f"{file}.py" for name, file in {
+        "ProgramTest": "test_program", "SimulateTest": "test_simulate",
+        "EvaluateTest": "test_evaluate", "ResumeTest": "test_resume",
+        "CampaignTest": "test_campaign", "SlicesTest": "test_slices", "Judge": "test_judge",
+        "JudgeFrames": "test_judge_frames", "SolverTest": "test_converge_solver",
+        "PrecisionSolverTest": "test_precision_solver"
+    }.items()
+} | {"IndependentTest": ROOT / "verification/independent/test_independent.py"}
+SHARED_BY_TESTS = ("program_case", "judge_case")
 APART_FOLDER = BUILD / "faults" / "apart"
 CLOCK = 240  # s: how long the processor may take for a mutant
-
-
-class Unusable(Exception):
-    """Why nothing can be said: of one mutant when it is judged, else of all."""
 
 
 class DoesNotCompile(Unusable):
@@ -111,6 +101,7 @@ def files_by_object() -> dict[str, set[Path]]:
     #deps ...`, then indented paths."""
     resolve = functools.cache(lambda path: (BUILD / path).resolve())
     found: dict[str, set[Path]] = {}
+    files: set[Path] = set()
     for line in run(["ninja", "-t", "deps"], BUILD).stdout.splitlines():
         if line.startswith(" "):
             files.add(resolve(line.strip()))
@@ -133,30 +124,21 @@ def keys_of(plan: Plan) -> dict[str, str]:
     return {program: key_of(plan, program) for program in plan.objects}
 
 
-def files_of_independent() -> list[Path]:
-    """The independent program, its test and its cases."""
-    files = PYTHON_TESTS["IndependentTest"].parent.rglob("*.*")
-    return sorted(path for path in files if path.suffix in (".py", ".toml", ".obj"))
-
-
 def key_of(plan: Plan, program: str | None = None) -> str:
     """A digest of the unedited programs, or of one of them, and of what their answers depend on:
-    their code without the commit's name, the cases, the claims, and the scripts that test the
-    program."""
-    objects = [
-        BUILD / unit.object
-        for unit in plan.units
-        if (program is None or unit.object in plan.objects[program])
-        and not any(path.name == "build_facts.h" for path in unit.made_from)
-    ]
-    key = hashlib.sha256()
-    read = sorted((ROOT / "cases").rglob("*.*")) + sorted(
-        (ROOT / "verification/claims").glob("*.toml")
-    )
+    their code without the commit's name, the cases, the claims, the scripts that test the program,
+    and the independent program with its cases."""
+    read = [BUILD / unit.object for unit in plan.units
+            if (program is None or unit.object in plan.objects[program])
+            and not any(path.name == "build_facts.h" for path in unit.made_from)]
+    read += sorted((ROOT / "cases").rglob("*.*"))
+    read += sorted((ROOT / "verification/claims").glob("*.toml"))
     read += [file for file in PYTHON_TESTS.values() if file.parent.name == "tests"]
-    read += [ROOT / f"scripts/tests/{name}_case.py" for name in ("program", "judge")]
-    read += files_of_independent()
-    for path in objects + read:
+    read += [ROOT / f"scripts/tests/{name}.py" for name in SHARED_BY_TESTS]
+    independent = PYTHON_TESTS["IndependentTest"].parent.rglob("*.*")
+    read += sorted(path for path in independent if path.suffix in (".py", ".toml", ".obj"))
+    key = hashlib.sha256()
+    for path in read:
         key.update(path.read_bytes())
     return key.hexdigest()
 
@@ -172,44 +154,35 @@ def compile_mutant(plan: Plan, edit: Edit, overlay: Path) -> dict[str, list[Path
     copy.parent.mkdir(parents=True)
     copy.write_text(edit.text, encoding="utf-8")
     objects = {}
-    for number, unit in enumerate(units_made_from(plan, edit.file)):
-        together = sources_of(unit)
-        objects[unit.object] = [overlay / f"{number}.o"]
-        source = copy if original in together else Path(unit.command[-1])
-        compile_unit(plan, unit, source, objects[unit.object][0], overlay)
-        if original in together:  # the others that are compiled as one with it, as they are
-            objects[unit.object] += [
-                compile_apart(plan, unit, other) for other in together if other != original
-            ]
+    for number, (unit, source, others) in enumerate(units_made_from(plan, edit.file)):
+        target = overlay / f"{number}.o"
+        compile_unit(plan, unit, copy if source == original else source, target, overlay)
+        objects[unit.object] = [target, *(compile_apart(plan, unit, other) for other in others)]
     return objects
-
-
-def units_made_from(plan: Plan, file: str) -> list[Unit]:
-    original = (ROOT / file).resolve()
-    touched = [unit for unit in plan.units if original in unit.made_from]
-    if not touched:
-        raise Unusable(f"nothing in the program is made from {file}")
-    return touched
 
 
 def compile_unedited(plan: Plan, file: str) -> dict[str, list[Path]]:
     """The objects that a mutant of this file replaces, made of the unedited file with a mutant's
     flags. They are compiled once after each change."""
-    original, objects = (ROOT / file).resolve(), {}
-    for unit in units_made_from(plan, file):
+    return {unit.object: [compile_apart(plan, unit, one) for one in (source, *others)]
+            for unit, source, others in units_made_from(plan, file)}
+
+
+def units_made_from(plan: Plan, file: str) -> list[tuple[Unit, Path, list[Path]]]:
+    """Each unit that reads the file, the source of it that is compiled anew, and the others that
+    are compiled as one with the file itself."""
+    original, touched = (ROOT / file).resolve(), []
+    for unit in plan.units:
+        if original not in unit.made_from:
+            continue
         together = sources_of(unit)
-        apart = [original, *(other for other in together if other != original)]
-        sources = apart if original in together else [Path(unit.command[-1])]
-        objects[unit.object] = [compile_apart(plan, unit, source) for source in sources]
-    return objects
-
-
-def write_at_once(path: Path, text: str) -> None:
-    """Another program that reads the file now finds the old text, or the new one."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    part = path.with_suffix(f".{os.getpid()}.part")
-    part.write_text(text, encoding="utf-8")
-    part.replace(path)
+        if original in together:
+            touched.append((unit, original, [one for one in together if one != original]))
+        else:
+            touched.append((unit, Path(unit.command[-1]), []))
+    if not touched:
+        raise Unusable(f"nothing in the program is made from {file}")
+    return touched
 
 
 APART = collections.defaultdict(threading.Lock)
@@ -243,19 +216,13 @@ def compile_unit(plan: Plan, unit: Unit, source: Path, target: Path, overlay: Pa
 
 
 def quick_compile_command(plan: Plan, command: list[str]) -> list[str]:
-    """The command with -O1 in place of -O3, and with the precompiled
-    header that was made with -O1."""
+    """The command with -O1 in place of -O3, and with the precompiled header that was made with
+    -O1."""
     words = list(command)
     if "-O3" not in words or "-O1" in words:
         return words
-    header = next(
-        (
-            unit.command
-            for unit in plan.units
-            if "-O1" in unit.command and "-include" in unit.command
-        ),
-        None,
-    )
+    header = next((unit.command for unit in plan.units
+                   if "-O1" in unit.command and "-include" in unit.command), None)
     if header and "-include" in words:
         words[words.index("-include") + 1] = header[header.index("-include") + 1]
     words.insert(words.index("-c"), "-O1")  # the last one counts
@@ -272,19 +239,13 @@ def link_mutant(plan: Plan, objects: dict[str, list[Path]], program: str, overla
     link = plan.links[program]
     words = [str(path) for word in link for path in objects.get(word, [word])]
     libraries = next((place for place, word in enumerate(words) if word.endswith(".a")), len(words))
-    in_library = [
-        str(path)
-        for name, paths in objects.items()
-        if name not in link and is_of(link, name)
+    words[libraries:libraries] = [
+        str(path) for name, paths in objects.items() if name not in link and is_of(link, name)
         for path in paths
     ]
-    words[libraries:libraries] = in_library
     words[words.index("-o") + 1] = str(overlay / program)
-    make([*words[:1], *LINKER, *words[1:]], "does not link", Unusable)
+    make([words[0], "-fuse-ld=gold", *words[1:]], "does not link", Unusable)
     return overlay / program
-
-
-LINKER = ["-fuse-ld=gold"]
 
 
 def is_of(link: list[str], name: str) -> bool:
@@ -320,34 +281,14 @@ def ask(program: Path, arguments: list[str], key: str, clock: float | None = Non
         ) from error
 
 
-@functools.cache
-def listed() -> dict[str, Any]:
-    """All that `foldproof list --json` says. It reads every case, so the answer is kept for as long
-    as the program and the cases are the same."""
-    digest = hashlib.sha256(PROGRAM.read_bytes())
-    for case in sorted((ROOT / "cases").rglob("*.toml")):
-        digest.update(case.read_bytes())
-    key = digest.hexdigest()
-    kept = json.loads(LISTED.read_text(encoding="utf-8")) if LISTED.is_file() else {}
-    if kept.get("key") != key:
-        said = run([PROGRAM, "list", "--json"], ROOT, None).stdout
-        kept = {"key": key, "listed": json.loads(said)}
-        write_at_once(LISTED, json.dumps(kept))
-    return kept["listed"]
-
-
-def findings(
-    program: Path, names: list[str], clock: float | None = None, tier: str = "quick"
-) -> list[dict]:
+def findings(program: Path, names: list[str], clock: float | None = None,
+             tier: str = "quick") -> list[dict]:
     """Findings of the checks, studies and cases with these names (all checks, if there are none):
     rows with name, outcome, measured, bound, margin, seconds."""
-    rows = [
-        row
-        for row in ask(program, ["check", *names, "--tier", tier], "findings", clock)
-        if row["kind"] != "claim"
-    ]
+    rows = ask(program, ["check", *names, "--tier", tier], "findings", clock)
     keys = ("name", "outcome", "measured", "bound", "seconds")
-    return [{key: row[key] for key in keys} | {"margin": margin_of(row)} for row in rows]
+    return [{key: row[key] for key in keys} | {"margin": margin_of(row)}
+            for row in rows if row["kind"] != "claim"]
 
 
 def margin_of(row: dict) -> float | None:
@@ -378,7 +319,5 @@ def unit_tests(program: Path, names: list[str], clock: float | None) -> list[dic
 
 
 def outcome_of_test(name: str, passed: bool) -> dict:
-    return {
-        "name": name, "outcome": "holds" if passed else "fails", "measured": None, "bound": None,
-        "margin": None
-    }
+    outcome = "holds" if passed else "fails"
+    return {"name": name, "outcome": outcome, "measured": None, "bound": None, "margin": None}

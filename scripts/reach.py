@@ -27,18 +27,12 @@ from collections.abc import Iterator, Set
 from pathlib import Path
 from typing import NamedTuple
 
-from clocked import run
+from builds import ROOT, Unusable, build, output_of, write_at_once
 from cpp_pieces import CODE, pieces_of
 from mutant_questions import (
-    FOLDER,
-    TEST,
-    Batch,
-    catchers_of,
-    clock_of,
-    does_not_hold,
-    faults_listed,
+    FOLDER, TEST, Batch, catchers_of, clock_of, does_not_hold, faults_listed
 )
-from mutants import ROOT, Plan, Unusable, findings, keys_of, unit_tests, write_at_once
+from mutants import Plan, findings, keys_of, unit_tests
 from occurrences import occurrences
 
 BUILD = ROOT / "build-reach"
@@ -55,10 +49,8 @@ BY_COMPILER = {"constexpr", "consteval"}
 def functions_of(text: str) -> list[range]:
     """The lines of each function with a body, of classes too; a lambda's are its function's."""
     starts = [0, *(place + 1 for place, sign in enumerate(text) if sign == "\n")]
-    return [
-        range(bisect.bisect(starts, first), bisect.bisect(starts, last) + 1)
-        for first, last in bodies_of(text)
-    ]
+    return [range(bisect.bisect(starts, first), bisect.bisect(starts, last) + 1)
+            for first, last in bodies_of(text)]
 
 
 def bodies_of(text: str) -> Iterator[tuple[int, int]]:
@@ -96,9 +88,8 @@ def opens_scope(words: list[str]) -> bool:
 
 
 def is_function(words: list[str]) -> bool:
-    is_value = any(
-        word == "=" and before != "operator" for before, word in zip(["", *words], words)
-    )
+    is_value = any(word == "=" and before != "operator"
+                   for before, word in zip(["", *words], words))
     return "(" in words and not is_value and BY_COMPILER.isdisjoint(words)
 
 
@@ -124,22 +115,17 @@ class Table(NamedTuple):
 
 
 def to_json(table: Table, keys: dict[str, str]) -> str:
-    masks = {
-        file: {str(line): f"{mask:x}" for line, mask in lines.items()}
-        for file, lines in table.reached.items()
-    }
-    return json.dumps(
-        {"keys": keys, "names": table.names, "unknown": sorted(table.unknown), "reached": masks}
-    )
+    masks = {file: {str(line): f"{mask:x}" for line, mask in lines.items()}
+             for file, lines in table.reached.items()}
+    return json.dumps({"keys": keys, "names": table.names, "unknown": sorted(table.unknown),
+                       "reached": masks})
 
 
 def from_json(text: str, keys: dict[str, str]) -> Table:
     """Without the names that a program of another build was asked."""
     kept = json.loads(text)
-    reached = {
-        file: {int(line): int(mask, 16) for line, mask in lines.items()}
-        for file, lines in kept["reached"].items()
-    }
+    reached = {file: {int(line): int(mask, 16) for line, mask in lines.items()}
+               for file, lines in kept["reached"].items()}
     table = Table(kept["names"], set(kept["unknown"]), reached)
     same = {program for program, key in keys.items() if kept.get("keys", {}).get(program) == key}
     return table if same == set(keys) else only(table, same)
@@ -173,7 +159,7 @@ def read_table(plan: Plan, seconds: dict[str, float], jobs: int) -> Table:
         missing = {name: each for name, each in seconds.items() if name not in set(table.names)}
         if missing:
             print(f"reach: {len(missing)} names, once for this build", flush=True)
-            build_programs(jobs)
+            build(BUILD, list(PROGRAMS), "-DREACH=ON", jobs=jobs)
             table = with_names(table, missing, jobs)
             if missed := missed_catchers(table, faults_listed()):
                 raise Unusable(f"these notice faults in functions that they do not seem to reach:"
@@ -207,23 +193,9 @@ class Function(NamedTuple):
     line: int
 
 
-def build_programs(jobs: int) -> None:
-    if not (BUILD / "build.ninja").is_file():
-        make(["cmake", "-S", ROOT, "-B", BUILD, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
-              "-DREACH=ON"])
-    make(["ninja", "-C", BUILD, "-j", str(jobs), *PROGRAMS])
-
-
-def make(command: list) -> None:
-    done = run(command, ROOT)
-    if done.returncode:
-        said = (done.stdout + done.stderr)[-2000:]
-        raise Unusable(f"`{' '.join(map(str, command))}` failed:\n{said}")
-
-
 def functions_in(program: Path) -> list[Function]:
     """Our functions in the program. What initializes constants is none: it has no line."""
-    rows = [line.split() for line in run(["nm", program], ROOT).stdout.splitlines()]
+    rows = [line.split() for line in output_of(["nm", program]).splitlines()]
     rows = [row for row in rows if len(row) == 3 and "initialization_and_" not in row[2]]
     start = next(int(row[0], 16) for row in rows if row[2] == "__executable_start")
     places = sorted({int(row[0], 16) for row in rows if row[1] in "tTwW"})
@@ -237,9 +209,8 @@ def functions_in(program: Path) -> list[Function]:
 
 def lines_of(program: Path, places: list[int]) -> list[tuple[str, int]]:
     asked = "".join(f"{place:x}\n" for place in places)
-    told = subprocess.run(
-        ["addr2line", "-e", program], input=asked, capture_output=True, text=True, check=True
-    ).stdout
+    told = subprocess.run(["addr2line", "-e", program], input=asked, capture_output=True, text=True,
+                          check=True).stdout
     found = []
     for text in told.splitlines():  # `/path/file.cpp:12 (discriminator 3)`
         file, _, line = text.partition(" ")[0].rpartition(":")
@@ -253,10 +224,8 @@ def with_names(table: Table, seconds: dict[str, float], jobs: int) -> Table:
     names, unknown, reached = [*table.names], {*table.unknown}, table.reached
     for one in itertools.chain(*functions.values()):
         reached.setdefault(one.file, {}).setdefault(one.line, 0)
-    with (
-        tempfile.TemporaryDirectory(dir=FOLDER) as folder,
-        concurrent.futures.ProcessPoolExecutor(jobs) as pool,
-    ):
+    with (tempfile.TemporaryDirectory(dir=FOLDER) as folder,
+          concurrent.futures.ProcessPoolExecutor(jobs) as pool):
         places = {program: [one.place for one in each] for program, each in functions.items()}
         measure = functools.partial(places_reached, Path(folder), places)
         for name, run_places in zip(seconds, pool.map(measure, seconds.items())):
@@ -272,9 +241,8 @@ def with_names(table: Table, seconds: dict[str, float], jobs: int) -> Table:
     return Table(names, unknown, reached)
 
 
-def places_reached(
-    folder: Path, places: dict[str, list[int]], asked: tuple[str, float]
-) -> dict[str, set[int]] | None:
+def places_reached(folder: Path, places: dict[str, list[int]],
+                   asked: tuple[str, float]) -> dict[str, set[int]] | None:
     """By program, those of the places that a name runs; None if it does not hold here."""
     name, seconds = asked
     record = folder / str(os.getpid())
@@ -286,13 +254,9 @@ def places_reached(
         os.truncate(file, (BUILD / program).stat().st_size // 4)  # more than enough
     if not holds(name, clock_of(Batch([name], seconds))):
         return None
-    found = {}
-    for program, file in files.items():
-        bits = file.read_bytes()
-        found[program] = {
-            place for place in places[program] if bits[place // 8] >> place % 8 & 1
-        }
-    return found
+    bits = {program: file.read_bytes() for program, file in files.items()}
+    return {program: {place for place in places[program]
+                      if bits[program][place // 8] >> place % 8 & 1} for program in files}
 
 
 def holds(name: str, clock: float) -> bool:

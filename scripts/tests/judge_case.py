@@ -1,15 +1,16 @@
 """What the tests of `foldproof judge` and of its protocol share: the solvers that are shipped, and
 one that writes down what passes the pipe."""
 
-import tempfile
-import unittest
 from pathlib import Path
 
-from program_case import ROOT
+from program_case import ROOT, ProgramCase
 
 SUBJECTS = ROOT / "verification" / "subjects"
 PYTHON = "exec /usr/bin/python3"
 TOY = f"{PYTHON} '{SUBJECTS}/adapters/toy_solver.py'"
+# settings with which the toy can run a sheet
+SPRINGS = ("--set", "bending.stiffness=0", "--set", "stretch.damping=0", "--set",
+           "time.step=5e-4")
 
 # An adapter that writes down every header that comes or goes, and states its settings as its
 # mapping.
@@ -44,12 +45,7 @@ def bad(program: str, kind: str) -> str:
     return f"{PYTHON} '{SUBJECTS}/bad/{program}.py' {kind}"
 
 
-class JudgeCase(unittest.TestCase):
-    def setUp(self) -> None:
-        folder = tempfile.TemporaryDirectory(prefix="foldproof judge ")
-        self.addCleanup(folder.cleanup)
-        self.path = Path(folder.name)
-
+class JudgeCase(ProgramCase):
     def logging_solver(self, *more: str) -> tuple[str, Path]:
         """A command, and the file of its headers. It declares more capabilities, and ignores what
         it is then sent."""

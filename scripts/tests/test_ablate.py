@@ -7,13 +7,9 @@ scripts/tests/test_ablate.py [AblateTest.test_...]
 
 import json
 import subprocess
-import sys
-import time
 import unittest
 
-sys.dont_write_bytecode = True
-
-from file_tests import CLOCK, PROGRAM, ROOT, FileTest, run  # noqa: E402
+from program_case import ROOT, ProgramCase, run, run_until
 
 DISC = """
 [cloth]
@@ -39,33 +35,30 @@ coarser_mesh = "cloth.rings=4"
 """
 
 
-class AblateTest(FileTest):
+class AblateTest(ProgramCase):
     def ablate(self, *arguments: str) -> subprocess.CompletedProcess[str]:
-        return run("ablate", *arguments, "--out", str(self.path / "out"))
+        return run("ablate", *arguments, "--out", self.out)
 
     def read_answer(self) -> list[dict]:
         return json.loads((self.path / "out" / "ablation.json").read_text())["cases"]
 
     def test_it_says_what_a_scene_needs(self) -> None:
-        case = ROOT / "cases" / "incline.toml"
-        undeclared = self.write("undeclared.toml", case.read_text().split("[ablation]")[0])
+        text = (ROOT / "cases" / "incline.toml").read_text()
+        undeclared = self.write("undeclared.toml", text.split("[ablation]")[0])
         self.assertEqual(self.ablate(undeclared, "--set", "time.end=0.2").returncode, 1)
-        done = self.ablate(str(case), "--set", "time.end=0.2")
-        self.assertEqual(done.returncode, 0, done.stderr)
-        read_answer, *others = self.read_answer()
+        self.assert_holds(self.ablate("incline", "--set", "time.end=0.2"))
+        answer, *others = self.read_answer()
         # what is not asked again stays
         self.assertEqual([row["case"] for row in others], ["undeclared"])
-        self.assertEqual(read_answer["overrides"], ["time.end=0.2"])
-        need = {part["name"]: part["need"] for part in read_answer["parts"]}
+        self.assertEqual(answer["overrides"], ["time.end=0.2"])
+        need = {part["name"]: part["need"] for part in answer["parts"]}
         self.assertEqual(need["friction of objects"], "needed")
         self.assertEqual(need["object 'slope'"], "needed")
         self.assertEqual(need["self-collision"], "no effect if added")
-        stopped = self.ablate(str(case), "--set", "time.max_steps=3")
+        stopped = self.ablate("incline", "--set", "time.max_steps=3")
         self.assertEqual(stopped.returncode, 1, stopped.stderr)
-        self.assertIn(
-            "! the scene itself stops early: the cap on the number of steps",
-            stopped.stdout,
-        )
+        self.assertIn("! the scene itself stops early: the cap on the number of steps",
+                      stopped.stdout)
 
     def test_a_coarser_mesh_says_the_error_that_a_finer_one_says(self) -> None:
         disc = self.write("disc.toml", DISC)
@@ -74,9 +67,8 @@ class AblateTest(FileTest):
         done = self.ablate(disc, "--set", 'ablation.coarser_mesh=""')
         finer = self.read_answer()[0]["own_error"]
         self.assertEqual((coarser["coarser_mesh"], finer["coarser_mesh"]), (["cloth.rings=4"], []))
-        self.assertRegex(
-            done.stdout, r"own error \d.*\n  its steps: \d.*\n  its mesh: \d.*2 meshes"
-        )
+        self.assertRegex(done.stdout,
+                         r"own error \d.*\n  its steps: \d.*\n  its mesh: \d.*2 meshes")
         self.assertEqual(coarser["time"], finer["time"])
         # both hold an error e: of second order halving shows 3 e / 4 and 2.5 times the size e, of
         # first order e / 2 and e / 3.5
@@ -86,12 +78,8 @@ class AblateTest(FileTest):
     def test_its_own_error_of_three_meshes_is_that_of_converge(self) -> None:
         disc = self.write("disc.toml", DISC.replace("rings = 10", "rings = 3"))
         finer = ("--set", 'ablation.coarser_mesh=""')
-        told = json.loads(
-            run(
-                "converge", disc, *finer, "--in", "space", "--levels", "3", "--json",
-                "--out", str(self.path / "out")
-            ).stdout
-        )
+        told = self.told("converge", disc, *finer, "--in", "space", "--levels", "3", "--out",
+                         self.out)
         self.ablate(disc, *finer, "--mesh-levels", "3")
         own = self.read_answer()[0]["own_error"]
         self.assertEqual(own["mesh"], told["quantities"][0]["error_as_it_is"])
@@ -102,29 +90,21 @@ class AblateTest(FileTest):
 
     def test_its_own_error_in_time_is_that_of_converge(self) -> None:
         disc = self.write("disc.toml", DISC)
-        out = str(self.path / "out")
-        told = json.loads(
-            run("converge", disc, "--levels", "3", "--json", "--out", out).stdout
-        )
+        told = self.told("converge", disc, "--levels", "3", "--out", self.out)
         before = self.read_labels()
-        self.ablate(disc)
-        self.assertEqual(
-            self.read_answer()[0]["own_error"]["time"], told["quantities"][0]["error_as_it_is"]
-        )
-        # its three levels were there
-        self.assertEqual(
-            [label for label in self.read_labels()[len(before):] if "steps divided" in label], []
-        )
         self.assertTrue([label for label in before if "steps divided by 4" in label])
+        self.ablate(disc)
+        self.assertEqual(self.read_answer()[0]["own_error"]["time"],
+                         told["quantities"][0]["error_as_it_is"])
+        # its three levels were there
+        self.assertEqual([label for label in self.read_labels()[len(before):]
+                          if "steps divided" in label], [])
 
     def read_labels(self) -> list[str]:
         """Of the runs that were begun."""
-        return [
-            row["label"]
-            for file in sorted((self.path / "out" / "store" / "shards").iterdir())
-            for row in map(json.loads, file.read_text().splitlines())
-            if "label" in row
-        ]
+        shards = sorted((self.path / "out" / "store" / "shards").iterdir())
+        rows = [json.loads(line) for file in shards for line in file.read_text().splitlines()]
+        return [row["label"] for row in rows if "label" in row]
 
     def test_a_case_may_ask_of_its_beginning_only(self) -> None:
         disc = self.write("disc.toml", DISC)
@@ -135,64 +115,34 @@ class AblateTest(FileTest):
         self.ablate(disc, "--set", "time.end=0.04", "--set", "ablation.until=7")
         short = self.read_answer()[0]
         self.assertEqual((short["asked_end"], short["end"]), (0.04, 0.04))
-        self.assertEqual(
-            [part["position_difference"] for part in begun["parts"]],
-            [part["position_difference"] for part in short["parts"]],
-        )
+        self.assertEqual(*([part["position_difference"] for part in one["parts"]]
+                           for one in (begun, short)))
 
     def test_what_cannot_be_is_refused(self) -> None:
         disc = self.write("disc.toml", DISC)
-        self.assert_rejected(
-            self.ablate(disc, "--set", 'ablation.wind="it blows"'),
-            "[ablation] names a part 'wind' that cannot be toggled; known: finer mesh, gravity",
-        )
-        self.assert_rejected(
-            self.ablate(disc, "--set", 'ablation.coarser_mesh="cloth.rings=9"'),
-            (
-                "disc.toml: [ablation] coarser_mesh: 486 triangles of 600; give one with sides at"
-                " least 1.2 times as long"
-            ),
-        )
-        self.assert_rejected(
-            self.ablate(disc, "--set", 'ablation.coarser_mesh="cloth.ring=4"'), "unknown key 'ring'"
-        )
-        self.assert_rejected(
-            self.ablate(disc, "--set", "ablation.coarser_mesh=4"), "must be a text"
-        )
-        self.assert_rejected(self.ablate(disc, "--set", "ablation.until=0"), "must be > 0 s")
-        self.assert_rejected(
-            self.ablate(
-                disc, "--set", 'ablation.coarser_mesh=["cloth.rings=4", "cloth.radius=0.2"]'
-            ),
-            "give a mesh of the same surface",
-        )
-        for reaching in ("cloth.mesh=/etc/passwd", "cloth.rings", "cloth.rings="):
-            self.assert_rejected(
-                self.ablate(disc, "--set", f'ablation.coarser_mesh="{reaching}"'),
-                "is not table.key=number",
-            )
+        for setting, said in (
+            ('wind="it blows"', "[ablation] names a part 'wind' that cannot be toggled; known: "),
+            ('coarser_mesh="cloth.rings=9"', "disc.toml: [ablation] coarser_mesh: 486 triangles of"
+                                             " 600; give one with sides at least 1.2 times"),
+            ('coarser_mesh="cloth.ring=4"', "unknown key 'ring'"),
+            ("coarser_mesh=4", "must be a text"), ("until=0", "must be > 0 s"),
+            ('coarser_mesh=["cloth.rings=4", "cloth.radius=0.2"]',
+             "give a mesh of the same surface"),
+            ('coarser_mesh="cloth.mesh=/etc/passwd"', "is not table.key=number"),
+            ('coarser_mesh="cloth.rings"', "is not table.key=number"),
+            ('coarser_mesh="cloth.rings="', "is not table.key=number"),
+            ('finer mesh="a trial"', "does without a finer mesh, and names a coarser one")
+        ):
+            self.assert_refused(self.ablate(disc, "--set", f"ablation.{setting}"), said)
         (self.path / "out" / "ablation.json").mkdir(parents=True)
-        self.assert_rejected(self.ablate(disc), "ablation.json")
-        self.assert_rejected(
-            self.ablate(disc, "--set", 'ablation.finer mesh="a trial"'),
-            "does without a finer mesh, and names a coarser one",
-        )
+        self.assert_refused(self.ablate(disc), "ablation.json")
 
     def test_a_run_that_is_killed_leaves_the_cases_that_it_was_through_with(self) -> None:
         soon = self.write("soon.toml", DISC.replace("end = 0.1", "end = 0.02"))
         late = self.write("late.toml", DISC.replace("end = 0.1", "end = 1000"))
         found = self.path / "out" / "ablation.json"
-        running = subprocess.Popen(
-            [str(PROGRAM), "ablate", soon, late, "--threads", "2", "--out", str(found.parent)],
-            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
-        )
-        end = time.monotonic() + CLOCK
-        try:
-            while not found.is_file() and running.poll() is None and time.monotonic() < end:
-                time.sleep(0.05)
-        finally:
-            running.kill()
-            running.wait()
+        run_until(lambda _: found.is_file(), "ablate", soon, late, "--threads", "2", "--out",
+                  self.out)
         self.assertEqual([row["case"] for row in self.read_answer()], ["soon"])
 
 

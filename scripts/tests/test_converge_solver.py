@@ -4,16 +4,13 @@
 scripts/tests/test_converge_solver.py [SolverTest.test_...]
 """
 
-import json
-import sys
 import unittest
 from typing import Any
 
-sys.dont_write_bytecode = True
+from judge_case import SPRINGS, bad
+from program_case import PROGRAM, SHEET, SPINNING_PLANE, ProgramCase
 
-from program_case import PROGRAM, ROOT, SHEET, ProgramCase, run  # noqa: E402
-
-SUBJECTS = ROOT / "verification" / "subjects"
+SERVED = f"'{PROGRAM}' serve --integrator"
 
 RING = """
 [[object]]
@@ -38,40 +35,20 @@ turn = { axis = [0, 1, 0], angle = 95 }
 move = [0.22, 0.08, -0.065]
 """
 
-SPINNING_PLANE = """
-[[object]]
-shape = "half_space"
-move = [0, 0, -1]
-angular_velocity = [0, 0, 90]
-"""
-
 
 class SolverTest(ProgramCase):
     """`converge --solver`: another solver's steps, beside the reference's."""
 
-    SERVED = f"'{PROGRAM}' serve --integrator"
-    WRONG = f"/usr/bin/python3 '{SUBJECTS / 'bad' / 'wrong.py'}'"
-    SPRINGS = (
-        *("--set", "bending.stiffness=0"),
-        *("--set", "stretch.damping=0"),
-        *("--set", "time.step=5e-4"),
-    )
-
     def ladders(self, solver: str, *words: str, objects: str = "") -> list[dict[str, Any]]:
         sheet = self.write("sheet.toml", SHEET + objects)
-        done = run(
-            "converge", sheet, "--solver", solver, *words, "--json", "--out", str(self.path / "out")
-        )
-        self.assertIn(done.returncode, (0, 1), done.stderr)
-        return json.loads(done.stdout)["ladders"]
+        return self.told("converge", sheet, "--solver", solver, *words, "--out",
+                         self.out)["ladders"]
 
     def test_the_reference_over_the_pipe_is_the_reference(self) -> None:
         for method, order in (("C", 2), ("backward-euler", 1)):
             here, there = self.ladders(
-                f"{self.SERVED} {method}", "--method", method,
-                *("--set", "time.step=1e-3"),
-                *("--set", "gravity.acceleration=[0, -6, 8]")  # which bends the sheet, too
-            )
+                f"{SERVED} {method}", "--method", method, "--set", "time.step=1e-3",
+                "--set", "gravity.acceleration=[0, -6, 8]")  # which bends the sheet, too
             self.assertTrue(there["method"].startswith("foldproof reference"))
             self.assertLess(there["from_reference"], 1e-10)
             self.assertFalse(there["beyond_steps"])
@@ -84,16 +61,14 @@ class SolverTest(ProgramCase):
 
     def test_balls_and_capsules_are_the_same_over_the_pipe(self) -> None:
         words = ("--set", "time.step=1e-3", "--set", "gravity.acceleration=[0, -6, -8]")
-        free, hit = (
-            self.ladders(f"{self.SERVED} C", *words, objects=objects)
-            for objects in ("", BALL_AND_ARM)
-        )
+        free, hit = (self.ladders(f"{SERVED} C", *words, objects=objects)
+                     for objects in ("", BALL_AND_ARM))
         self.assertLess(hit[1]["from_reference"], 1e-10)
         self.assertNotEqual(hit[0]["quantities"], free[0]["quantities"])  # it meets them
 
     def test_an_independent_solver_has_its_own_order_and_the_same_limit(self) -> None:
         for kind in ("none", "backward_euler"):
-            reference, other = self.ladders(f"{self.WRONG} {kind}", *self.SPRINGS)
+            reference, other = self.ladders(bad("wrong", kind), *SPRINGS)
             self.assertAlmostEqual(reference["quantities"][0]["order"], 2, delta=0.1)
             self.assertAlmostEqual(other["quantities"][0]["order"], 1, delta=0.1)
             self.assertEqual(other["quantities"][0]["reading"], "asymptotic")
@@ -101,7 +76,7 @@ class SolverTest(ProgramCase):
             self.assertGreater(other["from_reference"], 0)
 
     def test_another_model_is_told_from_steps(self) -> None:
-        reference, other = self.ladders(f"{self.WRONG} gravity_scaled", *self.SPRINGS)
+        reference, other = self.ladders(bad("wrong", "gravity_scaled"), *SPRINGS)
         self.assertTrue(other["beyond_steps"])
         self.assertIn("so the models differ", other["in_words"])
         # 2 % of what gravity does: the springs hardly leave their linear range
@@ -111,10 +86,9 @@ class SolverTest(ProgramCase):
     def test_a_solver_is_asked_before_the_horizon_only(self) -> None:
         # pressed against its held edge the sheet buckles, and its motion is soon not predictable
         here, there = self.ladders(
-            f"{self.SERVED} C", *("--set", "gravity.acceleration=[3, 30, 2]"),
-            *("--set", "stretch.damping=0", "--set", "bending.stiffness=1e-4"),
-            *("--set", "time.end=2", "--set", "time.step=2e-3", "--levels", "3")
-        )
+            f"{SERVED} C", "--set", "gravity.acceleration=[3, 30, 2]", "--set",
+            "stretch.damping=0", "--set", "bending.stiffness=1e-4", "--set", "time.end=2", "--set",
+            "time.step=2e-3", "--levels", "3")
         self.assertLess(here["predictability"]["horizon"], 0.5)
         ours, theirs = here["quantities"][0], there["quantities"][0]
         self.assertEqual(theirs["reading"], ours["reading"])
@@ -124,15 +98,13 @@ class SolverTest(ProgramCase):
         self.assertLess(there["from_reference"], 1e-9)
 
     def test_the_report_has_both_ladders(self) -> None:
-        self.ladders(f"{self.WRONG} none", *self.SPRINGS)
-        done = run("report", str(self.path / "out"))
-        self.assertEqual(done.returncode, 0, done.stderr)
-        page = (self.path / "out" / "report.html").read_text(encoding="utf-8")
+        self.ladders(bad("wrong", "none"), *SPRINGS)
+        page = self.page_of(self.out)
         self.assertIn("toy springs", page)
         self.assertIn("m apart", page)
 
     def test_what_the_protocol_cannot_say_is_refused(self) -> None:
-        sheet, toy = self.write("sheet.toml", SHEET), f"{self.WRONG} none"
+        sheet, toy = self.write("sheet.toml", SHEET), bad("wrong", "none")
         spins = self.write("spins.toml", SHEET + SPINNING_PLANE)
         ring = self.write("ring.toml", SHEET + RING)
         for words, why in (
@@ -151,9 +123,7 @@ class SolverTest(ProgramCase):
             ([sheet, "--settings", "a=1"], "--settings requires --solver"),
         ):
             with self.subTest(why=why):
-                done = run("converge", *words, "--out", str(self.path / "out"))
-                self.assertEqual((done.returncode, done.stdout), (2, ""))
-                self.assertIn(why, done.stderr)
+                self.assertIn(why, self.assert_rejected("converge", *words, "--out", "new"))
 
 
 if __name__ == "__main__":

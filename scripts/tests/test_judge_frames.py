@@ -8,30 +8,27 @@ scripts/tests/test_judge_frames.py [--program FILE] [JudgeFrames.test_...]
 
 import json
 import shutil
-import sys
+import subprocess
 import unittest
 
-sys.dont_write_bytecode = True
-
-from file_tests import FileTest, run  # noqa: E402
+from program_case import ProgramCase, run
 
 CASE = "drape_sphere"
 RATE = ("--rate", "30")
 
 
-class JudgeFrames(FileTest):
-
+class JudgeFrames(ProgramCase):
     def setUp(self) -> None:
         super().setUp()
-        self.assertEqual(self.simulate(CASE).returncode, 0)
+        self.assert_holds(self.simulate(CASE))
         for form in ("ply", "obj"):
-            run(
-                "export", str(self.path / f"out/{CASE}.h5"), "--format", form, "--out",
-                str(self.path / form)
-            )
+            run("export", f"{self.out}/{CASE}.h5", "--format", form, "--out", self.path / form)
+
+    def run_judge(self, form: str, *words: str) -> subprocess.CompletedProcess[str]:
+        return run("judge", "--frames", self.path / form, "--case", CASE, *words)
 
     def judge(self, form: str, *words: str) -> dict[str, str]:
-        done = run("judge", "--frames", str(self.path / form), "--case", CASE, "--json", *words)
+        done = self.run_judge(form, "--json", *words)
         self.assertIn(done.returncode, (0, 1), done.stderr)
         return {row["name"]: row["outcome"] for row in json.loads(done.stdout)["findings"]}
 
@@ -45,37 +42,22 @@ class JudgeFrames(FileTest):
         shutil.copytree(self.path / "obj", self.path / "bad")
         last = sorted((self.path / "bad").glob("*.obj"))[-1]
         lines = [line.split() for line in last.read_text(encoding="utf-8").splitlines()]
-        sunk = [
-            [*line[:2], str(float(line[2]) - 0.1), *line[3:]] if line and line[0] == "v" else line
-            for line in lines
-        ]
+        sunk = [[*line[:2], str(float(line[2]) - 0.1), *line[3:]] if line[:1] == ["v"] else line
+                for line in lines]
         last.write_text("\n".join(map(" ".join, sunk)) + "\n", encoding="utf-8")
         outs = [str(self.path / f"judged_{form}") for form in ("obj", "bad")]
         for form, out in zip(("obj", "bad"), outs):
             outcomes = self.judge(form, *RATE, "--out", out, "--name", form)
-            self.assertEqual(
-                outcomes["frames.vertices-stay-outside"], "holds" if form == "obj" else "fails"
-            )
-        for arguments in (outs[1:], outs):
-            done = run("report", *arguments)
-            self.assertEqual(done.returncode, 0, done.stderr)
-        page = (self.path / "judged_bad/compare.html").read_text(encoding="utf-8")
-        self.assertIn("frames.vertices-stay-outside", page)
-        alone = (self.path / "judged_bad/report.html").read_text(encoding="utf-8")
-        self.assertIn(f"frames.{CASE}", alone)
-        baseline = f"{outs[0]}/verdicts.json"
-        done = run(
-            "judge", "--frames", str(self.path / "bad"), "--case", CASE, *RATE, "--baseline",
-            baseline
-        )
+            self.assertEqual(outcomes["frames.vertices-stay-outside"],
+                             "holds" if form == "obj" else "fails")
+        self.assertIn(f"frames.{CASE}", self.page_of(outs[1]))
+        self.assertIn("frames.vertices-stay-outside", self.page_of(*outs, name="compare.html"))
+        done = self.run_judge("bad", *RATE, "--baseline", f"{outs[0]}/verdicts.json")
         self.assertEqual(done.returncode, 1)
         self.assertIn("worse: frames.vertices-stay-outside", done.stdout)
 
     def test_other_units_are_told_from_a_wrong_motion(self) -> None:
-        done = run(
-            "judge", "--frames", str(self.path / "obj"), "--case", CASE, *RATE, "--set",
-            "cloth.width=0.9"
-        )
+        done = self.run_judge("obj", *RATE, "--set", "cloth.width=0.9")
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertIn("suspect units, axes, the order of vertices", done.stdout)
 
@@ -84,8 +66,7 @@ class JudgeFrames(FileTest):
         lost = frames[3]
         lost.unlink()
         number = int(lost.stem.rsplit(".", 1)[-1])
-        done = run("judge", "--frames", str(self.path / "obj"), "--case", CASE, *RATE)
-        self.assert_rejected(done, f"frame {number} is missing before it")
+        self.assert_refused(self.run_judge("obj", *RATE), f"frame {number} is missing before it")
         for frame in frames[1::2]:  # every other frame, at half the rate
             frame.unlink(missing_ok=True)
         self.assertEqual(self.judge("obj", "--rate", "15")["frames.end-is-reached"], "holds")
@@ -99,8 +80,7 @@ class JudgeFrames(FileTest):
                             ((0, 0, 1), "none of the case's")):
             text[at] = " ".join([word, *(corners[k] for k in order)])
             frame.write_text("\n".join(text) + "\n", encoding="utf-8")
-            done = run("judge", "--frames", str(self.path / "obj"), "--case", CASE, *RATE)
-            heading = done.stdout.splitlines()[1]
+            heading = self.run_judge("obj", *RATE).stdout.splitlines()[1]
             self.assertIn("vertex order cannot match, triangle 0,", heading)
             self.assertIn(said, heading)
             self.assertIn("judged as another mesh", heading)
@@ -109,11 +89,7 @@ class JudgeFrames(FileTest):
         outs = [str(self.path / f"judged_{form}") for form in ("obj", "ply")]
         for form, out in zip(("obj", "ply"), outs):
             count = len(self.judge(form, "--out", out))
-        for arguments, name in ((outs[:1], "judged_obj/report.html"),
-                                (outs, "judged_ply/compare.html")):
-            done = run("report", *arguments)
-            self.assertEqual(done.returncode, 0, done.stderr)
-            page = (self.path / name).read_text(encoding="utf-8")
+        for page in (self.page_of(outs[0]), self.page_of(*outs, name="compare.html")):
             self.assertIn("needs prescribed particles", page)
             self.assertIn(f"{count} findings on", page)
             for word in ("this solver", "its adapter", "does not offer", "own process"):
@@ -130,7 +106,7 @@ class JudgeFrames(FileTest):
             (("--frames", obj, "--case", CASE, *RATE, "--settings", "a=1"), "--settings"),
             (("--solver", "x", "--set", "time.end=1"), "--frames"), ((), "--solver")
         ):
-            self.assert_rejected(run("judge", *typed), said)
+            self.assertIn(said, self.assert_rejected("judge", *typed))
 
 
 if __name__ == "__main__":

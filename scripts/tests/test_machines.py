@@ -3,11 +3,8 @@
 
 import contextlib
 import io
-import sys
 import unittest
 from unittest import mock
-
-sys.dont_write_bytecode = True
 
 import numpy as np
 

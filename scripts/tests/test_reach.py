@@ -2,17 +2,12 @@
 """Tests of what is asked of a mutant: where functions begin and end, and who reaches them."""
 from __future__ import annotations
 
-import sys
 import unittest
 
-sys.dont_write_bytecode = True
-
-from script_module import ROOT, script  # noqa: E402
-from edits import Change  # noqa: E402
-from mutant_trials import Judgement, Mutant, Questions, Target  # noqa: E402
-from reach import Table, from_json, functions_of, missed_catchers, to_json  # noqa: E402
-
-MUTATE = script("mutate")
+from script_module import ROOT
+from edits import Change
+from mutant_trials import Mutant, Questions, Target
+from reach import Table, from_json, functions_of, missed_catchers, to_json
 
 TEXT = """#include "x.h"
 namespace a {
@@ -89,9 +84,7 @@ class Reaching(unittest.TestCase):
         self.assertEqual(TABLE.names_for("a.cpp", TEXT, 9), {"one"})
         self.assertEqual(TABLE.names_for("a.cpp", TEXT, 25), {"two", "test: three"})
 
-    def test_constants_and_functions_without_code_are_of_the_file_but_in_a_header_of_all(
-        self
-    ) -> None:
+    def test_code_outside_of_functions_is_of_the_file_but_in_a_header_of_all(self) -> None:
         for line in (3, 4, 5, 12, 13, 29):
             found = TABLE.names_for("a.cpp", TEXT, line)
             self.assertEqual(found, {"one", "two", "test: three"}, line)
@@ -133,34 +126,18 @@ class Reaching(unittest.TestCase):
         elsewhere = TABLE._replace(reached={})
         self.assertEqual(missed_catchers(elsewhere, [fault]), [])
 
-    def asked(
-        self, line: int, table: Table | None, file: str = "a.cpp"
-    ) -> tuple[list[str], Judgement]:
-        trial = Trial(table)
-        judged = trial.ask_who_reaches(mutant(line, file), lambda program: None)
-        self.assertEqual(judged.outcome, "SURVIVED")
-        return sorted(trial.asked), judged
-
     def test_a_mutant_is_asked_what_reaches_it_and_what_was_not_measured(self) -> None:
-        names, judged = self.asked(9, TABLE)
-        self.assertEqual(names, ["fails", "one"])
-        self.assertEqual((judged.what, judged.left_out), ("", 2))
-
-    def test_everything_is_asked_of_constants_in_headers_and_without_a_table(self) -> None:
-        for line, table in ((12, TABLE), (9, None)):
-            names, judged = self.asked(line, table, "a.h")
-            self.assertEqual(names, sorted(SECONDS))
-            self.assertEqual((judged.what, judged.left_out), ("", 0))
-
-    def test_a_function_that_nothing_reaches_survives_and_says_so(self) -> None:
-        names, judged = self.asked(18, TABLE)
-        self.assertEqual(names, ["fails"])
-        self.assertEqual((judged.what, judged.left_out), ("nothing reaches it", 3))
-
-    def test_the_mean_leaves_out_mutants_that_were_not_asked(self) -> None:
-        judged = [Judgement(mutant(1), outcome, left_out=n) for outcome, n in
-                  (("killed", 3), ("SURVIVED", 1), ("same code", 0), ("not compiled", 0))]
-        self.assertIn("of 4 names, 2 were left out", MUTATE.left_out_of(judged, 4))
+        for line, file, table, names, what in (
+            (9, "a.cpp", TABLE, ["fails", "one"], ""),
+            (18, "a.cpp", TABLE, ["fails"], "nothing reaches it"),
+            (12, "a.h", TABLE, sorted(SECONDS), ""),  # a constant in a header
+            (9, "a.h", None, sorted(SECONDS), "")
+        ):
+            trial = Trial(table)
+            judged = trial.ask_who_reaches(mutant(line, file), lambda program: None)
+            self.assertEqual(sorted(trial.asked), names)
+            self.assertEqual((judged.outcome, judged.what, judged.left_out),
+                             ("SURVIVED", what, len(SECONDS) - len(names)))
 
 
 if __name__ == "__main__":

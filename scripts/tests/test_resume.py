@@ -6,17 +6,13 @@ import json
 import shlex
 import shutil
 import signal
-import subprocess
-import sys
 import time
 import unittest
 from pathlib import Path
 
-sys.dont_write_bytecode = True
+import h5py
 
-import h5py  # noqa: E402
-
-from program_case import PROGRAM, ProgramCase, run  # noqa: E402
+from program_case import ProgramCase, run, run_until
 
 STUDIES = ("time-order.hinge", "elastic-limit", "strain-sweeps")
 
@@ -38,13 +34,8 @@ class ResumeTest(ProgramCase):
     def interrupted(self, *options: str) -> Path:
         """The folder of a run that was killed after its first study."""
         out = self.path / "out"
-        with subprocess.Popen(
-            [str(PROGRAM), "study", *STUDIES, "--threads", "1", "--out", str(out), *options],
-            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
-        ) as process:
-            while process.poll() is None and not list(out.glob("unfinished/*.cbor")):
-                time.sleep(0.01)
-            process.kill()
+        run_until(lambda _: list(out.glob("unfinished/*.cbor")), "study", *STUDIES, "--threads",
+                  "1", "--out", out, *options)
         self.assertTrue(list(out.glob("unfinished/*.cbor")), "it was not killed in time")
         self.assertFalse((out / "run.h5").exists())
         return out
@@ -71,10 +62,7 @@ class ResumeTest(ProgramCase):
     def test_the_same_command_deletes_nothing(self) -> None:
         out = self.interrupted()
         kept = sorted(out.glob("unfinished/*"))
-        done = run("study", *STUDIES, "--out", str(out))
-        self.assertEqual(done.returncode, 2)
-        for word in ("--resume", "--restart"):
-            self.assertIn(word, done.stderr)
+        self.assert_refused(run("study", *STUDIES, "--out", str(out)), "--resume", "--restart")
         self.assertEqual(sorted(out.glob("unfinished/*")), kept)
         restarted = run("study", STUDIES[1], "--out", str(out), "--restart")
         self.assertEqual(restarted.returncode, 0, restarted.stderr)
@@ -90,21 +78,12 @@ class ResumeTest(ProgramCase):
     def stopped(self, how: int, ready: str, *command: str) -> str:
         """The last line on standard error of a command that the signal reaches when it catches
         signals, and has made a file that fits the pattern."""
-        with subprocess.Popen(
-            [str(PROGRAM), *command, "--threads", "1"], stdout=subprocess.DEVNULL,
-            stderr=subprocess.PIPE, text=True
-        ) as process:
-            while process.poll() is None and not (
-                catches_signals(process.pid) and list(self.path.glob(ready))
-            ):
-                time.sleep(0.01)
-            process.send_signal(how)
-            said = process.communicate()[1]
-        self.assertEqual(process.returncode, -how, said)
-        return said.splitlines()[-1]
+        done = run_until(lambda process: catches_signals(process) and list(self.path.glob(ready)),
+                         *command, "--threads", "1", how=how)
+        self.assertEqual(done.returncode, -how, done.stderr)
+        return done.stderr.splitlines()[-1]
 
     def test_an_interrupted_command_says_what_is_kept_and_how_to_go_on(self) -> None:
-        out = str(self.path / "out")
         for how, ready, kept, command in (
             (signal.SIGINT, "out/store/shards/*", "store", ("precision", "hinge")),
             (signal.SIGTERM, "out/store/shards/*", "store", ("converge", "hanging_sheet")),
@@ -112,19 +91,17 @@ class ResumeTest(ProgramCase):
             (signal.SIGTERM, "out/verdicts.json", "unfinished", ("verify", "--no-bench")),
             (signal.SIGINT, "out/unfinished/*.cbor", "unfinished", ("study", *STUDIES)),
         ):
-            said = self.stopped(how, ready, *command, "--out", out)
+            said = self.stopped(how, ready, *command, "--out", self.out)
             self.assertRegex(said, rf"^interrupted; .* in .*/{kept}; go on with: .*{command[0]} ")
             again = shlex.split(said.split("go on with: ")[1])
             self.assertEqual("--resume" in again, kept == "unfinished")
-            self.assertIn(out, again)
-            shutil.rmtree(out)
+            self.assertIn(self.out, again)
+            shutil.rmtree(self.out)
         said = self.stopped(signal.SIGINT, "**", "check")
         self.assertEqual(said, "interrupted; nothing is kept without --out DIR")
 
     def test_without_a_folder_there_is_nothing_to_resume(self) -> None:
-        done = run("check", "bending", "--resume")
-        self.assertEqual(done.returncode, 2)
-        self.assertIn("need --out", done.stderr)
+        self.assertIn("need --out", self.assert_rejected("check", "bending", "--resume"))
 
 
 if __name__ == "__main__":

@@ -41,23 +41,13 @@ def commands_of(block: str, line: int) -> list[Command]:
 
 def answer(command: str, folder: Path) -> str:
     """Its output without progress lines, and its exit code if not 0."""
-    done = subprocess.run(
-        ["bash", "-c", command], cwd=folder, capture_output=True, text=True, check=False
-    )
-    lines = [
-        row.rstrip()
-        for row in (done.stderr + done.stdout).splitlines()
-        if not PROGRESS.fullmatch(row)
-    ]
+    done = subprocess.run(["bash", "-c", command], cwd=folder, capture_output=True, text=True,
+                          check=False)
+    lines = [row.rstrip() for row in (done.stderr + done.stdout).splitlines()
+             if not PROGRESS.fullmatch(row)]
     if done.returncode:
         lines.append(f"[{done.returncode}]")
     return "".join(row + "\n" for row in lines)
-
-
-def prepare(folder: Path) -> None:
-    """Sets up the folder in which the tutorial runs."""
-    for name in ("build", "cases", "reports", "verification"):
-        (folder / name).symlink_to(ROOT / name)
 
 
 def main() -> int:
@@ -65,13 +55,13 @@ def main() -> int:
     wrong = ran = 0
     with tempfile.TemporaryDirectory(prefix="foldproof tutorial ") as name:
         folder = Path(name)
-        prepare(folder)
+        for tree in ("build", "cases", "reports", "verification"):
+            (folder / tree).symlink_to(ROOT / tree)
         for block in BLOCK.finditer(text):
             kind, content = block.groups()
             if kind in ("toml", "python"):  # its first line is a comment that names the file
-                (folder / content.splitlines()[0].removeprefix("# ")).write_text(
-                    content, encoding="utf-8"
-                )
+                file = folder / content.splitlines()[0].removeprefix("# ")
+                file.write_text(content, encoding="utf-8")
             if kind != "console":
                 continue
             for command in commands_of(content, text.count("\n", 0, block.start()) + 2):
@@ -87,10 +77,8 @@ def is_as_it_stands(command: Command, said: str) -> bool:
         return True
     if doctest.OutputChecker().check_output(command.expected, said, doctest.ELLIPSIS):
         return True
-    print(
-        f"{TUTORIAL.name}:{command.line}: $ {command.text}\n--- stands there\n{command.expected}---"
-        f" is printed\n{said}---"
-    )
+    print(f"{TUTORIAL.name}:{command.line}: $ {command.text}\n--- stands there\n{command.expected}"
+          f"--- is printed\n{said}---")
     return False
 
 
