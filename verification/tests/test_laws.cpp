@@ -369,7 +369,7 @@ TEST_CASE("subject: the headline of a law is what it measured") {
       CHECK(record.finding.headline.empty() == (record.finding.evidence.rows() == 0));
   CHECK_THAT(records_of("first_order_as_second", {"order.observed"}).at(0).finding.headline,
              Contains("observed 1.0") && Catch::EndsWith("claimed 2"));
-  CHECK_THAT(records_of("sticks_to_planes", {"contact.slips"}).at(0).finding.headline,
+  CHECK_THAT(records_of("friction_beyond_the_cone", {"contact.slips"}).at(0).finding.headline,
              Contains(", the most that is tried"));
 }
 
