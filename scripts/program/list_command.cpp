@@ -81,6 +81,13 @@ nlohmann::json json_rows(const std::vector<Named>& all) {
   return rows;
 }
 
+nlohmann::json rows_of_laws() {
+  const std::vector<Law> laws = portable_laws();
+  nlohmann::json rows = json_rows(laws);
+  for (size_t k = 0; k < laws.size(); ++k) rows[k]["needs"] = laws[k].needs;
+  return rows;
+}
+
 std::vector<std::string> names_of_case_findings() {
   std::vector<std::string> names;
   for (const std::string& name : built_in_cases(Tier::full)) {
@@ -94,7 +101,7 @@ std::vector<std::string> names_of_case_findings() {
 nlohmann::json everything() {
   nlohmann::json json = {{"checks", json_rows(all_checks())},
                          {"studies", json_rows(all_studies())},
-                         {"laws", json_rows(portable_laws())},
+                         {"laws", rows_of_laws()},
                          {"frame_laws", json_rows(frame_laws())},
                          {"cases", built_in_cases(Tier::full)},
                          {"cases_folder", data_folder() + "/cases"},

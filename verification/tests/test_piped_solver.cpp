@@ -108,9 +108,10 @@ TEST_CASE("subject: a solver that never starts fails the first law, and the othe
 TEST_CASE("subject: after a third hang the laws that are left do not run") {
   const Judgement judgement =
       judge_solver(broken("hang", 1), laws_of({"smoke", "inertia", "gravity", "held"}), ignore);
-  REQUIRE(judgement.records.size() == 6);
   CHECK(judgement.declaration.name == "toy springs (Python)");  // it started
-  for (size_t k = 0; k < 6; ++k) CHECK(did_not_run(judgement.records[k]) == (k > 2));
+  REQUIRE(judgement.records.size() > 3);
+  for (size_t k = 0; k < judgement.records.size(); ++k)
+    CHECK(did_not_run(judgement.records[k]) == (k > 2));
 }
 
 TEST_CASE("subject: a start that failed is not tried again") {
@@ -291,36 +292,16 @@ TEST_CASE("subject: the conformance test tries obstacles that are declared") {
 }
 
 TEST_CASE("subject: the toy in C++ meets every law that it does not decline") {
-  Names declined;
-  for (const Law& law : laws_of({"tunnelling.",
-                                 "self-collision.",
-                                 "contact.",
-                                 "ball.",
-                                 "capstan.",
-                                 "box.",
-                                 "capsule.",
-                                 "damping.",
-                                 "game-step.",
-                                 "floor.",
-                                 "forces.of-a-bent-",
-                                 "rest.curved-sheet-keeps-its-rest-angles",
-                                 "buckling.",
-                                 "strip.",
-                                 "order.with-damping-is-as-claimed",
-                                 "momentum.linear-under-damping-is-conserved",
-                                 "drape.stiff-",
-                                 "drape.heavier-ring-",
-                                 "drape.heavier-disc-",
-                                 "wrinkles.",
-                                 "vibration.damped-decays-as-its-damping-says",
-                                 "cantilever.",
-                                 "calibration.bending-rigidity-",
-                                 "calibration.rigidity-survives-"}))
-    declined.insert(law.name);
-  for (const Record& record : judge_solver({TOY_SOLVER, {}, {}}, portable_laws(), ignore).records) {
-    INFO(record.name << " " << record.finding.note);
-    CHECK(record.outcome ==
-          (declined.contains(record.name) ? Outcome::not_applicable : Outcome::holds));
+  const Names offered{"L1", "L2", "order", "f8", "set_state", "held", "masses"};  // no bending
+  const std::vector<Law> laws = portable_laws();
+  const auto records = judge_solver({TOY_SOLVER, {}, {}}, laws, ignore).records;
+  for (size_t k = 0; k < laws.size(); ++k) {
+    INFO(records[k].name << " " << records[k].finding.note);
+    const bool is_met =
+        std::ranges::all_of(suite::split(laws[k].needs, " "),
+                            [&](const std::string& need) { return offered.contains(need); }) &&
+        !laws[k].name.starts_with("game-step.");  // its longest stable step is shorter
+    CHECK(records[k].outcome == (is_met ? Outcome::holds : Outcome::not_applicable));
   }
 }
 
