@@ -41,6 +41,15 @@ std::vector<Row> names_and_claims(const std::vector<Named>& all) {
   return rows;
 }
 
+/// Behind the sentence, what the law needs of a solver.
+std::vector<Row> laws_and_needs() {
+  std::vector<Row> rows;
+  for (const Law& law : portable_laws())
+    rows.emplace_back(law.name,
+                      law.needs.empty() ? law.claim : fmt::format("{} [{}]", law.claim, law.needs));
+  return rows;
+}
+
 std::vector<Kind> kinds() {
   std::vector<Row> cases, claims, methods;
   for (const std::string& name : built_in_cases(Tier::full)) cases.emplace_back(name, "");
@@ -50,7 +59,7 @@ std::vector<Kind> kinds() {
     methods.emplace_back(i.name, fmt::format("{} ({}), order {}", i.title, i.source, i.order));
   return {{"checks", "check NAME", names_and_claims(all_checks())},
           {"studies", "study NAME", names_and_claims(all_studies())},
-          {"laws", "judge --solver COMMAND NAME", names_and_claims(portable_laws())},
+          {"laws", "judge --solver COMMAND NAME", laws_and_needs()},
           {"frame-laws", "judge --frames FOLDER NAME", names_and_claims(frame_laws())},
           {"cases", "simulate NAME", cases},
           {"claims", "claims ID", claims},
