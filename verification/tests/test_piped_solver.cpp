@@ -19,7 +19,6 @@ void require_failure(const std::string& kind, const std::string& cause, const st
   const SolverFailure failure = failure_of(broken(kind));
   CHECK(failure.cause == cause);
   CHECK_THAT(failure.what(), Contains(words));
-  CHECK(std::ranges::count(failure_causes(), failure.cause) == 1);
 }
 
 }  // namespace
@@ -30,6 +29,7 @@ TEST_CASE("subject: a solver that ends is told by signal or exit code, with its 
   require_failure("exit_3", "exit", "code 3");
   require_failure("exit_3", "exit", "giving up");
   require_failure("exception", "error", "ValueError: a matrix is singular");
+  require_failure("fork_and_exit", "exit", "code 4");
 }
 
 TEST_CASE("subject: a command without a program is refused, one that starts and ends is judged") {
@@ -43,10 +43,6 @@ TEST_CASE("subject: a command without a program is refused, one that starts and 
   CHECK(judgement.records.front().outcome == Outcome::fails);
 }
 
-TEST_CASE("subject: a solver that ends while its child lives is told by its exit code") {
-  require_failure("fork_and_exit", "exit", "code 4");
-}
-
 TEST_CASE("subject: a hang is reported when its time is up") {
   // long enough for a loaded machine to start Python
   const SolverFailure failure = failure_of(broken("hang", 8));
@@ -55,19 +51,13 @@ TEST_CASE("subject: a hang is reported when its time is up") {
              Contains("did not answer within 8 s (--seconds)") && Contains("last words: thinking"));
 }
 
-TEST_CASE("subject: answers of the wrong length are told") {
+TEST_CASE("subject: answers of a wrong length, shape, number or header are told") {
   require_failure("truncated", "truncated", "in the middle of an answer");
   require_failure("short_array", "truncated", "shape [9,3] instead of [10,3]");
   require_failure("oversized", "oversized", "shape [1000000000000,3]");
   require_failure("too_many_bytes", "oversized", "more bytes than its last answer says");
-}
-
-TEST_CASE("subject: arrays of the wrong shape and numbers that are not finite are told") {
   require_failure("wrong_shape", "shape", "shape [10,2] instead of [10,3]");
   require_failure("nan", "nan", "sent nan for particle 1, z coordinate, of array 'x'");
-}
-
-TEST_CASE("subject: headers that are no answer are told") {
   require_failure("invalid_json", "header", "no JSON object");
   require_failure("noise_on_the_pipe", "header", "iteration 1: residual 0.3");
   require_failure("endless_header", "header", "longer than");
@@ -143,15 +133,12 @@ TEST_CASE("subject: correct solvers raise no alarm, in single and double precisi
   require_found({"damped_backward_euler", "damped_trapezoidal"}, {"order", "vibration"}, {});
 }
 
-TEST_CASE("subject: wrong masses and gravity are found") {
+TEST_CASE("subject: wrong masses and gravity are found, in single precision, too") {
   require_law_fails("wrong_mass", "momentum.linear-is-conserved");
   require_found({"own_masses_ignored"}, {""}, {"momentum.linear-of-unequal-masses-is-conserved"});
   require_found({"gravity_scaled"}, {""},
                 {"gravity.speed-grows-by-g-t", "gravity.fall-is-as-exact-as-the-order-claims",
                  "forces.weight-is-mass-times-g"});
-}
-
-TEST_CASE("subject: gravity that is 1 % wrong is found in single precision") {
   require_law_fails("gravity_scaled_single", "gravity.speed-grows-by-g-t");
   require_law_fails("gravity_scaled_single", "gravity.fall-is-as-exact-as-the-order-claims");
 }
