@@ -4,7 +4,6 @@
 
 #include "verification/subjects/suite/laws.h"
 #include "verification/subjects/suite/relaxation.h"
-#include "verification/subjects/suite/scenes.h"
 
 namespace foldproof {
 

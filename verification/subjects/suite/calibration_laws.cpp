@@ -7,7 +7,6 @@
 
 #include "reference/mesh/shapes.h"
 #include "verification/subjects/suite/laws.h"
-#include "verification/subjects/suite/scenes.h"
 #include "verification/subjects/suite/strips.h"
 
 namespace foldproof {

@@ -6,7 +6,6 @@
 #include "reference/mesh/shapes.h"
 #include "verification/subjects/suite/laws.h"
 #include "verification/subjects/suite/relaxation.h"
-#include "verification/subjects/suite/scenes.h"
 
 namespace foldproof {
 

@@ -7,7 +7,6 @@
 #include "verification/oracles/chains_and_ribbons.h"
 #include "verification/subjects/suite/laws.h"
 #include "verification/subjects/suite/relaxation.h"
-#include "verification/subjects/suite/scenes.h"
 
 namespace foldproof {
 

@@ -5,7 +5,6 @@
 
 #include "verification/subjects/suite/laws.h"
 #include "verification/subjects/suite/relaxation.h"
-#include "verification/subjects/suite/scenes.h"
 
 namespace foldproof {
 

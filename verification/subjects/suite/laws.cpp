@@ -6,8 +6,6 @@
 #include <cmath>
 #include <variant>
 
-#include "verification/subjects/suite/scenes.h"
-
 namespace foldproof {
 
 namespace {

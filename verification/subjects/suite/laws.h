@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "verification/subjects/suite/scenes.h"
 #include "verification/subjects/suite/trial.h"
 #include "verification/verdict.h"
 

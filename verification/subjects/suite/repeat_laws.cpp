@@ -7,7 +7,6 @@
 
 #include "verification/oracles/estimate.h"
 #include "verification/subjects/suite/laws.h"
-#include "verification/subjects/suite/scenes.h"
 
 namespace foldproof {
 

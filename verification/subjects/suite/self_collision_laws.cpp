@@ -3,7 +3,6 @@
 
 #include "verification/oracles/exact_crossings.h"
 #include "verification/subjects/suite/laws.h"
-#include "verification/subjects/suite/scenes.h"
 
 namespace foldproof {
 

@@ -6,7 +6,6 @@
 #include <Eigen/Geometry>
 
 #include "verification/subjects/suite/laws.h"
-#include "verification/subjects/suite/scenes.h"
 
 namespace foldproof {
 
