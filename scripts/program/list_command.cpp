@@ -45,6 +45,15 @@ std::vector<Row> names_and_claims(const std::vector<Named>& all) {
   return rows;
 }
 
+/// Behind the sentence, what the law needs of a solver.
+std::vector<Row> laws_and_needs() {
+  std::vector<Row> rows;
+  for (const Law& law : portable_laws())
+    rows.emplace_back(law.name,
+                      law.needs.empty() ? law.claim : fmt::format("{} [{}]", law.claim, law.needs));
+  return rows;
+}
+
 std::vector<Kind> kinds() {
   std::vector<Row> cases, claims, methods;
   for (const std::string& name : built_in_cases(Tier::full)) cases.emplace_back(name, "");
@@ -54,7 +63,7 @@ std::vector<Kind> kinds() {
     methods.emplace_back(i.name, fmt::format("{} ({}), order {}", i.title, i.source, i.order));
   return {{"checks", "check NAME", names_and_claims(all_checks())},
           {"studies", "study NAME", names_and_claims(all_studies())},
-          {"laws", "judge --solver COMMAND NAME", names_and_claims(portable_laws())},
+          {"laws", "judge --solver COMMAND NAME", laws_and_needs()},
           {"frame-laws", "judge --frames FOLDER NAME", names_and_claims(frame_laws())},
           {"cases", "simulate NAME", cases},
           {"claims", "claims ID", claims},
@@ -85,6 +94,13 @@ nlohmann::json json_rows(const std::vector<Named>& all) {
   return rows;
 }
 
+nlohmann::json rows_of_laws() {
+  const std::vector<Law> laws = portable_laws();
+  nlohmann::json rows = json_rows(laws);
+  for (size_t k = 0; k < laws.size(); ++k) rows[k]["needs"] = laws[k].needs;
+  return rows;
+}
+
 std::vector<std::string> names_of_case_findings() {
   std::vector<std::string> names;
   for (const std::string& name : built_in_cases(Tier::full)) {
@@ -98,7 +114,7 @@ std::vector<std::string> names_of_case_findings() {
 nlohmann::json everything() {
   nlohmann::json json = {{"checks", json_rows(all_checks())},
                          {"studies", json_rows(all_studies())},
-                         {"laws", json_rows(portable_laws())},
+                         {"laws", rows_of_laws()},
                          {"frame_laws", json_rows(frame_laws())},
                          {"cases", built_in_cases(Tier::full)},
                          {"cases_folder", data_folder() + "/cases"},

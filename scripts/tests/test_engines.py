@@ -93,19 +93,20 @@ class Bullet(Engine):
         installed = run("dpkg-query", "-W", "-f", "${Version}", "libbullet-dev").stdout
         return installed.startswith(f"{RECORDED}+")
 
-    def lines_without_the_adapter(self, name: str) -> list[str]:
+    def lines_without_the_adapter(self, *words: str) -> list[str]:
         """What a program of Bullet alone prints, below its heading."""
-        program = ROOT / "build" / "engines" / f"bullet_{name}"
+        program = ROOT / "build" / "engines" / "bullet_laws"
         libraries = ("BulletSoftBody", "BulletDynamics", "BulletCollision", "LinearMath")
         built = run(
             "g++", "-std=c++17", "-w", "-DBT_USE_DOUBLE_PRECISION", "-isystem",
-            "/usr/include/bullet", f"verification/subjects/adapters/bullet/repro/{name}.cpp", "-o",
-            program, *(f"-l{name}-float64" for name in libraries))
+            "/usr/include/bullet", "verification/subjects/adapters/bullet/repro/laws.cpp", "-o",
+            program, *(f"-l{name}-float64" for name in libraries)
+        )
         self.assertEqual(built.returncode, 0, built.stderr)
-        return run(program).stdout.splitlines()[1:]
+        return run(program, *words).stdout.splitlines()[1:]
 
     def test_what_its_page_records_is_seen_without_the_adapter(self) -> None:
-        lines = self.lines_without_the_adapter("laws")
+        lines = self.lines_without_the_adapter()
         numbers, speed, drift, twice = (float(line.rsplit(" by ")[1].split()[0]) for line in lines)
         self.assertGreater(numbers, 1e-6)  # m
         self.assertAlmostEqual(speed, 4.75e-8, delta=1e-9)  # g t
@@ -289,6 +290,15 @@ class Blender(unittest.TestCase):
 
 
 class Template(unittest.TestCase):
+    def test_adapters_are_as_short_as_the_page_says(self) -> None:
+        folder = ROOT / "verification/subjects"
+        text = " ".join((folder / "PROTOCOL.md").read_text(encoding="utf-8").split())
+        self.assertIn("takes under sixty lines in [Python]", text)
+        self.assertIn("about a hundred in [C++]", text)
+        for name, least, most in (("py", 40, 59), ("mjs", 40, 59), ("cpp", 90, 110)):
+            lines = (folder / f"adapters/toy_solver.{name}").read_text().count("\n")
+            self.assertTrue(least <= lines <= most, (name, lines))
+
     def test_the_javascript_toy_meets_every_law(self) -> None:
         if not shutil.which("node"):
             print("JavaScript: skipped: not installed")

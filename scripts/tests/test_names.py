@@ -17,7 +17,7 @@ from pathlib import Path
 from script_module import ROOT, script
 from builds import listed
 from edits import apply, changes_of
-from mutant_trials import EXPLAINED, read_explained
+from mutant_trials import read_explained
 from mutants import PYTHON_TESTS, TESTS
 
 sys.path.insert(0, str(ROOT / "reports"))

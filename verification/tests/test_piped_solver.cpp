@@ -19,7 +19,6 @@ void require_failure(const std::string& kind, const std::string& cause, const st
   const SolverFailure failure = failure_of(broken(kind));
   CHECK(failure.cause == cause);
   CHECK_THAT(failure.what(), Contains(words));
-  CHECK(std::ranges::count(failure_causes(), failure.cause) == 1);
 }
 
 }  // namespace
@@ -30,6 +29,7 @@ TEST_CASE("subject: a solver that ends is told by signal or exit code, with its 
   require_failure("exit_3", "exit", "code 3");
   require_failure("exit_3", "exit", "giving up");
   require_failure("exception", "error", "ValueError: a matrix is singular");
+  require_failure("fork_and_exit", "exit", "code 4");
 }
 
 TEST_CASE("subject: a command without a program is refused, one that starts and ends is judged") {
@@ -43,10 +43,6 @@ TEST_CASE("subject: a command without a program is refused, one that starts and 
   CHECK(judgement.records.front().outcome == Outcome::fails);
 }
 
-TEST_CASE("subject: a solver that ends while its child lives is told by its exit code") {
-  require_failure("fork_and_exit", "exit", "code 4");
-}
-
 TEST_CASE("subject: a hang is reported when its time is up") {
   // long enough for a loaded machine to start Python
   const SolverFailure failure = failure_of(broken("hang", 8));
@@ -55,19 +51,13 @@ TEST_CASE("subject: a hang is reported when its time is up") {
              Contains("did not answer within 8 s (--seconds)") && Contains("last words: thinking"));
 }
 
-TEST_CASE("subject: answers of the wrong length are told") {
+TEST_CASE("subject: answers of a wrong length, shape, number or header are told") {
   require_failure("truncated", "truncated", "in the middle of an answer");
   require_failure("short_array", "truncated", "shape [9,3] instead of [10,3]");
   require_failure("oversized", "oversized", "shape [1000000000000,3]");
   require_failure("too_many_bytes", "oversized", "more bytes than its last answer says");
-}
-
-TEST_CASE("subject: arrays of the wrong shape and numbers that are not finite are told") {
   require_failure("wrong_shape", "shape", "shape [10,2] instead of [10,3]");
   require_failure("nan", "nan", "sent nan for particle 1, z coordinate, of array 'x'");
-}
-
-TEST_CASE("subject: headers that are no answer are told") {
   require_failure("invalid_json", "header", "no JSON object");
   require_failure("noise_on_the_pipe", "header", "iteration 1: residual 0.3");
   require_failure("endless_header", "header", "longer than");
@@ -108,9 +98,10 @@ TEST_CASE("subject: a solver that never starts fails the first law, and the othe
 TEST_CASE("subject: after a third hang the laws that are left do not run") {
   const Judgement judgement =
       judge_solver(broken("hang", 1), laws_of({"smoke", "inertia", "gravity", "held"}), ignore);
-  REQUIRE(judgement.records.size() == 6);
   CHECK(judgement.declaration.name == "toy springs (Python)");  // it started
-  for (size_t k = 0; k < 6; ++k) CHECK(did_not_run(judgement.records[k]) == (k > 2));
+  REQUIRE(judgement.records.size() > 3);
+  for (size_t k = 0; k < judgement.records.size(); ++k)
+    CHECK(did_not_run(judgement.records[k]) == (k > 2));
 }
 
 TEST_CASE("subject: a start that failed is not tried again") {
@@ -142,15 +133,12 @@ TEST_CASE("subject: correct solvers raise no alarm, in single and double precisi
   require_found({"damped_backward_euler", "damped_trapezoidal"}, {"order", "vibration"}, {});
 }
 
-TEST_CASE("subject: wrong masses and gravity are found") {
+TEST_CASE("subject: wrong masses and gravity are found, in single precision, too") {
   require_law_fails("wrong_mass", "momentum.linear-is-conserved");
   require_found({"own_masses_ignored"}, {""}, {"momentum.linear-of-unequal-masses-is-conserved"});
   require_found({"gravity_scaled"}, {""},
                 {"gravity.speed-grows-by-g-t", "gravity.fall-is-as-exact-as-the-order-claims",
                  "forces.weight-is-mass-times-g"});
-}
-
-TEST_CASE("subject: gravity that is 1 % wrong is found in single precision") {
   require_law_fails("gravity_scaled_single", "gravity.speed-grows-by-g-t");
   require_law_fails("gravity_scaled_single", "gravity.fall-is-as-exact-as-the-order-claims");
 }
@@ -291,36 +279,16 @@ TEST_CASE("subject: the conformance test tries obstacles that are declared") {
 }
 
 TEST_CASE("subject: the toy in C++ meets every law that it does not decline") {
-  Names declined;
-  for (const Law& law : laws_of({"tunnelling.",
-                                 "self-collision.",
-                                 "contact.",
-                                 "ball.",
-                                 "capstan.",
-                                 "box.",
-                                 "capsule.",
-                                 "damping.",
-                                 "game-step.",
-                                 "floor.",
-                                 "forces.of-a-bent-",
-                                 "rest.curved-sheet-keeps-its-rest-angles",
-                                 "buckling.",
-                                 "strip.",
-                                 "order.with-damping-is-as-claimed",
-                                 "momentum.linear-under-damping-is-conserved",
-                                 "drape.stiff-",
-                                 "drape.heavier-ring-",
-                                 "drape.heavier-disc-",
-                                 "wrinkles.",
-                                 "vibration.damped-decays-as-its-damping-says",
-                                 "cantilever.",
-                                 "calibration.bending-rigidity-",
-                                 "calibration.rigidity-survives-"}))
-    declined.insert(law.name);
-  for (const Record& record : judge_solver({TOY_SOLVER, {}, {}}, portable_laws(), ignore).records) {
-    INFO(record.name << " " << record.finding.note);
-    CHECK(record.outcome ==
-          (declined.contains(record.name) ? Outcome::not_applicable : Outcome::holds));
+  const Names offered{"L1", "L2", "order", "f8", "set_state", "held", "masses"};  // no bending
+  const std::vector<Law> laws = portable_laws();
+  const auto records = judge_solver({TOY_SOLVER, {}, {}}, laws, ignore).records;
+  for (size_t k = 0; k < laws.size(); ++k) {
+    INFO(records[k].name << " " << records[k].finding.note);
+    const bool is_met =
+        std::ranges::all_of(suite::split(laws[k].needs, " "),
+                            [&](const std::string& need) { return offered.contains(need); }) &&
+        !laws[k].name.starts_with("game-step.");  // its longest stable step is shorter
+    CHECK(records[k].outcome == (is_met ? Outcome::holds : Outcome::not_applicable));
   }
 }
 

@@ -11,7 +11,6 @@
 #include "verification/subjects/served/piped_subject.h"
 #include "verification/subjects/served/reference_server.h"
 #include "verification/subjects/suite/laws.h"
-#include "verification/subjects/suite/scenes.h"
 
 namespace foldproof {
 

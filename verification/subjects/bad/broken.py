@@ -94,47 +94,39 @@ def header_of(identity: int, particles: int) -> bytes:
     return f'{{"id": {identity}, "arrays": [{entries}]}}\n'.encode()
 
 
-def spoil(kind: str, pipe: Pipe, identity: int, n: int) -> None:
-    """Answers `advance` in a wrong way; n particles are due."""
-    state = np.zeros((2 * n, 3)).tobytes()
-    if kind == "truncated":
-        send_raw(pipe, header_of(identity, n) + state[:100])
-        os._exit(0)
-    elif kind == "short_array":
-        send_raw(pipe, header_of(identity, n - 1) + state)
-    elif kind == "oversized":
-        send_raw(pipe, header_of(identity, 10**12))
-    elif kind == "too_many_bytes":
-        send_raw(pipe, header_of(identity, n) + state + bytes(8))
-    elif kind == "wrong_shape":
-        send_raw(pipe, header_of(identity, n).replace(b", 3]", b", 2]") + state)
-    elif kind == "invalid_json":
-        send_raw(pipe, b'{"id": 5, "arrays": [}\n')
-    elif kind == "noise_on_the_pipe":
-        send_raw(pipe, b"iteration 1: residual 0.3\n")
-    elif kind == "endless_header":
-        while True:
-            send_raw(pipe, b"x" * 65536)
-    elif kind == "wrong_id":
-        send_raw(pipe, header_of(identity + 1, n) + state)
+def spoiled(identity: int, n: int) -> dict[str, bytes]:
+    """Wrong answers to `advance`, by kind; n particles are due."""
+    state, right = np.zeros((2 * n, 3)).tobytes(), header_of(identity, n)
+    return {
+        "truncated": right + state[:100],
+        "short_array": header_of(identity, n - 1) + state,
+        "oversized": header_of(identity, 10**12),
+        "too_many_bytes": right + state + bytes(8),
+        "wrong_shape": right.replace(b", 3]", b", 2]") + state,
+        "invalid_json": b'{"id": 5, "arrays": [}\n',
+        "noise_on_the_pipe": b"iteration 1: residual 0.3\n",
+        "endless_header": b"x" * 65536,
+        "wrong_id": header_of(identity + 1, n) + state,
+    }
 
 
-SPOILED = ("truncated", "short_array", "oversized", "too_many_bytes", "wrong_shape", "invalid_json",
-           "noise_on_the_pipe", "endless_header", "wrong_id")
-WRECKED = (
-    "crash", "late_crash", "tells_progress", "last_lines", "exit_3", "hang", "exception", "nan",
-    "fill_memory", "fill_disk", "fork_and_exit"
-)
+WRECKED = [kind for kind in vars(Broken) if not kind.startswith("_") and kind != "advance"]
+SPOILED = list(spoiled(1, 1))
 
 
 def serve_spoiled(kind: str, solver: Solver, pipe: Pipe) -> None:
     while (message := pipe.receive()) is not None:
         header, arrays = message
-        if header["op"] == "advance":
-            spoil(kind, pipe, header["id"], len(solver.x))
+        if header["op"] != "advance":
+            reply, sent = answer(solver, header, arrays)
+            pipe.send({"id": header["id"], **reply}, sent)
             continue
-        reply, sent = answer(solver, header, arrays)
-        pipe.send({"id": header["id"], **reply}, sent)
+        wrong = spoiled(header["id"], len(solver.x))[kind]
+        send_raw(pipe, wrong)
+        while kind == "endless_header":
+            send_raw(pipe, wrong)
+        if kind == "truncated":
+            os._exit(0)
 
 
 def main() -> int:

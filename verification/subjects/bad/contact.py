@@ -1,29 +1,32 @@
-"""Contact with planes, right and wrong, in several schemes."""
+"""Contact with planes and boxes, right and wrong, in several schemes."""
 from __future__ import annotations
 
 import numpy as np
-from materials import Bends
-from schemes import BackwardEuler, BackwardEulerInSingle, Single, ToySolver
-
 from foldproof_solver import Scene
+from materials import Bends
+from schemes import BackwardEuler, BackwardEulerSingle, Single
+from toy import Toy
+from toy_solver import ToySolver
 
 
-class OnPlanes(ToySolver):
+class OnPlanes(Toy):
     """Planes stop a step that would end below them; friction takes at most mu of the impulse."""
 
     capabilities = (*ToySolver.capabilities, "planes")
     number = "f8"
 
-    def prepare(self, scene: Scene) -> dict[str, str]:
+    def alter(self, scene: Scene) -> None:
+        super().alter(scene)
         self.planes = scene.header["scene"].get("planes", [])
-        return super().prepare(scene)
 
-    def advance(self, dt: float, steps: int) -> None:
-        for _ in range(steps):
-            before = self.x.astype("f8")
-            super().advance(dt, 1)
-            for plane in self.planes:
-                self.respond(plane, before, float(dt))
+    def step(self, dt: float) -> None:
+        before = self.x.astype("f8")
+        super().step(dt)
+        self.meet_obstacles(before, float(dt))
+
+    def meet_obstacles(self, before: np.ndarray, dt: float) -> None:
+        for plane in self.planes:
+            self.respond(plane, before, dt)
 
     def respond(self, plane: dict, before: np.ndarray, dt: float) -> None:
         normal, v = np.array(plane["normal"]), self.v.astype("f8")
@@ -53,7 +56,7 @@ class OnPlanes(ToySolver):
         return np.maximum(0, 1 - most / np.maximum(speed, 1e-30))
 
 
-class OnPlanesInSingle(OnPlanes, Single):
+class OnPlanesSingle(OnPlanes, Single):
     number = "f4"
 
 
@@ -61,7 +64,7 @@ class OnPlanesBackwardEuler(OnPlanes, BackwardEuler):
     pass
 
 
-class OnPlanesBackwardEulerInSingle(OnPlanes, BackwardEulerInSingle):
+class OnPlanesBackwardEulerSingle(OnPlanes, BackwardEulerSingle):
     number = "f4"
 
 
@@ -145,11 +148,6 @@ class FrictionBeyondTheCone(OnPlanes):
         return np.where(most > 0, 0.0, 1.0)
 
 
-class FrictionHalved(OnPlanes):
-    def kept(self, most: np.ndarray, speed: np.ndarray) -> np.ndarray:
-        return super().kept(most / 2, speed)
-
-
 class FrictionCreeps(OnPlanes):
     """Friction that grows with the speed to Coulomb's, within some mm/s, so that its formula has no
     kink: steep slopes hardly show it."""
@@ -158,22 +156,11 @@ class FrictionCreeps(OnPlanes):
         return super().kept(most * speed / (speed + 0.002), speed)
 
 
-class SticksToPlanes(OnPlanes):
-    """Friction without a limit."""
-
-    def kept(self, most: np.ndarray, speed: np.ndarray) -> np.ndarray:
-        return np.where(most > 0, 0, 1.0)
-
-
 class BendsOnPlanes(OnPlanes, Bends):
     pass
 
 
-class BendsOnPlanesFrictionHalved(FrictionHalved, Bends):
-    pass
-
-
-class BendsOnPlanesFrictionOfWeight(OnPlanes, Bends):
+class BendsOnPlanesFrictionOfWeight(BendsOnPlanes):
     """Friction as much as a particle's own weight calls for, whatever else presses it on."""
 
     def respond(self, plane: dict, before: np.ndarray, dt: float) -> None:
@@ -185,7 +172,7 @@ class BendsOnPlanesFrictionOfWeight(OnPlanes, Bends):
         return super().kept(np.full_like(most, self.friction * self.own), speed)
 
 
-class BendsOnPlanesThatHoldDown(OnPlanes, Bends):
+class BendsOnPlanesThatHoldDown(BendsOnPlanes):
     """What lies on a plane leaves it no more slowly than by 0.2 m/s."""
 
     def respond(self, plane: dict, before: np.ndarray, dt: float) -> None:
@@ -198,23 +185,20 @@ class BendsOnPlanesThatHoldDown(OnPlanes, Bends):
         self.x[stays] = before[stays] + dt * self.v[stays]
 
 
-class OnBoxes(ToySolver):
+class OnBoxes(Toy):
     """Particles that end a step in a box leave it by the nearest face, and stop there."""
 
     capabilities = (*ToySolver.capabilities, "boxes")
     checked_each = 1  # steps
 
-    def prepare(self, scene: Scene) -> dict[str, str]:
+    def alter(self, scene: Scene) -> None:
         self.boxes, self.steps = scene.header["scene"].get("boxes", []), 0
-        return super().prepare(scene)
 
-    def advance(self, dt: float, steps: int) -> None:
-        for _ in range(steps):
-            super().advance(dt, 1)
-            self.steps += 1
-            if self.steps % self.checked_each == 0:
-                for box in self.boxes:
-                    self.leave(box)
+    def step(self, dt: float) -> None:
+        super().step(dt)
+        self.steps += 1
+        for box in self.boxes if self.steps % self.checked_each == 0 else []:
+            self.leave(box)
 
     def leave(self, box: dict) -> None:
         half, out = np.array(box["half_extents"]), self.x - np.array(box["centre"])
@@ -245,29 +229,26 @@ class StartsFromRest(OnBoxes):
 
     capabilities = (*OnBoxes.capabilities, "self_collision")
 
-    def prepare(self, scene: Scene) -> dict[str, str]:
-        mapping = super().prepare(scene)
+    def alter(self, scene: Scene) -> None:
+        super().alter(scene)
         self.v = np.zeros_like(self.x)
-        return mapping
 
 
-class ParticlesRepelAlone(ToySolver):
+class ParticlesRepelAlone(Toy):
     """Against itself: particles nearer than the thickness part, edges and triangles are nothing."""
 
     capabilities = (*ToySolver.capabilities, "self_collision")
 
-    def prepare(self, scene: Scene) -> dict[str, str]:
+    def alter(self, scene: Scene) -> None:
         self.thickness = scene.header["scene"].get("thickness", 0)
-        return super().prepare(scene)
 
-    def advance(self, dt: float, steps: int) -> None:
-        for _ in range(steps):
-            super().advance(dt, 1)
-            if self.thickness == 0:
-                continue  # all pairs: a square of the particles, which another law would see
-            apart = self.x[:, None] - self.x
-            near = np.linalg.norm(apart, axis=2) < self.thickness
-            np.fill_diagonal(near, False)
-            for i, j in np.argwhere(near):
-                push = (self.thickness - np.linalg.norm(apart[i, j])) / 2
-                self.x[i] += push * apart[i, j] / np.linalg.norm(apart[i, j])
+    def step(self, dt: float) -> None:
+        super().step(dt)
+        if self.thickness == 0:
+            return  # all pairs: a square of the particles, which another law would see
+        apart = self.x[:, None] - self.x
+        near = np.linalg.norm(apart, axis=2) < self.thickness
+        np.fill_diagonal(near, False)
+        for i, j in np.argwhere(near):
+            push = (self.thickness - np.linalg.norm(apart[i, j])) / 2
+            self.x[i] += push * apart[i, j] / np.linalg.norm(apart[i, j])

@@ -1,47 +1,36 @@
 """Bending, and materials whose parameters mean something else than the scene says."""
 from __future__ import annotations
 
-import sys
-from pathlib import Path
-
 import numpy as np
+from foldproof_solver import Declined, Scene
+from toy import Toy, add_pulls
+from toy_solver import ToySolver
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "adapters"))
-from foldproof_solver import Declined, Scene  # noqa: E402
-from toy_solver import ToySolver  # noqa: E402
 
-
-class SpringsPerLength(ToySolver):
+class SpringsPerLength(Toy):
     """Young's modulus over length, as of a thread, whatever the mesh."""
 
-    def prepare(self, scene: Scene) -> dict[str, str]:
-        mapping = super().prepare(scene)
-        young = scene.header["scene"]["material"]["young"]
-        self.k = young * 0.0866 / self.length
-        return mapping
+    def alter(self, scene: Scene) -> None:
+        self.k = scene.header["scene"]["material"]["young"] * 0.0866 / self.length
 
 
-class WeftPerLength(ToySolver):
+class WeftPerLength(Toy):
     """Its modulus along x is right on every mesh. Along y it grows as edges get shorter, and is
     right only with edges of 0.05 m."""
 
-    def prepare(self, scene: Scene) -> dict[str, str]:
-        mapping = super().prepare(scene)
+    def alter(self, scene: Scene) -> None:
         self.weft = 0.05 / np.mean(self.length)
-        return mapping
 
     def forces(self) -> np.ndarray:
         weight = self.mass[:, None] * self.gravity
         return weight + (super().forces() - weight) * np.array([1, self.weft, 1])
 
 
-class SpringsOfOneStiffness(ToySolver):
+class SpringsOfOneStiffness(Toy):
     """Young's modulus as every spring's stiffness."""
 
-    def prepare(self, scene: Scene) -> dict[str, str]:
-        mapping = super().prepare(scene)
+    def alter(self, scene: Scene) -> None:
         self.k = np.full_like(self.k, scene.header["scene"]["material"]["young"])
-        return mapping
 
 
 class SpringsTear(ToySolver):
@@ -52,7 +41,7 @@ class SpringsTear(ToySolver):
         return direction, np.where(elongation > 0.1 * self.length, 0, elongation)
 
 
-class Bends(ToySolver):
+class Bends(Toy):
     """Bending of a flat rest shape, quadratic in the positions.
 
     The cotangents of two neighbouring triangles of area A give the edge's length L times its angle.
@@ -64,24 +53,41 @@ class Bends(ToySolver):
 
     def prepare(self, scene: Scene) -> dict[str, str]:
         material = scene.header["scene"]["material"]
-        given, material["bending_rigidity"] = material["bending_rigidity"], 0
-        if given and np.any(scene.rest_angles):
+        self.given, material["bending_rigidity"] = material["bending_rigidity"], 0
+        if self.given and np.any(scene.rest_angles):
             raise Declined("rest angles: it bends to flat")
-        mapping = super().prepare(scene)
+        return {**super().prepare(scene), "bending": "B of the scene, by the squared Laplacian"}
+
+    def alter(self, scene: Scene) -> None:
+        super().alter(scene)
         self.corners = scene.hinges
         found = [laplacian(scene.rest[hinge]) for hinge in scene.hinges]
         self.weights = np.array([weights for weights, _ in found]).reshape(-1, 4)
-        scale = self.rigidity * given
+        scale = self.rigidity * self.given
         self.over_area = np.array([scale / area for _, area in found])
-        return {**mapping, "bending": "B of the scene, by the squared Laplacian"}
+
+    def stiffness(self) -> np.ndarray:
+        """Of each hinge: B over the area."""
+        return self.over_area
 
     def bending(self) -> tuple[np.ndarray, float]:
         """Forces [N] and energy [J]."""
         sums = np.einsum("kc,kci->ki", self.weights, self.x[self.corners])
-        pull = self.over_area[:, None] * sums
+        pull = self.stiffness()[:, None] * sums
         f = np.zeros_like(self.x)
         np.add.at(f, self.corners, -self.weights[:, :, None] * pull[:, None])
         return f, 0.5 * np.sum(sums * pull)
+
+    def normals(self) -> tuple[np.ndarray, np.ndarray]:
+        """Of both triangles of each hinge."""
+        a, b, c, d = (self.x[self.corners[:, k]] for k in range(4))
+        return np.cross(d - c, a - c), np.cross(b - c, d - c)
+
+    def angles(self) -> np.ndarray:
+        """Of hinges, without a sign [rad]."""
+        first, second = self.normals()
+        sine = np.linalg.norm(np.cross(first, second), axis=1)
+        return np.arctan2(sine, np.sum(first * second, axis=1))
 
     def forces(self) -> np.ndarray:
         return super().forces() + self.bending()[0]
@@ -105,18 +111,6 @@ def laplacian(corners: np.ndarray) -> tuple[np.ndarray, float]:
     return weights, area
 
 
-class BendsFourfold(Bends):
-    """The paper's constant taken for the rigidity."""
-
-    rigidity = 4.0
-
-
-class BendsNotAtAll(Bends):
-    """Takes a bending rigidity, and ignores it."""
-
-    rigidity = 0.0
-
-
 class SpringsPullAlone(Bends):
     """A spring that is shorter than at rest is slack, as a yarn."""
 
@@ -129,11 +123,10 @@ class SpringsKeepTheirDirections(Bends):
     """Springs along the edges of the rest shape, as for small displacements: tension does not
     straighten what is not flat."""
 
-    def prepare(self, scene: Scene) -> dict[str, str]:
-        mapping = super().prepare(scene)
+    def alter(self, scene: Scene) -> None:
+        super().alter(scene)
         a, b = scene.edges.T
         self.direction = (scene.rest[b] - scene.rest[a]) / self.length[:, None]
-        return mapping
 
     def springs(self) -> tuple[np.ndarray, np.ndarray]:
         d = self.x[self.edges[:, 1]] - self.x[self.edges[:, 0]]
@@ -188,35 +181,34 @@ class BendsUprightOnly(Bends):
         return super(Bends, self).forces() + bending
 
 
-class Damped(ToySolver):
+class Damped(Toy):
     """Dampers along the edges, explicit: as the scene says."""
 
     capabilities = (*ToySolver.capabilities, "damping")
-    share = 1.0  # of the scene's damping
+    share, stated = 1.0, "a damper per edge [N s/m]"  # share: of the scene's damping
 
     def prepare(self, scene: Scene) -> dict[str, str]:
-        mapping = super().prepare(scene)
+        return {**super().prepare(scene), "damping": self.stated}
+
+    def alter(self, scene: Scene) -> None:
+        super().alter(scene)
         material = scene.header["scene"]["material"]
         self.c = self.share * material["stretch_damping"] / material["young"] * self.k
-        return {**mapping, "damping": "a damper per edge [N s/m]"}
 
     def damping(self) -> np.ndarray:
         direction, _ = self.springs()
         a, b = self.edges.T
         pull = (self.c * np.sum((self.v[b] - self.v[a]) * direction, axis=1))[:, None] * direction
         f = np.zeros_like(self.x)
-        np.add.at(f, a, pull)
-        np.add.at(f, b, -pull)
+        add_pulls(f, self.edges, pull)
         return f
 
-    def advance(self, dt: float, steps: int) -> None:
-        for _ in range(steps):
-            self.v = self.v + dt * self.damping() / self.mass[:, None]
-            super().advance(dt, 1)
+    def damp(self, dt: float) -> None:
+        self.v = self.v + dt * self.damping() / self.mass[:, None]
 
-
-class DampingHalved(Damped):
-    share = 0.5
+    def step(self, dt: float) -> None:
+        self.damp(dt)
+        super().step(dt)
 
 
 class DampsAllMotion(Damped):
@@ -237,89 +229,60 @@ class DampedVerlet(Damped):
         self.v = self.v + dt / 2 * (self.forces() + self.damping()) / self.mass[:, None]
         self.v[self.held] = 0
 
-    def advance(self, dt: float, steps: int) -> None:
-        for _ in range(steps):
-            self.half_kick(dt)
-            self.x = self.x + dt * self.v
-            self.half_kick(dt)
-
-
-class DampedVerletInSingle(DampedVerlet):
-    precision = "f4"
-
-    def advance(self, dt: float, steps: int) -> None:
-        for _ in range(steps):
-            super().advance(dt, 1)
-            self.x, self.v = self.x.astype("f4").astype("f8"), self.v.astype("f4").astype("f8")
+    def step(self, dt: float) -> None:
+        self.half_kick(dt)
+        self.x = self.x + dt * self.v
+        self.half_kick(dt)
 
 
 class DampedUnasked(Damped):
     """A fiftieth of sqrt(k m) at each edge: 1.7 % of critical damping in a breathing triangle.
     Momenta are kept, and units."""
 
-    capabilities = ToySolver.capabilities
+    capabilities, stated = ToySolver.capabilities, "none"
 
-    def prepare(self, scene: Scene) -> dict[str, str]:
-        mapping = super().prepare(scene)
+    def alter(self, scene: Scene) -> None:
         self.c = 0.02 * np.sqrt(self.k * self.mass.mean())
-        return {**mapping, "damping": "none"}
 
 
 class BendsFaceUpAlone(Bends):
     """Where the sheet is turned over by more than 120 degrees it does not resist bending, as where
     a table of angles ends."""
 
-    def bending(self) -> tuple[np.ndarray, float]:
-        a, b, c, d = (self.x[self.corners[:, k]] for k in range(4))
-        normal = np.cross(d - c, a - c) - np.cross(d - c, b - c)
-        up = normal[:, 2] > -0.5 * np.linalg.norm(normal, axis=1)
-        given, self.over_area = self.over_area, self.over_area * up
-        found = super().bending()
-        self.over_area = given
-        return found
+    def stiffness(self) -> np.ndarray:
+        first, second = self.normals()
+        normal = first + second
+        return super().stiffness() * (normal[:, 2] > -0.5 * np.linalg.norm(normal, axis=1))
 
 
-class BendsByAngle(Bends):
-    """A law of bending whose stiffness depends on the angle."""
-
-    def stiffness(self, theta: np.ndarray) -> np.ndarray:
-        raise NotImplementedError  # over the scene's
-
-    def bending(self) -> tuple[np.ndarray, float]:
-        a, b, c, d = (self.x[self.corners[:, k]] for k in range(4))
-        first, second = np.cross(d - c, a - c), np.cross(b - c, d - c)
-        sine = np.linalg.norm(np.cross(first, second), axis=1)
-        theta = np.arctan2(sine, np.sum(first * second, axis=1))
-        given, self.over_area = self.over_area, self.over_area * self.stiffness(theta)
-        found = super().bending()
-        self.over_area = given
-        return found
-
-
-class StiffensWhenSharp(BendsByAngle):
+class StiffensWhenSharp(Bends):
     """As tan(2 theta)/2 grows: right at small angles, where rigidities are measured."""
 
-    def stiffness(self, theta: np.ndarray) -> np.ndarray:
-        return 1 + 16 * np.minimum(theta, 0.64) ** 2
+    def stiffness(self) -> np.ndarray:
+        return super().stiffness() * (1 + 16 * np.minimum(self.angles(), 0.64) ** 2)
 
 
-class GivesAtSmallAngles(BendsByAngle):
+class GivesAtSmallAngles(Bends):
     """No moment below half a milliradian, as of a hinge with play."""
 
-    def stiffness(self, theta: np.ndarray) -> np.ndarray:
-        return np.maximum(0, 1 - 5e-4 / np.maximum(theta, 1e-12))
+    def stiffness(self) -> np.ndarray:
+        moment = np.maximum(0, 1 - 5e-4 / np.maximum(self.angles(), 1e-12))
+        return super().stiffness() * moment
 
 
-class HeldStripsWeighTwice(Bends):
+class HeldSheetsWeighTwice(Toy):
     """Gravity is added once more where particles are held."""
 
     weight = 2.0  # over the scene's
 
-    def prepare(self, scene: Scene) -> dict[str, str]:
-        mapping = super().prepare(scene)
+    def alter(self, scene: Scene) -> None:
+        super().alter(scene)
         if len(self.held):
             self.gravity = self.weight * self.gravity
-        return mapping
+
+
+class HeldStripsWeighTwice(HeldSheetsWeighTwice, Bends):
+    pass
 
 
 class HeldStripsWeighATenthMore(HeldStripsWeighTwice):
@@ -330,40 +293,36 @@ class BendsByLongSprings(Bends):
     """As springs between particles two edges apart bend a sheet: more on coarse meshes. The
     rigidity is the scene's where edges are 5 cm long."""
 
-    def prepare(self, scene: Scene) -> dict[str, str]:
-        mapping = super().prepare(scene)
+    def alter(self, scene: Scene) -> None:
+        super().alter(scene)
         self.over_area *= (np.mean(scene.rest_lengths) / 0.05) ** 2
-        return mapping
 
 
 class BendsOneWayAlone(Bends):
     """Woven cloth whose edges within 25 degrees of y bend freely, as rods of one direction. A strip
     along y, with which rigidities are measured, has none of them."""
 
-    def prepare(self, scene: Scene) -> dict[str, str]:
-        mapping = super().prepare(scene)
+    def alter(self, scene: Scene) -> None:
+        super().alter(scene)
         along = scene.rest[self.corners[:, 3]] - scene.rest[self.corners[:, 2]]
         self.over_area[np.abs(along[:, 0]) < 0.42 * np.linalg.norm(along, axis=1)] = 0
-        return mapping
 
 
 class ClampsWhereHeld(Bends):
     """Right, with another clamp: cloth hardly bends along an edge between held particles, so that
     bending begins behind it."""
 
-    def prepare(self, scene: Scene) -> dict[str, str]:
-        mapping = super().prepare(scene)
+    def alter(self, scene: Scene) -> None:
+        super().alter(scene)
         self.over_area[np.isin(self.corners[:, 2:], self.held).all(axis=1)] *= 10
-        return mapping
 
 
-class WeightIsLimited(ToySolver):
+class WeightIsLimited(Toy):
     """Gravity beyond that of the earth is cut."""
 
-    def prepare(self, scene: Scene) -> dict[str, str]:
-        mapping = super().prepare(scene)
+    def alter(self, scene: Scene) -> None:
+        super().alter(scene)
         self.gravity = self.gravity * min(1, 9.81 / max(9.81, np.linalg.norm(self.gravity)))
-        return mapping
 
 
 class BendsWithLimitedWeight(WeightIsLimited, Bends):

@@ -1,15 +1,12 @@
 """Solvers that remember what they should forget, and correct ones that are slow."""
 from __future__ import annotations
 
-import sys
 import time
-from pathlib import Path
 
 import numpy as np
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "adapters"))
-from foldproof_solver import Scene  # noqa: E402
-from toy_solver import ToySolver  # noqa: E402
+from foldproof_solver import Scene
+from toy import Toy
+from toy_solver import ToySolver
 
 
 class StateNotRestored(ToySolver):
@@ -40,16 +37,14 @@ class Random(ToySolver):
         self.x = self.x * (1 + 1e-14 * np.random.default_rng().random(self.x.shape))
 
 
-class RestLengthsKept(ToySolver):
+class RestLengthsKept(Toy):
     """Takes the rest lengths of the last scene that had the same edges."""
 
     def __init__(self) -> None:
         self.known: dict[bytes, np.ndarray] = {}
 
-    def prepare(self, scene: Scene) -> dict[str, str]:
-        mapping = super().prepare(scene)
+    def alter(self, scene: Scene) -> None:
         self.length = self.known.setdefault(self.edges.tobytes(), self.length)
-        return mapping
 
 
 class Sleeps(ToySolver):

@@ -3,9 +3,9 @@ from __future__ import annotations
 
 import numpy as np
 from contact import OnPlanes
-from schemes import BackwardEuler, Single, ToySolver
-
 from foldproof_solver import Scene
+from schemes import BackwardEuler, Single
+from toy_solver import ToySolver
 
 
 class OnRoundBodies(OnPlanes):
@@ -14,24 +14,18 @@ class OnRoundBodies(OnPlanes):
     capabilities = (*ToySolver.capabilities, "spheres", "capsules")
     scale = 1.0  # of all radii
 
-    def prepare(self, scene: Scene) -> dict[str, str]:
+    def alter(self, scene: Scene) -> None:
+        super().alter(scene)
         constants = scene.header["scene"]
         self.bodies = [{"a": body["centre"], "b": body["centre"], **body}
                        for body in constants.get("spheres", [])] + constants.get("capsules", [])
-        return super().prepare(scene)
 
-    def advance(self, dt: float, steps: int) -> None:
-        for _ in range(steps):
-            before = self.x.astype("f8")
-            super().advance(dt, 1)
-            for body in self.bodies:
-                self.respond_to(body, before, float(dt))
-
-    def respond_to(self, body: dict, before: np.ndarray, dt: float) -> None:
-        out = self.from_axis(body, before + dt * self.v.astype("f8"))
-        length = np.linalg.norm(out, axis=1)
-        normals, gap = out / length[:, None], length - self.scale * body["radius"]
-        self.touch(normals, gap, body["friction"], before, dt)
+    def meet_obstacles(self, before: np.ndarray, dt: float) -> None:
+        for body in self.bodies:
+            out = self.from_axis(body, before + dt * self.v.astype("f8"))
+            length = np.linalg.norm(out, axis=1)
+            normals, gap = out / length[:, None], length - self.scale * body["radius"]
+            self.touch(normals, gap, body["friction"], before, dt)
 
     def from_axis(self, body: dict, p: np.ndarray) -> np.ndarray:
         """From the nearest point of the body's segment to each p."""
@@ -40,7 +34,7 @@ class OnRoundBodies(OnPlanes):
         return p - a - np.clip(share, 0, 1)[:, None] * axis
 
 
-class OnRoundBodiesInSingle(OnRoundBodies, Single):
+class OnRoundBodiesSingle(OnRoundBodies, Single):
     number = "f4"
 
 
@@ -51,16 +45,8 @@ class OnRoundBodiesBackwardEuler(OnRoundBodies, BackwardEuler):
 class ChokesOnRoundBodies(OnRoundBodies):
     """Declares them, and was never tried on one."""
 
-    def respond_to(self, body: dict, before: np.ndarray, dt: float) -> None:
+    def from_axis(self, body: dict, p: np.ndarray) -> np.ndarray:
         raise NotImplementedError("round bodies")
-
-
-class RadiusTooSmall(OnRoundBodies):
-    scale = 0.97
-
-
-class RadiusTooLarge(OnRoundBodies):
-    scale = 1.06
 
 
 class StopsFromAbove(OnRoundBodies):
@@ -120,11 +106,6 @@ class RoundBodiesStick(OnRoundBodies):
 
     def kept(self, most: np.ndarray, speed: np.ndarray) -> np.ndarray:
         return super().kept(most * self.excess, speed)
-
-
-class RoundFrictionHalved(OnRoundBodies):
-    def kept(self, most: np.ndarray, speed: np.ndarray) -> np.ndarray:
-        return super().kept(most / 2, speed)
 
 
 class RoundFrictionIsDrag(OnRoundBodies):

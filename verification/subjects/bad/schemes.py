@@ -1,32 +1,24 @@
 """Correct schemes for the springs of the toy, beside its symplectic Euler."""
 from __future__ import annotations
 
-import os
-import sys
-from pathlib import Path
-
-os.environ["OPENBLAS_NUM_THREADS"] = "1"  # before numpy: small systems, and other jobs beside
-
-import numpy as np  # noqa: E402
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "adapters"))
-from foldproof_solver import Scene  # noqa: E402
-from materials import Damped  # noqa: E402
-from toy_solver import ToySolver  # noqa: E402
+import numpy as np
+from foldproof_solver import Scene
+from materials import Damped, DampedVerlet
+from toy import Toy
+from toy_solver import ToySolver
 
 
-class Implicit(ToySolver):
+class BackwardEuler(Toy):
     """One nonlinear solve a step: theta 1 is backward Euler, 1/2 the trapezoidal rule."""
 
-    theta, level = 1.0, "L1"
+    theta, level, scheme = 1.0, "L1", "backward Euler"
 
-    def prepare(self, scene: Scene) -> dict[str, str]:
-        mapping = super().prepare(scene)
+    def alter(self, scene: Scene) -> None:
+        super().alter(scene)
         ends = self.edges.T.ravel()
         self.by_end = np.argsort(ends, kind="stable")
         self.first_of = np.searchsorted(ends[self.by_end], np.arange(len(self.x)))
         self.is_free = ~np.isin(np.arange(len(self.x)), self.held)
-        return mapping
 
     def blocks(self) -> np.ndarray:
         """(E, 3, 3): change of the pull of each edge; without what compression takes from it, so
@@ -59,11 +51,7 @@ class Implicit(ToySolver):
             p = r + rr / before * p
         return x
 
-    def advance(self, dt: float, steps: int) -> None:
-        for _ in range(steps):
-            self.solve_step(dt)
-
-    def solve_step(self, dt: float) -> None:
+    def step(self, dt: float) -> None:
         x, v, mass = self.x.astype("f8"), self.v.astype("f8"), self.mass[:, None]
         self.x = x
         known, new, blocks = self.forces(), v.copy(), self.blocks()
@@ -80,45 +68,45 @@ class Implicit(ToySolver):
         self.x, self.v = x + dt * (self.theta * new + (1 - self.theta) * v), new
 
 
-class BackwardEuler(Implicit):
-    scheme = "backward Euler"
+class SingleForDouble(Toy):
+    """The state is rounded to single precision after each step."""
 
-
-class BackwardEulerInSingle(BackwardEuler):
-    """Its state is rounded to single precision after each step."""
-
-    precision = "f4"
-
-    def solve_step(self, dt: float) -> None:
-        super().solve_step(dt)
+    def step(self, dt: float) -> None:
+        super().step(dt)
         self.x, self.v = self.x.astype("f4").astype("f8"), self.v.astype("f4").astype("f8")
 
 
-class Trapezoidal(Implicit):
+class BackwardEulerSingle(SingleForDouble, BackwardEuler):
+    precision = "f4"
+
+
+class DampedVerletSingle(SingleForDouble, DampedVerlet):
+    precision = "f4"
+
+
+class Trapezoidal(BackwardEuler):
     theta, scheme, order = 0.5, "trapezoidal rule", 2
 
 
-class InTurn(ToySolver):
+class InTurn(Toy):
     """One sweep of Gauss and Seidel in place of backward Euler's solve: each spring in its turn
     pulls as it must after those before it. What their order changes falls with the step."""
 
     scheme, level = "one sweep of springs", "L1"
 
-    def advance(self, dt: float, steps: int) -> None:
-        rows = list(zip(*self.edges.T, self.k, self.length, strict=True))
-        for _ in range(steps):
-            v = self.v + dt * self.gravity
-            v[self.held] = 0
-            x, w = self.x + dt * v, 1 / self.mass
-            w[self.held] = 0
-            for a, b, k, length in rows:
-                d = x[b] - x[a]
-                now = np.linalg.norm(d)
-                weight = w[a] + w[b]
-                pull = k * dt * dt * (now - length) / (1 + k * dt * dt * weight) / now
-                x[a] += w[a] * pull * d
-                x[b] -= w[b] * pull * d
-            self.x, self.v = x, (x - self.x) / dt
+    def step(self, dt: float) -> None:
+        v = self.v + dt * self.gravity
+        v[self.held] = 0
+        x, w = self.x + dt * v, 1 / self.mass
+        w[self.held] = 0
+        for a, b, k, length in zip(*self.edges.T, self.k, self.length, strict=True):
+            d = x[b] - x[a]
+            now = np.linalg.norm(d)
+            weight = w[a] + w[b]
+            pull = k * dt * dt * (now - length) / (1 + k * dt * dt * weight) / now
+            x[a] += w[a] * pull * d
+            x[b] -= w[b] * pull * d
+        self.x, self.v = x, (x - self.x) / dt
 
 
 class DampedBackwardEuler(Damped, BackwardEuler):
@@ -127,25 +115,24 @@ class DampedBackwardEuler(Damped, BackwardEuler):
     def forces(self) -> np.ndarray:
         return super().forces() + self.damping()
 
-    def advance(self, dt: float, steps: int) -> None:
-        Implicit.advance(self, dt, steps)
+    def step(self, dt: float) -> None:
+        BackwardEuler.step(self, dt)
 
 
 class DampedTrapezoidal(DampedBackwardEuler):
     theta, scheme, order = 0.5, "trapezoidal rule", 2
 
 
-class Single(ToySolver):
+class Single(Toy):
     precision = "f4"
 
-    def prepare(self, scene: Scene) -> dict[str, str]:
-        mapping = super().prepare(scene)
+    def alter(self, scene: Scene) -> None:
+        super().alter(scene)
         for name in ("x", "v", "mass", "k", "length", "gravity"):
             setattr(self, name, getattr(self, name).astype("f4"))
-        return mapping
 
     def set_state(self, x: np.ndarray, v: np.ndarray, time: float) -> None:
         super().set_state(x.astype("f4"), v.astype("f4"), time)
 
-    def advance(self, dt: float, steps: int) -> None:
-        super().advance(np.float32(dt), steps)
+    def step(self, dt: float) -> None:
+        super().step(np.float32(dt))

@@ -1,50 +1,40 @@
 """Dampers that are wrong, and forces and energies of level 2 that are not those of the motion."""
 from __future__ import annotations
 
-import sys
-from pathlib import Path
-
 import numpy as np
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "adapters"))
-from foldproof_solver import Scene  # noqa: E402
-from materials import Damped  # noqa: E402
-from toy_solver import ToySolver  # noqa: E402
+from foldproof_solver import Scene
+from materials import Damped
+from toy import Toy
+from toy_solver import ToySolver
 
 
 class MeanDampers(Damped):
     """Every edge has the mean damper: momenta, and a triangle of equal sides, do not show it."""
 
-    def prepare(self, scene: Scene) -> dict[str, str]:
-        mapping = super().prepare(scene)
+    def alter(self, scene: Scene) -> None:
+        super().alter(scene)
         self.c = np.full_like(self.c, self.c.mean())
-        return mapping
 
 
 class DampsLate(Damped):
     """Dampers act on the velocities of the step before, which a state that is set does not name."""
 
-    def prepare(self, scene: Scene) -> dict[str, str]:
-        mapping = super().prepare(scene)
+    def alter(self, scene: Scene) -> None:
+        super().alter(scene)
         self.before = self.v
-        return mapping
 
-    def advance(self, dt: float, steps: int) -> None:
-        for _ in range(steps):
-            now, self.v = self.v, self.before
-            push = self.damping()
-            self.v, self.before = now + dt * push / self.mass[:, None], now
-            ToySolver.advance(self, dt, 1)
+    def damp(self, dt: float) -> None:
+        now, self.v = self.v, self.before
+        push = self.damping()
+        self.v, self.before = now + dt * push / self.mass[:, None], now
 
 
 class StatesTwiceTheDamping(Damped):
     def damping(self) -> np.ndarray:
         return 2 * super().damping()
 
-    def advance(self, dt: float, steps: int) -> None:
-        for _ in range(steps):
-            self.v = self.v + dt / 2 * self.damping() / self.mass[:, None]
-            ToySolver.advance(self, dt, 1)
+    def damp(self, dt: float) -> None:
+        super().damp(dt / 2)
 
 
 class StatesUnbalancedDamping(Damped):
@@ -53,10 +43,8 @@ class StatesUnbalancedDamping(Damped):
         f[3] += 1e-9 * np.abs(f).max()
         return f
 
-    def advance(self, dt: float, steps: int) -> None:
-        for _ in range(steps):
-            self.v = self.v + dt * super().damping() / self.mass[:, None]
-            ToySolver.advance(self, dt, 1)
+    def damp(self, dt: float) -> None:
+        self.v = self.v + dt * super().damping() / self.mass[:, None]
 
 
 class EnergyWithoutWeight(ToySolver):
@@ -64,15 +52,13 @@ class EnergyWithoutWeight(ToySolver):
         return super().energy() + np.sum(self.mass * (self.x @ self.gravity))
 
 
-class StatesStaleForces(ToySolver):
+class StatesStaleForces(Toy):
     """States the forces of the last step, until the next one; no state can be set."""
 
     capabilities = ("held", "masses")
 
-    def prepare(self, scene: Scene) -> dict[str, str]:
-        mapping = super().prepare(scene)
+    def alter(self, scene: Scene) -> None:
         self.stale = self.springs()
-        return mapping
 
     def forces(self) -> np.ndarray:
         now, self.springs = self.stale, lambda: now
@@ -80,10 +66,9 @@ class StatesStaleForces(ToySolver):
         del self.springs
         return f
 
-    def advance(self, dt: float, steps: int) -> None:
-        for _ in range(steps):
-            self.stale = self.springs()
-            super().advance(dt, 1)
+    def step(self, dt: float) -> None:
+        self.stale = self.springs()
+        super().step(dt)
 
 
 class ForgetsWhatIsSet(StatesStaleForces):

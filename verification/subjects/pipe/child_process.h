@@ -22,8 +22,15 @@ struct ProcessLimits {
   long bytes_per_file = 256L << 20;  // any file that it writes (RLIMIT_FSIZE)
 };
 
-/// A failure of a solver. `cause` is one of the words in failure_causes (piped_solver.h); the text
-/// says what happened, during which call, and the last words of the solver.
+/// A failure of a solver; the text says what happened, during which call, and the last words of the
+/// solver. `cause` is one of
+///   start                the shell found no such program, or cannot run it
+///   crash, exit, hang    the process ended by a signal, ended by itself, or did not answer in time
+///   truncated, oversized an answer that is shorter or longer than it says
+///   header               no JSON object, a wrong id, a wrong type or version
+///   shape, nan           arrays of other shapes or types than asked for; numbers that are not
+///                        finite
+///   error                the solver said that it failed
 struct SolverFailure : std::runtime_error {
   std::string cause;
   std::string kind;  // what happened, without where: alike in failures that are the same

@@ -23,8 +23,6 @@ std::string_view bytes_of(const Number* numbers, size_t count) {
   return {reinterpret_cast<const char*>(numbers), count * sizeof(Number)};
 }
 
-std::string shape_text(const nlohmann::json& shape) { return shape.dump(); }
-
 long count_of(const WantedArray& array) {
   long count = 1;
   for (const long extent : array.shape) count *= extent;
@@ -78,7 +76,7 @@ void require_array(const nlohmann::json& entry, const WantedArray& wanted,
                       : is_longer ? "oversized"
                                   : "truncated",
                       fmt::format("sent array '{}' of shape {} instead of {}", wanted.name,
-                                  shape_text(shape), shape_text(wanted.shape)));
+                                  shape.dump(), nlohmann::json(wanted.shape).dump()));
 }
 
 }  // namespace

@@ -76,7 +76,8 @@ void add_scene(const PortableScene& scene, const SolverCommand& command, Request
   for (const Hinge& hinge : scene.mesh.hinges) hinges.push_back(hinge.particles);
   std::vector<double> angles = scene.rest_angles;
   angles.resize(hinges.size(), 0);
-  const Eigen::VectorXd stiffness = edge_stiffness(scene), lengths = scaled_rest_lengths(scene);
+  const Eigen::VectorXd stiffness = edge_stiffness(scene),
+                        lengths = m.rest_length_scale * rest_lengths(scene.mesh);
   const auto span_of = [](const auto& v) { return std::span(v.data(), size_t(v.size())); };
   request.add("triangles", flat(scene.mesh.triangles), 3);
   request.add("rest", scene.mesh.rest);
@@ -91,16 +92,6 @@ void add_scene(const PortableScene& scene, const SolverCommand& command, Request
   request.add("hinge_weights", hinge_weights(scene.mesh));
   request.add("rest_angles", angles);
 }
-
-}  // namespace
-
-const std::vector<std::string>& failure_causes() {
-  static const std::vector<std::string> causes{"start",     "crash",  "exit",  "hang", "truncated",
-                                               "oversized", "header", "shape", "nan",  "error"};
-  return causes;
-}
-
-namespace {
 
 /// "by 20 steps of 0.002 s"
 std::string steps_text(long steps, double dt) {

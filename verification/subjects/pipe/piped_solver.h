@@ -14,16 +14,6 @@
 
 namespace foldproof {
 
-/// The causes of a SolverFailure:
-///   start                the shell found no such program, or cannot run it
-///   crash, exit, hang    the process ended by a signal, ended by itself, or did not answer in time
-///   truncated, oversized an answer that is shorter or longer than it says
-///   header               no JSON object, a wrong id, a wrong type or version
-///   shape, nan           arrays of other shapes or types than asked for; numbers that are not
-///                        finite
-///   error                the solver said that it failed
-const std::vector<std::string>& failure_causes();
-
 /// How a solver is started.
 struct SolverCommand {
   std::string command;                                        // for sh -c

@@ -68,7 +68,4 @@ struct PortableScene {
 /// Stiffness of the spring along each edge, Y A_e/L0^2 of the rest shape [N/m]; E values.
 Eigen::VectorXd edge_stiffness(const PortableScene& scene);
 
-/// Rest length of each edge, scaled [m]; E values.
-Eigen::VectorXd scaled_rest_lengths(const PortableScene& scene);
-
 }  // namespace foldproof

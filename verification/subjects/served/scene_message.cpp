@@ -101,47 +101,39 @@ void read_extension(const Json& extension, Scene& scene) {
   for (const Json& p : extension.at("prescribed")) scene.prescribed.push_back(prescribed_of(p));
 }
 
+/// A body that stands still; its friction is the obstacle's.
+template <class Shape>
+SceneObject standing(const char* name, const Shape& shape, const Pose& pose, const Json& obstacle) {
+  SceneObject part;
+  part.object = Object{name, RigidObject{shape, pose, Motion{}}, obstacle.at("friction")};
+  return part;
+}
+
+Eigen::Quaterniond from_z_to(const Vector3& direction) {
+  return Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), direction);
+}
+
 /// A half space whose solid is below the plane.
 SceneObject plane_of(const Json& plane) {
-  const Eigen::Quaterniond turn =
-      Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), vector_of(plane.at("normal")));
-  SceneObject part;
-  part.object =
-      Object{"plane", RigidObject{HalfSpace{}, Pose{turn, vector_of(plane.at("point"))}, Motion{}},
-             plane.at("friction")};
-  return part;
+  const Pose pose{from_z_to(vector_of(plane.at("normal"))), vector_of(plane.at("point"))};
+  return standing("plane", HalfSpace{}, pose, plane);
 }
 
 /// Its edges along the axes.
 SceneObject box_of(const Json& box) {
-  SceneObject part;
-  part.object = Object{
-      "box",
-      RigidObject{Box{vector_of(box.at("half_extents"))},
-                  Pose{Eigen::Quaterniond::Identity(), vector_of(box.at("centre"))}, Motion{}},
-      box.at("friction")};
-  return part;
+  const Pose pose{Eigen::Quaterniond::Identity(), vector_of(box.at("centre"))};
+  return standing("box", Box{vector_of(box.at("half_extents"))}, pose, box);
 }
 
 SceneObject sphere_of(const Json& sphere) {
-  SceneObject part;
-  part.object = Object{
-      "sphere",
-      RigidObject{Sphere{sphere.at("radius")},
-                  Pose{Eigen::Quaterniond::Identity(), vector_of(sphere.at("centre"))}, Motion{}},
-      sphere.at("friction")};
-  return part;
+  const Pose pose{Eigen::Quaterniond::Identity(), vector_of(sphere.at("centre"))};
+  return standing("sphere", Sphere{sphere.at("radius")}, pose, sphere);
 }
 
 SceneObject capsule_of(const Json& capsule) {
   const Vector3 a = vector_of(capsule.at("a")), b = vector_of(capsule.at("b"));
-  const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), b - a);
-  SceneObject part;
-  part.object = Object{"capsule",
-                       RigidObject{Capsule{capsule.at("radius"), (b - a).norm() / 2},
-                                   Pose{turn, (a + b) / 2}, Motion{}},
-                       capsule.at("friction")};
-  return part;
+  const Pose pose{from_z_to(b - a), (a + b) / 2};
+  return standing("capsule", Capsule{capsule.at("radius"), (b - a).norm() / 2}, pose, capsule);
 }
 
 void read_obstacles(const Json& constants, Scene& scene) {

@@ -1,13 +1,9 @@
 // A sheet and a fixed ball: it falls on it, comes to rest, slides down.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "verification/subjects/suite/laws.h"
 #include "verification/subjects/suite/relaxation.h"
-#include "verification/subjects/suite/scenes.h"
 
 namespace foldproof {
 
@@ -24,8 +20,7 @@ PortableScene sheet_over_a_ball() {
   PortableScene scene = sheet_of_cells(8);
   scene.name = "sheet over a ball";
   scene.gravity = Vector3(0, 0, -weight);
-  const Vector3 middle = (scene.x.rowwise().maxCoeff() + scene.x.rowwise().minCoeff()) / 2;
-  scene.spheres = {{middle - Vector3(0, 0, gap + radius), radius, 0.5}};
+  scene.spheres = {{middle_of(scene.x) - Vector3(0, 0, gap + radius), radius, 0.5}};
   return scene;
 }
 
@@ -44,20 +39,12 @@ double allowed_clearance(const PortableScene& scene) {
 
 constexpr long fall_steps = 250;
 
-/// The states after each of the steps.
-std::vector<Snapshot> fall(Trial& trial, const PortableScene& scene) {
-  std::vector<long> at(fall_steps);
-  std::iota(at.begin(), at.end(), 1);
-  return trial.motion(scene, at);
-}
-
 Finding falling_sheet_stays_outside(Trial& trial) {
-  trial.require("spheres");
   const PortableScene scene = sheet_over_a_ball();
   double fastest = 0, deepest = 0, ratio = 0, nearest = std::numeric_limits<double>::infinity();
-  for (const Snapshot& now : fall(trial, scene)) {
+  for (const Snapshot& now : trial.motion(scene, multiples(1, fall_steps))) {
     const double least = distances(scene, now.x).minCoeff();
-    fastest = std::max(fastest, now.v.colwise().norm().maxCoeff());
+    fastest = std::max(fastest, largest(now.v));
     deepest = std::max(deepest, -least), nearest = std::min(nearest, std::abs(least));
     ratio = std::max(ratio, -least / (fastest * scene.dt));
   }
@@ -73,9 +60,8 @@ Finding falling_sheet_stays_outside(Trial& trial) {
 }
 
 Finding comes_to_rest(Trial& trial) {
-  trial.require("spheres");
   const PortableScene scene = sheet_over_a_ball();
-  const double edge = rest_lengths(scene.mesh).mean(), size = size_of(scene.x);
+  const double edge = rest_lengths(scene.mesh).mean(), size = largest(scene.x);
   constexpr double enough = 1e-3;
   const Relaxed end = relaxed(trial, scene, {scene.x, size, enough, 0.01});
   const Eigen::RowVectorXd apart = distances(scene, end.x);
@@ -122,7 +108,7 @@ PortableScene sheet_on_a_ball(double phi, double friction) {
   PortableScene scene = sheet_of_cells(4);
   scene.name = "sheet on a large ball";
   scene.gravity = Vector3(0, 0, -weight);
-  const Vector3 middle = (scene.x.rowwise().maxCoeff() + scene.x.rowwise().minCoeff()) / 2;
+  const Vector3 middle = middle_of(scene.x);
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(phi, Vector3::UnitY()).toRotationMatrix();
   for (Eigen::Index i = 0; i < scene.x.cols(); ++i) {
     const Vector3 out = scene.mesh.rest.col(i) - middle;
@@ -141,12 +127,9 @@ double angle_from_the_top(const PerParticle3& x) {
 }
 
 Finding slides_as_coulomb_says(Trial& trial) {
-  trial.require("spheres");
-  Table measured{{"angle from the top", "degrees"},
-                 {"mu", "1"},
-                 {"distance down", "m"},
-                 {"by Coulomb's law", "m"},
-                 {"difference", "of the frictionless distance"}};
+  Table measured = table_of(
+      "angle from the top [degrees] | mu [1] | distance down [m] | by Coulomb's law [m] | "
+      "difference [of the frictionless distance]");
   struct Slide {
     double degrees, friction;
   };
@@ -172,12 +155,12 @@ std::vector<Law> ball_laws() {
   return {
       {"ball.falling-sheet-stays-outside",
        "A sheet that falls on a ball meets it, and sinks in by no more than it travels in a step.",
-       "impenetrability", falling_sheet_stays_outside},
+       "impenetrability", falling_sheet_stays_outside, "spheres"},
       {"ball.sheet-comes-to-rest", "A sheet comes to rest on a ball that has friction.",
-       "equilibrium", comes_to_rest},
+       "equilibrium", comes_to_rest, "spheres"},
       {"ball.slides-as-coulomb-says",
        "On a large ball, a sheet sticks, or slides as a point does by Coulomb's law.", "Coulomb",
-       slides_as_coulomb_says},
+       slides_as_coulomb_says, "spheres", "mu | distance down | by Coulomb's law"},
   };
 }
 

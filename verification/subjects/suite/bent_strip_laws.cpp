@@ -28,10 +28,6 @@ constexpr double given = 8e-3;                                     // B of the s
 constexpr double young = 500;                                      // N/m
 const double h = shape.row_height(), length = shape.length() - h;  // between middles of panels [m]
 
-// As of the cantilever: a narrow strip has a rigidity of B (1 - nu^2) to B.
-constexpr double largest_poisson = 0.5;  // 1
-constexpr double measured_to = 0.02;     // of the rigidity [1]
-
 /// A strip as it is bent. Its weight is such that the elastica moves by 2 % of its length and more
 /// from the shape without weight, in which it starts.
 struct Bent {
@@ -77,16 +73,9 @@ Eigen::Matrix2Xd rows_of_elastica(const HeavyStrip& given_strip, double from, do
 
 /// At rest in the shape that it would have without weight.
 PortableScene weightless_start(const Bent& bent, double gravity) {
-  PortableScene scene = flat_strip();
+  PortableScene scene =
+      clamped_strip(flat_strip(), shape, rows_of_elastica(bent.elastica, 0, 0), gravity);
   scene.name = bent.words;
-  scene.gravity = Vector3(0, 0, -gravity);
-  const Eigen::Matrix2Xd rows = rows_of_elastica(bent.elastica, 0, 0);
-  const std::vector<int> row_of = rows_of(scene, shape);
-  for (Eigen::Index i = 0; i < scene.x.cols(); ++i) {
-    const int row = row_of[size_t(i)];
-    scene.x.col(i) << scene.mesh.rest(0, i), rows.col(row);
-    if (row < 2 || row > shape.rows - 2) scene.held.push_back(int(i));
-  }
   return scene;
 }
 
@@ -109,10 +98,8 @@ Allowed allowed(const HeavyStrip& strip, double rounding) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Allowed all{Eigen::Matrix2Xd::Constant(2, shape.rows + 1, infinity),
               Eigen::Matrix2Xd::Constant(2, shape.rows + 1, -infinity)};
-  const double off = measured_to + rounding;
   for (const double from : {0.0, h / 2})
-    for (const double heavier :
-         {1 / (1 + off), 1 / ((1 - off) * (1 - largest_poisson * largest_poisson))}) {
+    for (const double heavier : possible_weights(rounding)) {
       const Eigen::Matrix2Xd rows = rows_of_elastica(strip, from, heavier);
       all.least = all.least.cwiseMin(rows);
       all.most = all.most.cwiseMax(rows);
@@ -134,22 +121,9 @@ double rounding_of_load(const PortableScene& scene, const Declaration& declared)
   throw NotOffered{fmt::format("digits enough: rounding makes {:.2g} of a row's weight", share)};
 }
 
-Table no_shapes() {
-  return {{"strip", ""},
-          {"measured rigidity", "N m"},
-          {"gravity", "m/s^2"},
-          {"height of the middle", "L"},
-          {"at least", "L"},
-          {"at most", "L"},
-          {"farthest row outside", "L"},
-          {"last move", "L"},
-          {"allowed", "L"},
-          {"of both, over what is allowed", "1"}};
-}
-
 void compare(Trial& trial, const Bent& bent, double rigidity, Table& shapes) {
   const double density = flat_strip().material.density,
-               gravity = bent.elastica.gamma * rigidity / (density * std::pow(length, 3));
+               gravity = gravity_of(bent.elastica.gamma, rigidity, flat_strip(), length);
   const PortableScene scene = weightless_start(bent, gravity);
   const Relaxed end = relaxed(trial, scene, {scene.x, length, 1e-4, 4e-3});
   const Eigen::Matrix2Xd rows = mean_rows(scene, shape, end.x);
@@ -164,11 +138,13 @@ void compare(Trial& trial, const Bent& bent, double rigidity, Table& shapes) {
 }
 
 Finding take_their_shape(Trial& trial, const std::vector<Bent>& strips) {
-  trial.require_level(1);
-  trial.require("held");
   const double rigidity = measured_rigidity(trial, flat_strip(), shape);
   require_resistance("bending", rigidity, given);
-  Table shapes = no_shapes();
+  Table shapes = table_of(
+      "strip | measured rigidity [N m] | gravity [m/s^2] | height of the middle [L] | at least [L] "
+      "| "
+      "at most [L] | farthest row outside [L] | last move [L] | allowed [L] | "
+      "of both, over what is allowed [1]");
   for (const Bent& bent : strips) compare(trial, bent, rigidity, shapes);
   return judge_worst(
       shapes, 1,
@@ -208,7 +184,7 @@ std::vector<Bent> folds() {
 
 Law law_of(const char* name, const char* claim, std::vector<Bent> (*strips)()) {
   return {name, claim, "heavy elastica, Plaut 2015",
-          [strips](Trial& trial) { return take_their_shape(trial, strips()); }};
+          [strips](Trial& trial) { return take_their_shape(trial, strips()); }, "L1 held bending"};
 }
 
 }  // namespace

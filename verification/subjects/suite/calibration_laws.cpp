@@ -7,7 +7,6 @@
 
 #include "reference/mesh/shapes.h"
 #include "verification/subjects/suite/laws.h"
-#include "verification/subjects/suite/scenes.h"
 #include "verification/subjects/suite/strips.h"
 
 namespace foldproof {
@@ -34,18 +33,14 @@ struct Specimen {
 /// Rows so that cells are squares, or the triangles equilateral.
 PortableScene sheet_of(const Specimen& specimen) {
   const bool is_equilateral = specimen.pattern == SheetPattern::equilateral;
-  PortableScene scene;
-  scene.mesh = make_sheet({.pattern = specimen.pattern,
-                           .width = width,
-                           .height = is_equilateral ? 0 : width,
-                           .columns = specimen.columns,
-                           .rows = specimen.columns});
-  scene.mesh.rest.colwise() -= (scene.mesh.rest.rowwise().maxCoeff() / 2).eval();
-  scene.name = fmt::format("calibration sheet of {} columns", specimen.columns);
-  scene.v = PerParticle3::Zero(3, scene.mesh.rest.cols());
-  scene.material.young = 5;
-  scene.mass = lumped_masses(scene.mesh, scene.material.density);
-  return scene;
+  TriangleMesh mesh = make_sheet({.pattern = specimen.pattern,
+                                  .width = width,
+                                  .height = is_equilateral ? 0 : width,
+                                  .columns = specimen.columns,
+                                  .rows = specimen.columns});
+  mesh.rest.colwise() -= (mesh.rest.rowwise().maxCoeff() / 2).eval();
+  return resting(fmt::format("calibration sheet of {} columns", specimen.columns), std::move(mesh),
+                 {.young = 5});
 }
 
 /// So many that a step is the same share of the largest stable one on each mesh.
@@ -75,7 +70,6 @@ Eigen::Vector2d stiffness_row(Trial& trial, const Specimen& specimen, int axis) 
   Eigen::Vector2d row = Eigen::Vector2d::Zero();
   for (const double sign : {1.0, -1.0}) {
     PortableScene scene = sheet_of(specimen);
-    scene.x = scene.mesh.rest;
     scene.x.row(axis) *= 1 + sign * strain;
     const PerParticle3 v = let_go(trial, scene, specimen).v;
     row += sign * Eigen::Vector2d(stress(scene, v, 0), stress(scene, v, 1)) / (2 * strain);
@@ -109,10 +103,9 @@ Finding modulus_is_the_scene_s(Trial& trial) {
   const Specimen specimen{SheetPattern::equilateral, usual_columns};
   const double young = sheet_of(specimen).material.young;
   const Moduli found = moduli_of(trial, specimen);
-  Table measured{{"along", ""},
-                 {"Young's modulus", "N/m"},
-                 {"Poisson's ratio", "1"},
-                 {"difference from the scene's", "of the scene's"}};
+  Table measured = table_of(
+      "along | Young's modulus [N/m] | Poisson's ratio [1] | "
+      "difference from the scene's [of the scene's]");
   for (const auto& [axis, modulus] : {std::pair("x", found.along_x), std::pair("y", found.along_y)})
     measured.row(axis, modulus, found.poisson, std::abs(modulus / young - 1));
   return judge_worst(measured, 0.05, relaxed);
@@ -125,9 +118,9 @@ double change_of(const Moduli& fine, const Moduli& coarsest) {
 }
 
 Finding modulus_survives_refinement(Trial& trial) {
-  Table measured{{"pattern", ""},          {"columns", "1"},
-                 {"along x", "N/m"},       {"along y", "N/m"},
-                 {"Poisson's ratio", "1"}, {"change from the coarsest mesh, x or y", "1"}};
+  Table measured = table_of(
+      "pattern | columns [1] | along x [N/m] | along y [N/m] | Poisson's ratio [1] | "
+      "change from the coarsest mesh, x or y [1]");
   for (const auto& [name, pattern] : {std::pair("equilateral", SheetPattern::equilateral),
                                       std::pair("one diagonal", SheetPattern::one_diagonal)}) {
     std::optional<Moduli> coarsest;
@@ -148,18 +141,15 @@ Finding modulus_survives_refinement(Trial& trial) {
 /// Of a sheet that is stretched along an axis, along it [N/m].
 double tension(Trial& trial, const Specimen& specimen, int axis, double stretch) {
   PortableScene scene = sheet_of(specimen);
-  scene.x = scene.mesh.rest;
   scene.x.row(axis) *= 1 + stretch;
   return stress(scene, let_go(trial, scene, specimen).v, axis);
 }
 
 Finding tension_grows_with_strain(Trial& trial) {
   const Specimen specimen{SheetPattern::equilateral, usual_columns};
-  Table measured{{"along", ""},
-                 {"strain", "1"},
-                 {"tension", "N/m"},
-                 {"growth since the smaller strain", "that up to the first"},
-                 {"short of it by", "1"}};
+  Table measured = table_of(
+      "along | strain [1] | tension [N/m] | "
+      "growth since the smaller strain [that up to the first] | short of it by [1]");
   for (const auto& [name, axis] : {std::pair("x", 0), {"y", 1}}) {
     double last = 0, before = 0, first_slope = 0;
     for (const double stretch : {0.02, 0.05, 0.1, 0.2, 0.3}) {
@@ -175,28 +165,12 @@ Finding tension_grows_with_strain(Trial& trial) {
                      "its width, by 0.57 of it from 20 to 30 %: its tension is Y (l - l^-3)/3");
 }
 
-/// Bent to a cylinder, along an axis of the sheet's plane.
 PortableScene bent(const Specimen& specimen, int axis, double by) {
   PortableScene scene = sheet_of(specimen);
   scene.material.bending_rigidity = 1e-3;
   scene.name += ", bent";
-  scene.x = scene.mesh.rest;
-  for (Eigen::Index i = 0; i < scene.x.cols(); ++i) {
-    const double turn = by * scene.mesh.rest(axis, i);
-    scene.x(axis, i) = std::sin(turn) / by;
-    scene.x(2, i) = (1 - std::cos(turn)) / by;
-  }
+  bend(scene, axis, by);
   return scene;
-}
-
-/// Of the half beyond the middle, about the other axis [kg m^2/s]; `away` is where the sheet lies.
-double angular_momentum(const PortableScene& scene, const PerParticle3& v, int axis,
-                        const Vector3& away) {
-  double sum = 0;
-  for (Eigen::Index i = 0; i < v.cols(); ++i)
-    if (const Vector3 arm = scene.x.col(i) - away; scene.mesh.rest(axis, i) > 0)
-      sum += scene.mass[i] * (arm.z() * v(axis, i) - arm[axis] * v(2, i));
-  return sum;
 }
 
 /// Against bending along an axis [N m].
@@ -207,7 +181,7 @@ double rigidity_of(Trial& trial, const Specimen& specimen, int axis) {
       PortableScene scene = bent(specimen, axis, sign * curvature);
       scene.x.colwise() += away;
       const PerParticle3 v = let_go(trial, scene, specimen).v;
-      moment += sign * angular_momentum(scene, v, axis, away) /
+      moment += sign * angular_momentum(scene, v, axis, 0, away) /
                 (2 * time * extent(scene.mesh.rest, 1 - axis));
     }
     return moment / curvature;
@@ -215,10 +189,9 @@ double rigidity_of(Trial& trial, const Specimen& specimen, int axis) {
 }
 
 Finding rigidity_is_the_scene_s(Trial& trial) {
-  Table measured{{"along", ""},
-                 {"columns", "1"},
-                 {"bending rigidity", "N m"},
-                 {"difference from the scene's", "of the scene's"}};
+  Table measured = table_of(
+      "along | columns [1] | bending rigidity [N m] | "
+      "difference from the scene's [of the scene's]");
   for (const auto& [name, axis] : {std::pair("x", 0), {"y", 1}})
     for (const int columns : {8, 12}) {
       const Specimen specimen{SheetPattern::equilateral, columns};
@@ -232,11 +205,9 @@ Finding rigidity_is_the_scene_s(Trial& trial) {
 }
 
 Finding rigidity_survives_refinement(Trial& trial) {
-  Table measured{{"pattern", ""},
-                 {"along", ""},
-                 {"columns", "1"},
-                 {"bending rigidity", "N m"},
-                 {"change from the coarsest mesh", "1"}};
+  Table measured = table_of(
+      "pattern | along | columns [1] | bending rigidity [N m] | "
+      "change from the coarsest mesh [1]");
   for (const auto& [pattern_name, pattern] :
        {std::pair("equilateral", SheetPattern::equilateral),
         std::pair("one diagonal", SheetPattern::one_diagonal)})
@@ -260,7 +231,8 @@ std::vector<Law> calibration_laws() {
   return {
       {"calibration.young-s-modulus-is-the-scene-s",
        "On equilateral meshes the effective Young's modulus is the scene's.",
-       "Newton's second law of half a strained sheet", modulus_is_the_scene_s},
+       "Newton's second law of half a strained sheet", modulus_is_the_scene_s, "",
+       "along | Young's modulus"},
       {"calibration.modulus-survives-refinement",
        "The effective Young's modulus, along x and along y, does not depend on the mesh's "
        "resolution.",
@@ -270,11 +242,12 @@ std::vector<Law> calibration_laws() {
        "Newton's second law of half a strained sheet", tension_grows_with_strain},
       {"calibration.bending-rigidity-is-the-scene-s",
        "On equilateral meshes the effective bending rigidity is the scene's.",
-       "Newton's second law of half a bent sheet", rigidity_is_the_scene_s},
+       "Newton's second law of half a bent sheet", rigidity_is_the_scene_s, "bending",
+       "bending rigidity"},
       {"calibration.rigidity-survives-refinement",
        "The effective bending rigidity, along x and along y, does not depend on the mesh's "
        "resolution.",
-       "Newton's second law of half a bent sheet", rigidity_survives_refinement},
+       "Newton's second law of half a bent sheet", rigidity_survives_refinement, "bending"},
   };
 }
 

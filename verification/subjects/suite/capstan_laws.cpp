@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "reference/mesh/shapes.h"
-#include "verification/subjects/suite/headlines.h"
 #include "verification/subjects/suite/laws.h"
 #include "verification/subjects/suite/relaxation.h"
 
@@ -58,14 +57,9 @@ int row_of(const PortableScene& scene, Eigen::Index i) {
 
 /// Heavy at the end towards x. The capsule is along y; its middle is not the strip's.
 PortableScene strip_over_a_capsule(double heavy, double friction) {
-  PortableScene scene;
-  scene.name = "strip over a capsule";
-  scene.mesh = make_sheet({SheetPattern::alternating, cells * edge, edge, cells, 1});
-  scene.x = scene.mesh.rest;
-  scene.v = PerParticle3::Zero(3, scene.x.cols());
-  scene.material.density = density;
-  scene.material.young = 1200;
-  scene.mass = lumped_masses(scene.mesh, density);
+  PortableScene scene = resting(
+      "strip over a capsule", make_sheet({SheetPattern::alternating, cells * edge, edge, cells, 1}),
+      {.density = density, .young = 1200});
   scene.own_masses = true;
   const double turn = 2 * std::asin(edge / (2 * radius));  // rad, from row to row
   for (Eigen::Index i = 0; i < scene.x.cols(); ++i) {
@@ -115,27 +109,19 @@ double friction_of_that_share(double heavy, double most) {
 }
 
 Finding slips_at_euler_s_ratio(Trial& trial) {
-  trial.require_level(1);
-  trial.require("capsules");
-  trial.require("masses");
-  Table measured{{"heavy over light end", "1"},
-                 {"mu that just holds", ""},
-                 {"by Euler's law", "1"},
-                 {"difference", "of mu"}};
+  Table measured = table_of(
+      "heavy over light end [1] | mu that just holds | by Euler's law [1] | difference [of mu]");
   for (const double mu : {0.23, 0.41}) {
     const double heavy = mass_that_holds(mu), expected = friction_of_that_share(heavy, mu);
     PortableScene scene = strip_over_a_capsule(heavy, mu);
     scene.x = laid(trial, scene).x;
-    const double least = 0.7 * mu, most = 1.3 * mu;
-    double moves = least, rests = most;
-    while (rests - moves > 0.01 * mu) {
-      const double middle = (rests + moves) / 2;
-      scene.capsules[0].friction = middle;
-      (slips(trial, scene, heavy) ? moves : rests) = middle;
-    }
-    const double found = (rests + moves) / 2;
-    measured.row(heavy / light, found_text({moves, rests}, {least, most}), expected,
-                 std::abs(found - expected) / mu);
+    const Interval tried{0.7 * mu, 1.3 * mu},
+        found = bisected(tried, 0.01 * mu, [&](double middle) {
+          scene.capsules[0].friction = middle;
+          return !slips(trial, scene, heavy);
+        });
+    measured.row(heavy / light, found_text(found, tried), expected,
+                 std::abs(middle(found) - expected) / mu);
   }
   return judge_worst(
       measured, 0.021,
@@ -145,9 +131,6 @@ Finding slips_at_euler_s_ratio(Trial& trial) {
 }
 
 Finding strip_lies_on_the_capsule(Trial& trial) {
-  trial.require_level(1);
-  trial.require("capsules");
-  trial.require("masses");
   constexpr double mu = 0.41;
   const PortableScene scene = strip_over_a_capsule(mass_that_holds(mu), mu);
   const Relaxed end = laid(trial, scene);
@@ -173,11 +156,12 @@ std::vector<Law> capstan_laws() {
   return {
       {"capstan.strip-lies-on-the-capsule",
        "A strip that hangs over a capsule with a weight at each end lies on it.", "impenetrability",
-       strip_lies_on_the_capsule},
+       strip_lies_on_the_capsule, "L1 capsules masses"},
       {"capstan.slips-at-euler-s-ratio",
        "A strip over a capsule slips where the ratio of its tensions is exp(mu pi), and more by "
        "its own weight.",
-       "Euler, Eytelwein", slips_at_euler_s_ratio},
+       "Euler, Eytelwein", slips_at_euler_s_ratio, "L1 capsules masses",
+       "heavy over light end | mu that just holds | by Euler's law"},
   };
 }
 

@@ -48,44 +48,22 @@ std::string start_other_scene(PipedSolver& solver) {
   return fmt::format("{} particles", particles);
 }
 
-/// The small sheet, a step before it meets what is put below it.
-std::string meet(PipedSolver& solver, PortableScene obstacles) {
-  PortableScene scene = suite::small_sheet();
-  scene.gravity = Vector3(0, 0, -9.81);
-  scene.planes = obstacles.planes, scene.boxes = obstacles.boxes;
-  scene.spheres = obstacles.spheres, scene.capsules = obstacles.capsules;
-  solver.prepare(scene);
-  solver.advance(scene.dt, steps);
-  return "";
+/// The small sheet is put above an obstacle, which it meets in the first step.
+Demand meets(const char* demand, const char* capability, void (*put)(PortableScene&)) {
+  return {demand, 1, capability, [put](PipedSolver& solver) {
+            PortableScene scene = suite::small_sheet();
+            scene.gravity = Vector3(0, 0, -9.81);
+            put(scene);
+            solver.prepare(scene);
+            solver.advance(scene.dt, steps);
+            return std::string();
+          }};
 }
 
-std::vector<Demand> demands_of_obstacles() {
-  const auto demand = [](const char* text, const char* capability, auto put) {
-    return Demand{text, 1, capability, [put](PipedSolver& solver) {
-                    PortableScene obstacles;
-                    put(obstacles);
-                    return meet(solver, obstacles);
-                  }};
-  };
-  return {
-      demand("a sheet on a plane is moved", "planes",
-             [](auto& s) {
-               s.planes = {{Vector3::Zero(), Vector3::UnitZ(), 0.3}};
-             }),
-      demand("a sheet on a box is moved", "boxes",
-             [](auto& s) {
-               s.boxes = {{{0.1, 0.1, -0.5}, {1, 1, 0.5}, 0.3}};
-             }),
-      demand("a sheet on a sphere is moved", "spheres",
-             [](auto& s) {
-               s.spheres = {{{0.1, 0.1, -0.4}, 0.4, 0.3}};
-             }),
-      demand("a sheet on a capsule is moved", "capsules",
-             [](auto& s) {
-               s.capsules = {{{-1, 0.1, -0.1}, {1, 0.1, -0.1}, 0.1, 0.3}};
-             }),
-  };
-}
+void put_plane(PortableScene& s) { s.planes = {{Vector3::Zero(), Vector3::UnitZ(), 0.3}}; }
+void put_box(PortableScene& s) { s.boxes = {{{0.1, 0.1, -0.5}, {1, 1, 0.5}, 0.3}}; }
+void put_sphere(PortableScene& s) { s.spheres = {{{0.1, 0.1, -0.4}, 0.4, 0.3}}; }
+void put_capsule(PortableScene& s) { s.capsules = {{{-1, 0.1, -0.1}, {1, 0.1, -0.1}, 0.1, 0.3}}; }
 
 std::string ask_declined(PipedSolver& solver) {
   if (!solver.declines_unknown_operation())
@@ -95,7 +73,7 @@ std::string ask_declined(PipedSolver& solver) {
 
 std::vector<Demand> all_demands() {
   const auto state = [] { return start_of(suite::moving_sheet()); };
-  std::vector<Demand> all = {
+  return {
       {"run returns the frames", 0, "", run_twice_as_far},
       {"prepare states the mapping", 1, "", mapping_text},
       {"advance returns the state", 1, "",
@@ -111,11 +89,13 @@ std::vector<Demand> all_demands() {
        [state](PipedSolver& s) { return fmt::format("{:.3g} J", s.energy(state(), 0)); }},
       {"an unknown operation is declined", 0, "", ask_declined},
       {"a second scene of other size is accepted", 1, "", start_other_scene},
+      meets("a sheet on a plane is moved", "planes", put_plane),
+      meets("a sheet on a box is moved", "boxes", put_box),
+      meets("a sheet on a sphere is moved", "spheres", put_sphere),
+      meets("a sheet on a capsule is moved", "capsules", put_capsule),
+      {"stop is answered, and nothing else is sent", 0, "",
+       [](PipedSolver& s) { return s.stop(), std::string(); }},
   };
-  for (Demand& demand : demands_of_obstacles()) all.push_back(std::move(demand));
-  all.push_back({"stop is answered, and nothing else is sent", 0, "",
-                 [](PipedSolver& s) { return s.stop(), std::string(); }});
-  return all;
 }
 
 ConformanceRow try_demand(const Demand& demand, PipedSolver& solver) {

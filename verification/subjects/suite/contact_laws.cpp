@@ -3,9 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "verification/subjects/suite/headlines.h"
 #include "verification/subjects/suite/laws.h"
-#include "verification/subjects/suite/scenes.h"
 
 namespace foldproof {
 
@@ -18,13 +16,10 @@ constexpr double weight = 9.81;  // m/s^2
 constexpr double degree = pi / 180;
 
 Finding rests_on_the_plane(Trial& trial) {
-  trial.require("planes");
   const PortableScene scene = sheet_on_a_plane({0, 0}, 0.3);
   const double edge = rest_lengths(scene.mesh).mean();
-  Table measured{{"steps", "1"},
-                 {"deepest", "m"},
-                 {"highest", "m"},
-                 {"largest distance over what is allowed", "1"}};
+  Table measured =
+      table_of("steps [1] | deepest [m] | highest [m] | largest distance over what is allowed [1]");
   for (const long count : {steps, 2 * steps}) {
     const Eigen::RowVectorXd z = seen_from_the_plane(trial.after(scene, count).x).row(2);
     const double deepest = std::max(0.0, -z.minCoeff()), highest = std::max(0.0, z.maxCoeff());
@@ -37,14 +32,13 @@ Finding rests_on_the_plane(Trial& trial) {
 }
 
 Finding resting_sheet_is_still(Trial& trial) {
-  trial.require("planes");
   const PortableScene scene = sheet_on_a_plane({0, 0}, 0.3);
   std::vector<Snapshot> last = trial.motion(scene, {steps, steps + 1, steps + 2, steps + 3});
   Table measured{{"step", "1"}, {"largest displacement in it", "g dt^2"}};
   for (size_t k = 1; k < last.size(); ++k)
-    measured.row(steps + long(k), (last[k].x - last[k - 1].x).colwise().norm().maxCoeff() /
-                                      (weight * scene.dt * scene.dt));
-  const double rounding = rounding_error(scene, 1, trial.declaration()) * size_of(scene.x) /
+    measured.row(steps + long(k),
+                 largest(last[k].x - last[k - 1].x) / (weight * scene.dt * scene.dt));
+  const double rounding = rounding_error(scene, 1, trial.declaration()) * largest(scene.x) /
                           (weight * scene.dt * scene.dt);
   return judge_worst(
       measured, 1 + narrow(rounding, trial.declaration()),
@@ -81,14 +75,9 @@ Vector3 mean_way(Trial& trial, const PortableScene& scene, long count) {
 
 /// Coulomb on ten pairs, in ten directions; none is within a fifth of the limit of sticking.
 Finding slides_as_coulomb_says(Trial& trial) {
-  trial.require("planes");
-  Table measured{{"slope", "degrees"},
-                 {"mu", "1"},
-                 {"way down", "degrees"},
-                 {"distance down", "m"},
-                 {"distance sideways", "m"},
-                 {"by Coulomb's law", "m"},
-                 {"difference", "of the frictionless distance"}};
+  Table measured = table_of(
+      "slope [degrees] | mu [1] | way down [degrees] | distance down [m] | distance sideways [m] | "
+      "by Coulomb's law [m] | difference [of the frictionless distance]");
   for (const Slope& slope : {Slope{10, 0.3, 20},
                              {15, 0.5, 57},
                              {20, 0.6, 94},
@@ -126,22 +115,18 @@ bool slips(Trial& trial, const Slope& slope) {
 /// The slope at which it begins to slip, by bisection; one end of the search if it is outside. By
 /// Coulomb's law it goes the share 1 - mu/slope of the way without friction.
 Finding slips_at_coulomb_s_slope(Trial& trial) {
-  trial.require("planes");
-  Table measured{{"mu", "1"},
-                 {"way down", "degrees"},
-                 {"slope that slips", ""},
-                 {"by Coulomb's law", "1"},
-                 {"difference", "of mu"}};
+  Table measured = table_of(
+      "mu [1] | way down [degrees] | slope that slips | by Coulomb's law [1] | "
+      "difference [of mu]");
   for (const auto& [friction, heading] : {std::pair(0.23, 25.0), {0.61, 70.0}}) {
-    const double least = 0.7 * friction, most = 1.3 * friction;
-    double rests = least, moves = most;
-    while (moves - rests > 0.01 * friction) {
-      const double middle = (rests + moves) / 2;
-      (slips(trial, {std::atan(middle) / degree, friction, heading}) ? moves : rests) = middle;
-    }
-    const double found = (rests + moves) / 2, expected = friction / (1 - share_of_way);
-    measured.row(friction, heading, found_text({rests, moves}, {least, most}), expected,
-                 std::abs(found - expected) / friction);
+    const auto moves = [&, mu = friction, way = heading](double slope) {
+      return slips(trial, {std::atan(slope) / degree, mu, way});
+    };
+    const Interval tried{0.7 * friction, 1.3 * friction},
+        found = bisected(tried, 0.01 * friction, moves);
+    const double expected = friction / (1 - share_of_way);
+    measured.row(friction, heading, found_text(found, tried), expected,
+                 std::abs(middle(found) - expected) / friction);
   }
   return judge_worst(
       measured, 0.03,
@@ -154,17 +139,18 @@ Finding slips_at_coulomb_s_slope(Trial& trial) {
 std::vector<Law> contact_laws() {
   return {
       {"contact.sheet-rests-on-a-plane", "A sheet on a plane neither sinks in nor lifts off.",
-       "impenetrability", rests_on_the_plane},
+       "impenetrability", rests_on_the_plane, "planes", "deepest | highest"},
       {"contact.resting-sheet-is-still", "A sheet at rest on a plane does not jitter.",
-       "equilibrium", resting_sheet_is_still},
+       "equilibrium", resting_sheet_is_still, "planes"},
       {"contact.slides-as-coulomb-says",
        "On slopes that face all ways, a sheet sticks, or slides straight down, as Coulomb's law "
        "says.",
-       "Coulomb", slides_as_coulomb_says},
+       "Coulomb", slides_as_coulomb_says, "planes",
+       "slope | mu | distance down | by Coulomb's law"},
       {"contact.slips-at-coulomb-s-slope",
        "A sheet begins to slip where the slope is the coefficient of friction, and does not creep "
        "before.",
-       "Coulomb", slips_at_coulomb_s_slope},
+       "Coulomb", slips_at_coulomb_s_slope, "planes", "mu | slope that slips | by Coulomb's law"},
   };
 }
 

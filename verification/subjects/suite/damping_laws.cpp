@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "verification/subjects/suite/laws.h"
-#include "verification/subjects/suite/scenes.h"
 
 namespace foldproof {
 
@@ -82,25 +81,17 @@ constexpr const char* reason =
     "%; springs are linear to 1 %; and rounding";
 
 Finding edges_damp_as_stiff_as_they_are(Trial& trial) {
-  trial.require("damping");
   const Impulse found = impulse_of_dampers(trial);
   const PerParticle3 expected = force_of_springs(trial, tau_of(rattled_sheet()) * found.v);
-  Table measured{{"force of dampers", "N"},
-                 {"of springs, displaced by tau v", "N"},
-                 {"difference", "of the force of springs"}};
+  Table measured = table_of(
+      "force of dampers [N] | of springs, displaced by tau v [N] | "
+      "difference [of the force of springs]");
   measured.row(found.force.norm(), expected.norm(),
                (found.force - expected).norm() / expected.norm());
   return judge_worst(measured, explained + 2 * found.rounding, reason);
 }
 
-void require_stated_damping(Trial& trial) {
-  trial.require_level(2);
-  trial.require("damping");
-  trial.require("set_state");
-}
-
 PerParticle3 stated_forces(Trial& trial, const PortableScene& scene, const PerParticle3& v) {
-  require_stated_damping(trial);
   trial.prepare(scene);
   return trial.solver().damping({scene.x, v}, 0);
 }
@@ -108,28 +99,25 @@ PerParticle3 stated_forces(Trial& trial, const PortableScene& scene, const PerPa
 Finding stated_forces_are_inner_ones(Trial& trial) {
   const PortableScene scene = rattled_sheet();
   const PerParticle3 f = stated_forces(trial, scene, scene.v);
-  Vector3 torque = Vector3::Zero();
-  for (Eigen::Index i = 0; i < f.cols(); ++i)
-    torque += Vector3(scene.x.col(i)).cross(Vector3(f.col(i)));
+  const Vector3 torque = torque_of(scene.x, f);
   const double scale =
       tau_of(scene) * edge_stiffness(scene).sum() * scene.v.colwise().norm().maxCoeff();
   Table measured{{"of", ""}, {"sum", "of the sum of c |v|, times the size"}};
   measured.row("forces", f.rowwise().sum().norm() / scale);
-  measured.row("torques", torque.norm() / (scale * size_of(scene.x)));
+  measured.row("torques", torque.norm() / (scale * largest(scene.x)));
   constexpr double roundings = 64;  // of a sum over the dampers of six edges a particle
   return judge_worst(measured, roundings * trial.declaration().rounding(), "rounding of a sum");
 }
 
 Finding stated_forces_are_those_of_the_motion(Trial& trial) {
-  require_stated_damping(trial);
   const Impulse found = impulse_of_dampers(trial);
   const PerParticle3 f = stated_forces(trial, rattled_sheet(), found.v);
   const auto power = [&](const PerParticle3& force) {
     return (force.array() * found.v.array()).sum();
   };
-  Table measured{{"power of the stated forces", "W"},
-                 {"power in the motion", "W"},
-                 {"difference", "of the force in the motion"}};
+  Table measured = table_of(
+      "power of the stated forces [W] | power in the motion [W] | "
+      "difference [of the force in the motion]");
   measured.row(power(f), power(found.force), (found.force - f).norm() / found.force.norm());
   return judge_worst(measured, explained + found.rounding, reason);
 }
@@ -140,13 +128,13 @@ std::vector<Law> damping_laws() {
   return {
       {"damping.edges-damp-in-proportion-to-their-stiffness",
        "Dampers act on velocities as the springs on displacements: each edge has its share.",
-       "protocol: 'stretch_damping'", edges_damp_as_stiff_as_they_are},
+       "protocol: 'stretch_damping'", edges_damp_as_stiff_as_they_are, "damping"},
       {"damping.stated-forces-sum-to-zero",
        "Damping forces of a free sheet sum to zero and exert no torque.", "Newton's third law",
-       stated_forces_are_inner_ones},
+       stated_forces_are_inner_ones, "L2 damping set_state"},
       {"damping.stated-forces-are-those-of-the-motion",
        "The damping forces that level 2 states change the motion by their impulse.",
-       "Newton's second law", stated_forces_are_those_of_the_motion},
+       "Newton's second law", stated_forces_are_those_of_the_motion, "L2 damping set_state"},
   };
 }
 

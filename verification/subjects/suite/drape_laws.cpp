@@ -19,13 +19,9 @@ namespace {
 using namespace suite;
 
 /// Level.
-PortableScene ring_of_cloth(const oracles::GrowingRing& ring, const PortableMaterial& material) {
-  PortableScene scene;
-  scene.mesh = make_triangle_mesh(ring.rest(), ring.triangles());
-  scene.x = scene.mesh.rest;
-  scene.v = PerParticle3::Zero(3, scene.x.cols());
-  scene.material = material;
-  scene.mass = lumped_masses(scene.mesh, material.density);
+PortableScene ring_of_cloth(const std::string& name, const oracles::GrowingRing& ring,
+                            const PortableMaterial& material) {
+  PortableScene scene = resting(name, make_triangle_mesh(ring.rest(), ring.triangles()), material);
   for (int i = 0; i < ring.held(); ++i) scene.held.push_back(i);
   return scene;
 }
@@ -38,13 +34,7 @@ constexpr double coarse_spacing = 1 / 4.5, fine_spacing = 1 / 8.5;  // of rows, 
 constexpr double gravity = 5.1;                                     // m/s^2
 const double inner = fine.plate / fine.edge(), width = fine.edge() - fine.plate;
 
-PortableMaterial stiff_cloth() {
-  PortableMaterial material;
-  material.density = 0.23;
-  material.young = 400;
-  material.bending_rigidity = 0.9;
-  return material;
-}
+PortableMaterial stiff_cloth() { return {.density = 0.23, .young = 400, .bending_rigidity = 0.9}; }
 
 /// A number and how far off it may be.
 struct Measured {
@@ -134,8 +124,8 @@ struct Sag {
 };
 
 Sag sag_of_ring(Trial& trial, const oracles::GrowingRing& ring) {
-  PortableScene scene = ring_of_cloth(ring, stiff_cloth());
-  scene.name = fmt::format("stiff ring of {} rows around a plate", ring.rows);
+  PortableScene scene = ring_of_cloth(
+      fmt::format("stiff ring of {} rows around a plate", ring.rows), ring, stiff_cloth());
   scene.gravity = Vector3(0, 0, -gravity);
   scene.dt = 5e-5;
   const Relaxed end = relaxed(trial, scene, {scene.x, width, 1e-8, 2.5e-4});
@@ -143,8 +133,6 @@ Sag sag_of_ring(Trial& trial, const oracles::GrowingRing& ring) {
 }
 
 Finding sags_as_a_plate(Trial& trial) {
-  trial.require_level(1);
-  trial.require("held");
   const Plate plate = plate_of(trial);
   const Sag on_coarse = sag_of_ring(trial, coarse), on_fine = sag_of_ring(trial, fine);
   const double sag = extrapolated(on_coarse.value, on_fine.value),
@@ -158,16 +146,11 @@ Finding sags_as_a_plate(Trial& trial) {
     }
   const double left = left_by_extrapolation(nu);
   least *= (1 - left) * (1 - resistance_of_stretch(most)), most *= 1 + left;
-  Table measured{{"rigidity to bending", "N m"},
-                 {"and to twisting", "N m"},
-                 {"Poisson's ratio", "1"},
-                 {"sag on 4 rows", "m"},
-                 {"sag on 8 rows", "m"},
-                 {"last move over the sag", "1"},
-                 {"extrapolated", "m"},
-                 {"of the plate, at least", "m"},
-                 {"at most", "m"},
-                 {"distance from their middle and moves, over half the range", "1"}};
+  Table measured = table_of(
+      "rigidity to bending [N m] | and to twisting [N m] | Poisson's ratio [1] | "
+      "sag on 4 rows [m] | sag on 8 rows [m] | last move over the sag [1] | extrapolated [m] | "
+      "of the plate, at least [m] | at most [m] | "
+      "distance from their middle and moves, over half the range [1]");
   measured.row(B, T, nu, on_coarse.value, on_fine.value, moved, sag, least, most,
                (std::abs(sag - (least + most) / 2) + 3.3 * moved * sag) / ((most - least) / 2));
   return judge_worst(
@@ -209,12 +192,9 @@ constexpr SoftCloth folding{"soft ring around a plate", soft_ring, 300, 6.4e-4, 
 
 /// Level, but for low waves around it.
 PortableScene waved(const SoftCloth& cloth) {
-  PortableMaterial material;
-  material.density = 0.23;
-  material.young = cloth.young;
-  material.bending_rigidity = cloth.rigidity;
-  PortableScene scene = ring_of_cloth(cloth.ring, material);
-  scene.name = cloth.name;
+  PortableScene scene =
+      ring_of_cloth(cloth.name, cloth.ring,
+                    {.density = 0.23, .young = cloth.young, .bending_rigidity = cloth.rigidity});
   scene.dt = cloth.dt;
   for (Eigen::Index i = cloth.ring.held(); i < scene.x.cols(); ++i) {
     const Vector3 at = scene.mesh.rest.col(i);
@@ -241,8 +221,6 @@ oracles::Estimate not_below(double before, double depth, double moves, bool at_r
 }
 
 Finding heavier_hangs_lower(Trial& trial, const SoftCloth& cloth) {
-  trial.require_level(1);
-  trial.require("held");
   PortableScene scene = waved(cloth);
   if (const double given = cloth.rigidity; given > 0) {
     const PortableScene strip = free_strip(wide, scene.material, scene.dt);
@@ -250,11 +228,9 @@ Finding heavier_hangs_lower(Trial& trial, const SoftCloth& cloth) {
   }
   const oracles::DrapeRadii radii{cloth.ring.edge(), cloth.ring.plate};
   const double hangs = radii.specimen - radii.plate, still = cloth.enough * hangs;  // m
-  Table measured{{"gravity", "m/s^2"},
-                 {"drape coefficient", "1"},
-                 {"mean depth", "m"},
-                 {"last move", "m"},
-                 {"not below the lighter one", "m"}};
+  Table measured = table_of(
+      "gravity [m/s^2] | drape coefficient [1] | mean depth [m] | last move [m] | "
+      "not below the lighter one [m]");
   double before = 0, moved_before = 0;  // level
   for (const double gravity : weights) {
     scene.gravity = Vector3(0, 0, -gravity);
@@ -281,20 +257,21 @@ std::vector<Law> drape_laws() {
       {"drape.stiff-ring-sags-as-a-plate",
        "A stiff ring of cloth around a plate sags at its edge as a plate of the solver's own "
        "rigidities to bending and twisting does.",
-       "Kirchhoff's plate, clamped at the rim and free at the edge", sags_as_a_plate},
+       "Kirchhoff's plate, clamped at the rim and free at the edge", sags_as_a_plate,
+       "L1 held bending", "extrapolated | of the plate, at least | at most"},
       {"drape.heavier-ring-hangs-lower",
        "The heavier a ring of cloth around a plate is, the lower its mass hangs.",
        "least energy under two weights",
-       [](Trial& trial) { return heavier_hangs_lower(trial, folding); }},
+       [](Trial& trial) { return heavier_hangs_lower(trial, folding); }, "L1 held bending"},
       {"drape.heavier-limp-ring-hangs-lower",
        "The heavier a ring of cloth without bending rigidity is, the lower its mass hangs around a "
        "plate.",
        "least energy under two weights",
-       [](Trial& trial) { return heavier_hangs_lower(trial, limp); }},
+       [](Trial& trial) { return heavier_hangs_lower(trial, limp); }, "L1 held"},
       {"drape.heavier-disc-hangs-lower",
        "The heavier a disc of cloth that is held at its centre is, the lower its mass hangs.",
        "least energy under two weights",
-       [](Trial& trial) { return heavier_hangs_lower(trial, hung); }},
+       [](Trial& trial) { return heavier_hangs_lower(trial, hung); }, "L1 held bending"},
   };
 }
 

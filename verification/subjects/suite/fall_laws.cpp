@@ -1,9 +1,8 @@
 // A sheet falls on a plane, a box, a ball or a capsule, at 2 and 5 m/s: none of them does work.
 #include <cmath>
-#include <numeric>
+#include <string>
 
 #include "verification/subjects/suite/laws.h"
-#include "verification/subjects/suite/scenes.h"
 
 namespace foldproof {
 
@@ -34,21 +33,17 @@ PortableScene level_sheet(const char* name) {
   return scene;
 }
 
-Vector3 middle_of(const PortableScene& scene) {
-  return (scene.x.rowwise().maxCoeff() + scene.x.rowwise().minCoeff()) / 2;
-}
-
 Drop over_a_box(double height) {
   constexpr double half = 0.15;  // m
   PortableScene scene = level_sheet("sheet above a box");
-  scene.boxes = {{middle_of(scene) - Vector3(0, 0, height + half), {0.25, 0.2, half}, 0.3}};
+  scene.boxes = {{middle_of(scene.x) - Vector3(0, 0, height + half), {0.25, 0.2, half}, 0.3}};
   return {scene, 2 * half};
 }
 
 Drop over_a_ball(double height) {
   constexpr double radius = 0.3;  // m
   PortableScene scene = level_sheet("sheet above a ball");
-  scene.spheres = {{middle_of(scene) - Vector3(0, 0, height + radius), radius, 0.5}};
+  scene.spheres = {{middle_of(scene.x) - Vector3(0, 0, height + radius), radius, 0.5}};
   return {scene, radius};
 }
 
@@ -56,34 +51,28 @@ Drop over_a_capsule(double height) {
   constexpr double radius = 0.15;  // m
   const Vector3 half_axis(0.3, 0.4, 0);
   PortableScene scene = level_sheet("sheet above a capsule");
-  const Vector3 middle = middle_of(scene) - Vector3(0, 0, height + radius);
+  const Vector3 middle = middle_of(scene.x) - Vector3(0, 0, height + radius);
   scene.capsules = {{middle - half_axis, middle + half_axis, radius, 0.4}};
   return {scene, 2 * radius};
 }
 
 /// The largest kinetic energy beyond what gravity has done [J], until half as long again as it
 /// takes to fall so far.
-double gained_energy(Trial& trial, const PortableScene& scene, double fall) {
+double gained_in_fall(Trial& trial, const PortableScene& scene, double fall) {
   const long count = std::lround(1.5 * std::sqrt(2 * fall / weight) / scene.dt);
-  std::vector<long> at(static_cast<size_t>(count));
-  std::iota(at.begin(), at.end(), 1);
   Worst worst;
-  for (const Snapshot& now : trial.motion(scene, at)) {
-    const double kinetic = (now.v.colwise().squaredNorm() * scene.mass)[0] / 2;
-    worst.observe(kinetic - scene.gravity.dot((now.x - scene.x) * scene.mass));
-  }
+  for (const Snapshot& now : trial.motion(scene, multiples(1, count)))
+    worst.observe(gained_energy(scene, scene.x, now));
   return worst.value();
 }
 
-/// At 2 and 5 m/s.
-Finding gains_no_energy(Trial& trial, const char* capability, Drop (*over)(double height)) {
-  trial.require(capability);
-  Table measured{{"height", "m"},
-                 {"speed", "m/s"},
-                 {"gained energy", "of the weight times the fall around the obstacle"}};
+Finding gains_no_energy(Trial& trial, Drop (*over)(double height)) {
+  Table measured = table_of(
+      "height [m] | speed [m/s] | "
+      "gained energy [of the weight times the fall around the obstacle]");
   for (const double height : {0.2, 1.25}) {
     const Drop drop = over(height);
-    const double fall = height + drop.depth, gained = gained_energy(trial, drop.scene, fall);
+    const double fall = height + drop.depth, gained = gained_in_fall(trial, drop.scene, fall);
     measured.row(height, std::sqrt(2 * weight * height),
                  gained / (drop.scene.mass.sum() * weight * fall));
   }
@@ -92,30 +81,19 @@ Finding gains_no_energy(Trial& trial, const char* capability, Drop (*over)(doubl
                      "of the fall, g t dt/2 in height, 1 %, and by as much in its elastic energy");
 }
 
-Finding plane_gives_none(Trial& trial) { return gains_no_energy(trial, "planes", over_a_plane); }
-Finding box_gives_none(Trial& trial) { return gains_no_energy(trial, "boxes", over_a_box); }
-Finding ball_gives_none(Trial& trial) { return gains_no_energy(trial, "spheres", over_a_ball); }
-Finding capsule_gives_none(Trial& trial) {
-  return gains_no_energy(trial, "capsules", over_a_capsule);
+Law law_of(const std::string& group, const std::string& obstacle, const char* capability,
+           Drop (*over)(double height)) {
+  return {group + ".fall-gains-no-energy",
+          "A sheet that falls on a " + obstacle + ", at 2 or at 5 m/s, gains no energy from it.",
+          "energy", [over](Trial& trial) { return gains_no_energy(trial, over); }, capability};
 }
 
 }  // namespace
 
 std::vector<Law> fall_laws() {
-  return {
-      {"contact.fall-gains-no-energy",
-       "A sheet that falls on a plane, at 2 or at 5 m/s, gains no energy from it.", "energy",
-       plane_gives_none},
-      {"box.fall-gains-no-energy",
-       "A sheet that falls on a box, at 2 or at 5 m/s, gains no energy from it.", "energy",
-       box_gives_none},
-      {"ball.fall-gains-no-energy",
-       "A sheet that falls on a ball, at 2 or at 5 m/s, gains no energy from it.", "energy",
-       ball_gives_none},
-      {"capsule.fall-gains-no-energy",
-       "A sheet that falls on a capsule, at 2 or at 5 m/s, gains no energy from it.", "energy",
-       capsule_gives_none},
-  };
+  return {law_of("contact", "plane", "planes", over_a_plane),
+          law_of("box", "box", "boxes", over_a_box), law_of("ball", "ball", "spheres", over_a_ball),
+          law_of("capsule", "capsule", "capsules", over_a_capsule)};
 }
 
 }  // namespace foldproof

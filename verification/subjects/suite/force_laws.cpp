@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "verification/subjects/suite/laws.h"
-#include "verification/subjects/suite/scenes.h"
 
 namespace foldproof {
 
@@ -20,7 +19,6 @@ double spring_scale(const PortableScene& scene) {
 Snapshot start_of(const PortableScene& scene) { return {scene.x, scene.v}; }
 
 PerParticle3 forces_at_start(Trial& trial, const PortableScene& scene) {
-  trial.require_level(2);
   trial.prepare(scene);
   return trial.solver().forces(start_of(scene), 0);
 }
@@ -48,29 +46,21 @@ Finding sum_to_zero(Trial& trial, const PortableScene& scene) {
 
 Finding torque_is_zero(Trial& trial, const PortableScene& scene) {
   const PerParticle3 f = forces_at_start(trial, scene);
-  Vector3 torque = Vector3::Zero();
-  for (Eigen::Index i = 0; i < f.cols(); ++i)
-    torque += Vector3(scene.x.col(i)).cross(Vector3(f.col(i)));
+  const Vector3 torque = torque_of(scene.x, f);
   Table measured{{"particles", "1"}, {"net torque", "of the size times the sum of k L and B/L"}};
   measured.row(f.cols(),
-               torque.norm() / ((spring_scale(scene) + bending_scale(scene)) * size_of(scene.x)));
+               torque.norm() / ((spring_scale(scene) + bending_scale(scene)) * largest(scene.x)));
   return judge_worst(measured, roundings * trial.declaration().rounding(), "rounding of a sum");
 }
-
-Finding forces_sum_to_zero(Trial& trial) { return sum_to_zero(trial, moving_sheet()); }
-Finding torques_sum_to_zero(Trial& trial) { return torque_is_zero(trial, moving_sheet()); }
-Finding bent_forces_sum_to_zero(Trial& trial) { return sum_to_zero(trial, bent_sheet()); }
-Finding bent_torques_sum_to_zero(Trial& trial) { return torque_is_zero(trial, bent_sheet()); }
 
 Finding weight_is_mass_times_g(Trial& trial) {
   const PortableScene scene = falling_sheet();
   const Vector3 weight = scene.mass.sum() * scene.gravity;
   const PerParticle3 f = forces_at_start(trial, scene);
   const Vector3 net = f.rowwise().sum();
-  Table measured{{"particles", "1"},
-                 {"net force", "N"},
-                 {"weight", "N"},
-                 {"error of the net force", "of the weight + sum of k L"}};
+  Table measured = table_of(
+      "particles [1] | net force [N] | weight [N] | "
+      "error of the net force [of the weight + sum of k L]");
   measured.row(f.cols(), net.norm(), weight.norm(),
                (net - weight).norm() / (weight.norm() + spring_scale(scene)));
   return judge_worst(measured, roundings * trial.declaration().rounding(), "rounding of a sum");
@@ -81,19 +71,18 @@ Finding rest_is_force_free(Trial& trial) {
   const PerParticle3 f = forces_at_start(trial, scene);
   Table measured{{"particles", "1"}, {"largest force", "of the largest k times the size"}};
   measured.row(f.cols(), f.colwise().norm().maxCoeff() /
-                             (edge_stiffness(scene).maxCoeff() * size_of(scene.x)));
+                             (edge_stiffness(scene).maxCoeff() * largest(scene.x)));
   return judge_worst(measured, roundings * trial.declaration().rounding(),
                      "rounding of the springs at a particle");
 }
 
 /// Central difference of the energy along the velocities, against minus the forces' power. Gravity,
 /// oblique to the axes, is part of both.
-Finding are_the_energy_gradient(Trial& trial, PortableScene scene) {
-  trial.require_level(2);
-  trial.require("set_state");
+Finding are_the_energy_gradient(Trial& trial, const PortableScene& given) {
+  PortableScene scene = given;
   scene.gravity = Vector3(2.3, -3.1, -9.0);
   const PerParticle3 f = forces_at_start(trial, scene);
-  const double way = std::cbrt(trial.declaration().rounding()) * size_of(scene.x);
+  const double way = std::cbrt(trial.declaration().rounding()) * largest(scene.x);
   const PerParticle3 along = scene.v / scene.v.colwise().norm().maxCoeff();
   const auto energy_at = [&](double distance) {
     return trial.solver().energy({scene.x + distance * along, scene.v}, 0);
@@ -106,16 +95,8 @@ Finding are_the_energy_gradient(Trial& trial, PortableScene scene) {
   // third derivative: k/L^2 and B/L^3 at most; rounding: of the energy, over the distance
   const double relative = way / rest_lengths(scene.mesh).minCoeff();
   const double bound =
-      relative * relative + roundings * trial.declaration().rounding() * size_of(scene.x) / way;
+      relative * relative + roundings * trial.declaration().rounding() * largest(scene.x) / way;
   return judge_worst(measured, bound, "third derivative of the energy, and rounding of it");
-}
-
-Finding forces_are_the_energy_gradient(Trial& trial) {
-  return are_the_energy_gradient(trial, moving_sheet());
-}
-
-Finding bent_forces_are_the_energy_gradient(Trial& trial) {
-  return are_the_energy_gradient(trial, bent_sheet());
 }
 
 /// Largest difference of forces from those of the same state in a scene that starts with it [N].
@@ -127,9 +108,8 @@ double staleness(Trial& trial, PortableScene scene, const Snapshot& state) {
 }
 
 Finding are_of_the_present_state(Trial& trial) {
-  trial.require_level(2);
   const PortableScene scene = moving_sheet();
-  const double scale = edge_stiffness(scene).maxCoeff() * size_of(scene.x);
+  const double scale = edge_stiffness(scene).maxCoeff() * largest(scene.x);
   Table measured{{"state", ""}, {"difference of forces", "of the largest k times the size"}};
   constexpr long steps = 20;
   trial.prepare(scene);
@@ -150,28 +130,29 @@ Finding are_of_the_present_state(Trial& trial) {
 std::vector<Law> force_laws() {
   return {
       {"forces.sum-to-zero", "Elastic forces of a free sheet sum to zero.", "Newton's third law",
-       forces_sum_to_zero},
+       in_scene(sum_to_zero, moving_sheet), "L2"},
       {"forces.torques-sum-to-zero", "Elastic forces of a free sheet exert no torque.",
-       "Newton's third law", torques_sum_to_zero},
+       "Newton's third law", in_scene(torque_is_zero, moving_sheet), "L2"},
       {"forces.weight-is-mass-times-g", "The net force on a free sheet is its weight.",
-       "Newton's second law", weight_is_mass_times_g},
+       "Newton's second law", weight_is_mass_times_g, "L2", "net force | weight"},
       {"forces.rest-is-force-free", "The rest shape is free of forces.", "equilibrium",
-       rest_is_force_free},
+       rest_is_force_free, "L2"},
       {"forces.are-minus-the-energy-gradient",
        "Forces, weight among them, are minus the energy's gradient.", "conservative forces",
-       forces_are_the_energy_gradient},
+       in_scene(are_the_energy_gradient, moving_sheet), "L2 set_state"},
       {"forces.are-those-of-the-present-state",
        "Forces after a motion, or of a state that is set, are those of a scene that starts there.",
-       "forces depend on positions alone", are_of_the_present_state},
+       "forces depend on positions alone", are_of_the_present_state, "L2"},
       {"forces.of-a-bent-sheet-sum-to-zero",
        "Forces of a free sheet that resists bending sum to zero.", "Newton's third law",
-       bent_forces_sum_to_zero},
+       in_scene(sum_to_zero, bent_sheet), "L2 bending"},
       {"forces.of-a-bent-sheet-exert-no-torque",
        "Forces of a free sheet that resists bending exert no torque.", "Newton's third law",
-       bent_torques_sum_to_zero},
+       in_scene(torque_is_zero, bent_sheet), "L2 bending"},
       {"forces.of-a-bent-sheet-are-minus-the-energy-gradient",
        "Forces of a sheet that resists bending are minus its energy's gradient.",
-       "conservative forces", bent_forces_are_the_energy_gradient},
+       "conservative forces", in_scene(are_the_energy_gradient, bent_sheet),
+       "L2 set_state bending"},
   };
 }
 

@@ -5,7 +5,6 @@
 
 #include "verification/subjects/suite/laws.h"
 #include "verification/subjects/suite/relaxation.h"
-#include "verification/subjects/suite/scenes.h"
 
 namespace foldproof {
 
@@ -42,14 +41,11 @@ double static_stretch(Trial& trial, double step) {
 }
 
 Finding stretch_does_not_depend_on_the_step(Trial& trial) {
-  trial.require_level(1);
-  trial.require("held");
   constexpr int parts = 16;
   const double at_game_step = static_stretch(trial, game_step),
                in_short_steps = static_stretch(trial, game_step / parts);
-  Table measured{{"stretch in steps of 1/60 s", "m"},
-                 {"in steps of 1/960 s", "m"},
-                 {"difference", "of the second"}};
+  Table measured = table_of(
+      "stretch in steps of 1/60 s [m] | in steps of 1/960 s [m] | difference [of the second]");
   measured.row(at_game_step, in_short_steps, std::abs(at_game_step / in_short_steps - 1));
   return judge_worst(measured, 0.05,
                      "at rest no force depends on the step; each shape is at rest to 3e-4 of the "
@@ -62,7 +58,7 @@ std::vector<Law> game_step_laws() {
   return {
       {"game-step.static-stretch-is-that-of-short-steps",
        "In steps of 1/60 s, a hanging sheet stretches under its weight as in short ones.",
-       "equilibrium", stretch_does_not_depend_on_the_step},
+       "equilibrium", stretch_does_not_depend_on_the_step, "L1 held"},
   };
 }
 

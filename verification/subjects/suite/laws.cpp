@@ -1,8 +1,10 @@
 #include "verification/subjects/suite/laws.h"
 
-#include <algorithm>
+#include <fmt/format.h>
 
-#include "verification/subjects/suite/headlines.h"
+#include <algorithm>
+#include <cmath>
+#include <variant>
 
 namespace foldproof {
 
@@ -15,6 +17,38 @@ Record unjudged(const Law& law) {
   record.claim = law.claim;
   record.source = law.source;
   return record;
+}
+
+/// Throws NotOffered if the solver lacks this word of Law::needs.
+void require(Trial& trial, const std::string& need) {
+  if (need == "bending") return;
+  if (need == "L1" || need == "L2") return trial.require_level(need[1] - '0');
+  if (need != "order" && need != "f8") return trial.require(need);
+  if (need == "order" && trial.declaration().order == 0) throw NotOffered{"a claimed order"};
+  if (need == "f8" && trial.declaration().is_single) throw NotOffered{"double precision"};
+}
+
+/// "observed 0.98": of a column, in this row.
+std::string cell_text(const Column& column, size_t row) {
+  if (const auto* texts = std::get_if<std::vector<std::string>>(&column.values))
+    return fmt::format("{} {}", column.name, texts->at(row));
+  const std::string unit = column.unit.empty() || column.unit == "1" ? "" : " " + column.unit;
+  const double value = std::get<std::vector<double>>(column.values).at(row);
+  if (!std::isfinite(value)) return column.name + " no number";
+  return fmt::format("{} {:.4g}{}", column.name, value, unit);
+}
+
+/// "observed 0.98, claimed 2"; "" for a law whose judged number says it, and without evidence.
+std::string headline_of(const Law& law, const Table& evidence) {
+  if (law.headline.empty() || evidence.rows() == 0) return "";
+  const std::vector<double>& judged = evidence.numbers(evidence.columns().back().name);
+  size_t row = 0;
+  for (size_t k = 1; k < judged.size(); ++k)
+    if (!(judged[k] <= judged[row])) row = k;
+  std::string text;
+  for (const std::string& name : suite::split(law.headline, " | "))
+    text += (text.empty() ? "" : ", ") + cell_text(evidence.column(name), row);
+  return text.starts_with("of ") ? text.substr(3) : text;  // "of the fold height"
 }
 
 Finding without_number(const std::string& required, const std::string& note,
@@ -35,6 +69,7 @@ Record judge_law(const Law& law, Trial& trial) {
   bool is_undecided = false;
   Record record = judge(unjudged(law), [&] {
     try {
+      for (const std::string& need : suite::split(law.needs, " ")) require(trial, need);
       return law.run(trial);
     } catch (const CannotTell& too_wide) {
       is_undecided = true;
@@ -51,7 +86,7 @@ Record judge_law(const Law& law, Trial& trial) {
   });
   if (trial.is_out_of_time()) return not_asked(law, law.name, trial);
   if (is_undecided) record.outcome = Outcome::inconclusive;
-  record.finding.headline = headline_of(law.name, record.finding);
+  record.finding.headline = headline_of(law, record.finding.evidence);
   return record;
 }
 
@@ -69,18 +104,9 @@ bool is_smoke(const Record& record) { return record.name.starts_with("smoke."); 
 
 }  // namespace
 
-std::vector<Law> portable_laws() {
-  std::vector<Law> all;
-  for (const auto& laws :
-       {motion_laws(),        symmetry_laws(),    repeat_laws(),     force_laws(),
-        damping_laws(),       calibration_laws(), vibration_laws(),  stability_laws(),
-        game_step_laws(),     cost_laws(),        cantilever_laws(), bent_strip_laws(),
-        buckling_laws(),      tipping_laws(),     drape_laws(),      wrinkle_laws(),
-        chain_laws(),         contact_laws(),     floor_laws(),      fold_laws(),
-        fall_laws(),          ball_laws(),        capstan_laws(),    tunnelling_laws(),
-        self_collision_laws()})
-    all.insert(all.end(), laws.begin(), laws.end());
-  return all;
+std::function<Finding(Trial&)> in_scene(Finding (*measured)(Trial&, const PortableScene&),
+                                        PortableScene (*scene)()) {
+  return [=](Trial& trial) { return measured(trial, scene()); };
 }
 
 Judgement judge_solver(const SolverCommand& command, const std::vector<Law>& laws,

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "verification/subjects/suite/laws.h"
-#include "verification/subjects/suite/scenes.h"
 
 namespace foldproof {
 
@@ -14,8 +13,6 @@ namespace {
 using namespace suite;
 
 constexpr long few = 20, many = 50;  // steps
-
-double largest(const PerParticle3& vectors) { return vectors.colwise().norm().maxCoeff(); }
 
 Finding stays_roughly(Trial& trial) {
   const PortableScene scene = sheet_at_rest();
@@ -40,9 +37,8 @@ Finding stays_exactly(Trial& trial) {
   const PortableScene scene = sheet_at_rest();
   const PerParticle3 moved = trial.after(scene, few).x - scene.x;
   Table measured{{"steps", "1"}, {"largest displacement", "of the largest position"}};
-  measured.row(few, largest(moved) / size_of(scene.x));
-  return judge_worst(measured,
-                     narrow(rounding_error(scene, few, trial.declaration()), trial.declaration()),
+  measured.row(few, largest(moved) / largest(scene.x));
+  return judge_worst(measured, narrow_rounding(trial, scene, few),
                      "rounding of rest lengths, enlarged by elastic forces");
 }
 
@@ -50,9 +46,7 @@ Finding stays_on_every_pattern(Trial& trial) {
   Table measured{{"pattern", ""}, {"largest displacement", "m"}, {"over rounding", "1"}};
   for (const PortableScene& scene : sheets_at_rest()) {
     const double moved = largest(trial.after(scene, few).x - scene.x);
-    const Declaration& declared = trial.declaration();
-    measured.row(scene.name, moved,
-                 moved / size_of(scene.x) / narrow(rounding_error(scene, few, declared), declared));
+    measured.row(scene.name, moved, moved / largest(scene.x) / narrow_rounding(trial, scene, few));
   }
   return judge_worst(measured, 1, "rounding of rest lengths, enlarged by elastic forces");
 }
@@ -73,9 +67,7 @@ Finding stays_curved(Trial& trial) {
     scene.rest_angles.push_back(angle(scene.x, hinge.particles));
   Table measured{{"steps", "1"}, {"largest displacement", "m"}, {"over rounding", "1"}};
   const double moved = largest(trial.after(scene, few).x - scene.x);
-  measured.row(few, moved,
-               moved / size_of(scene.x) /
-                   narrow(rounding_error(scene, few, trial.declaration()), trial.declaration()));
+  measured.row(few, moved, moved / largest(scene.x) / narrow_rounding(trial, scene, few));
   return judge_worst(measured, 1, "rounding of rest lengths and angles, enlarged by forces");
 }
 
@@ -84,16 +76,15 @@ Finding keeps_its_velocity(Trial& trial) {
   const double time = few * scene.dt;
   const Snapshot end = trial.after(scene, few);
   const double path = scene.v.col(0).norm() * time;
-  const double rounding =
-      narrow(rounding_error(scene, few, trial.declaration()), trial.declaration());
+  const double rounding = narrow_rounding(trial, scene, few);
   Table measured{{"of", ""}, {"error", ""}, {"over rounding", "1"}};
   const auto row = [&](const char* of, const char* unit, double error, double scale) {
     measured.row(of, fmt::format("{:.3g} {}", error, unit), error / (rounding * scale));
   };
-  row("positions", "m", largest(end.x - scene.x - time * scene.v), size_of(scene.x) + path);
+  row("positions", "m", largest(end.x - scene.x - time * scene.v), largest(scene.x) + path);
   // a position error of rounding, made within one step, is a velocity error of it over the step
   row("velocities", "m/s", largest(end.v - scene.v),
-      size_of(scene.x) / scene.dt + largest(scene.v));
+      largest(scene.x) / scene.dt + largest(scene.v));
   const PerParticle3 lost = (end.v - scene.v) * scene.mass.asDiagonal();
   row("mean velocity", "m/s", lost.rowwise().sum().norm() / scene.mass.sum(),
       scene.v.col(0).norm());
@@ -113,7 +104,7 @@ double speed_rounding(long steps, const Declaration& declared) {
 
 double sideways_rounding(const PortableScene& scene, long steps, const Declaration& declared) {
   const double time = double(steps) * scene.dt;
-  const double per_step = size_of(scene.x) / scene.dt / (scene.gravity.norm() * time);
+  const double per_step = largest(scene.x) / scene.dt / (scene.gravity.norm() * time);
   return narrow(
       double(steps) * (4 * (1 + per_step) * declared.rounding() + declared.solve_tolerance),
       declared);
@@ -146,7 +137,7 @@ Finding falls_as_its_order_says(Trial& trial) {
     const Vector3 fall = scene.gravity * time * time / 2;
     const PerParticle3 moved = trial.after(scene, steps).x - scene.x;
     const double rounding =
-        rounding_error(scene, steps, declared) * (1 + size_of(scene.x) / fall.norm());
+        rounding_error(scene, steps, declared) * (1 + largest(scene.x) / fall.norm());
     const double of_order = declared.order < 2 ? 1 / double(steps) : 0;
     measured.row(steps, "each particle",
                  largest(moved.colwise() - fall) / fall.norm() / (of_order + rounding));
@@ -167,27 +158,15 @@ Finding keeps_momentum(Trial& trial, const PortableScene& scene) {
   const Snapshot end = trial.after(scene, few);
   const double scale =
       (scene.v.colwise().norm() * scene.mass.asDiagonal()).sum() +
-      scene.mass.sum() * size_of(scene.x) * std::sqrt(squared_phase(scene, 1)) / scene.dt;
-  Table measured{{"steps", "1"},
-                 {"change of linear momentum", "of the sum of m (|v| + omega size)"}};
+      scene.mass.sum() * largest(scene.x) * std::sqrt(squared_phase(scene, 1)) / scene.dt;
+  Table measured =
+      table_of("steps [1] | change of linear momentum [of the sum of m (|v| + omega size)]");
   measured.row(few, (momentum_of(scene, end.v) - momentum_of(scene, scene.v)).norm() / scale);
   const Declaration& declared = trial.declaration();
   const double bound = 8 * few * declared.rounding() + few * declared.solve_tolerance;
   narrow(bound * scale / (scene.v.colwise().norm() * scene.mass)[0], declared);
   return judge_worst(measured, bound,
                      "inner forces cancel to a few roundings a step, or to the solver's tolerance");
-}
-
-Finding keeps_linear_momentum(Trial& trial) { return keeps_momentum(trial, moving_sheet()); }
-
-Finding keeps_momentum_of_unequal_masses(Trial& trial) {
-  trial.require("masses");
-  return keeps_momentum(trial, moving_sheet_of_unequal_masses());
-}
-
-Finding keeps_momentum_under_damping(Trial& trial) {
-  trial.require("damping");
-  return keeps_momentum(trial, damped_moving_sheet());
 }
 
 Vector3 angular_momentum_of(const PortableScene& scene, const Snapshot& state) {
@@ -220,12 +199,11 @@ Finding angular_momentum_converges(Trial& trial) {
 }
 
 Finding held_particles_stay(Trial& trial) {
-  trial.require("held");
   const PortableScene scene = hanging_sheet();
   const Snapshot end = trial.after(scene, many);
   Table measured{{"particle", "1"}, {"displacement", "of the largest position"}};
   for (const int i : scene.held)
-    measured.row(i, (end.x.col(i) - scene.x.col(i)).norm() / size_of(scene.x));
+    measured.row(i, (end.x.col(i) - scene.x.col(i)).norm() / largest(scene.x));
   return judge_worst(measured, 8 * trial.declaration().rounding(), "a few roundings of a position");
 }
 
@@ -242,30 +220,32 @@ std::vector<Law> motion_laws() {
        stays_exactly},
       {"rest.no-force-no-motion-on-any-pattern",
        "Sheets of seven meshes, one of them curved, stay in their rest shape.", "equilibrium",
-       stays_on_every_pattern},
+       stays_on_every_pattern, "", "pattern | largest displacement"},
       {"rest.curved-sheet-keeps-its-rest-angles",
-       "A curved sheet that resists bending stays in its rest shape.", "equilibrium", stays_curved},
+       "A curved sheet that resists bending stays in its rest shape.", "equilibrium", stays_curved,
+       "bending", "largest displacement"},
       {"inertia.free-sheet-keeps-its-velocity",
        "A sheet that drifts without forces keeps its velocity.", "Newton's first law",
-       keeps_its_velocity},
+       keeps_its_velocity, "", "of | error"},
       {"gravity.speed-grows-by-g-t", "A falling sheet gains the velocity g t.",
-       "Newton's second law", gains_speed},
+       "Newton's second law", gains_speed, "", "of the mean velocity | error"},
       {"gravity.fall-is-as-exact-as-the-order-claims",
        "The error of a free fall is what the claimed order allows.", "Taylor's series of the fall",
        falls_as_its_order_says},
       {"momentum.linear-is-conserved", "A free sheet keeps its linear momentum.",
-       "Newton's third law", keeps_linear_momentum},
+       "Newton's third law", in_scene(keeps_momentum, moving_sheet)},
       {"momentum.linear-of-unequal-masses-is-conserved",
        "A free sheet of given, unequal masses keeps its linear momentum.", "Newton's third law",
-       keeps_momentum_of_unequal_masses},
+       in_scene(keeps_momentum, moving_sheet_of_unequal_masses), "masses"},
       {"momentum.linear-under-damping-is-conserved",
        "A free sheet with damped springs keeps its linear momentum.", "Newton's third law",
-       keeps_momentum_under_damping},
+       in_scene(keeps_momentum, damped_moving_sheet), "damping"},
       {"momentum.angular-drift-falls-with-the-step",
        "The change of a free sheet's angular momentum falls as the order claims.",
-       "Newton's third law along the line of force", angular_momentum_converges},
+       "Newton's third law along the line of force", angular_momentum_converges, "",
+       "drift at dt/2 | drift at dt/4"},
       {"held.particles-stay", "Held particles stay where they are.", "protocol: array 'held'",
-       held_particles_stay},
+       held_particles_stay, "held"},
   };
 }
 

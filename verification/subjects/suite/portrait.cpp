@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "reference/mesh/shapes.h"
+#include "verification/subjects/suite/scenes.h"
 
 namespace foldproof::suite {
 
@@ -19,17 +20,9 @@ constexpr double young = 20;           // N/m: stable in this step
 const Vector3 off_middle(0.05, 0, 0);  // m, of the ball: a picture has no symmetry to hide in
 
 PortableScene sheet_over_a_ball() {
-  PortableScene scene;
-  scene.name = "sheet on a ball, for a picture";
-  scene.mesh = make_sheet({.pattern = SheetPattern::alternating,
-                           .width = width,
-                           .height = width,
-                           .columns = cells,
-                           .rows = cells});
-  scene.x = scene.mesh.rest;
-  scene.v = PerParticle3::Zero(3, scene.x.cols());
-  scene.material.young = young;
-  scene.mass = lumped_masses(scene.mesh, scene.material.density);
+  PortableScene scene = resting("sheet on a ball, for a picture",
+                                make_sheet({SheetPattern::alternating, width, width, cells, cells}),
+                                {.young = young});
   scene.gravity = Vector3(0, 0, -9.81);
   scene.dt = dt;
   const Vector3 middle(width / 2, width / 2, 0);

@@ -6,19 +6,16 @@
 #include <optional>
 #include <vector>
 
+#include "verification/subjects/suite/scenes.h"
+
 namespace foldproof::suite {
 
 namespace {
 
-double kinetic_energy(const PortableScene& scene, const PerParticle3& v) {
-  return (v.colwise().squaredNorm() * scene.mass)[0] / 2;
-}
-
 /// The kinetic energy beyond what the weight has done since it was unstrained, over m g L [1]: none
 /// but the scheme's error, as long as the step is stable.
 double gained(const PortableScene& scene, const Relaxation& relaxation, const Snapshot& now) {
-  const double work = scene.gravity.dot((now.x - relaxation.unstrained) * scene.mass);
-  return (kinetic_energy(scene, now.v) - work - relaxation.stored) /
+  return (gained_energy(scene, relaxation.unstrained, now) - relaxation.stored) /
          (scene.mass.sum() * scene.gravity.norm() * relaxation.length + relaxation.stored);
 }
 
@@ -49,7 +46,7 @@ std::optional<Relaxed> relaxed_in_steps(Trial& trial, PortableScene scene,
     const std::optional<PerParticle3> stop = until_fastest(trial, scene, relaxation);
     if (!stop) return {};
     scene.x = *stop;
-    moved = (scene.x - stops[stops.size() - 2]).colwise().norm().maxCoeff();
+    moved = largest(scene.x - stops[stops.size() - 2]);
     stops.push_back(scene.x);
   }
   return Relaxed{scene.x, moved, scene.dt};

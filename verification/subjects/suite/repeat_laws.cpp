@@ -7,7 +7,6 @@
 
 #include "verification/oracles/estimate.h"
 #include "verification/subjects/suite/laws.h"
-#include "verification/subjects/suite/scenes.h"
 
 namespace foldproof {
 
@@ -44,8 +43,6 @@ Finding second_scene_starts_afresh(Trial& trial) {
 }
 
 Finding step_depends_on_its_state_alone(Trial& trial) {
-  trial.require_level(1);
-  trial.require("set_state");
   Table measured{{"scene", ""}, {"numbers", "1"}, {"numbers that differ", "1"}};
   std::vector<PortableScene> scenes{moving_sheet()};
   if (trial.declaration().offers("damping")) scenes.push_back(damped_moving_sheet());
@@ -113,7 +110,6 @@ oracles::Estimate order_of(const Change& coarse, const Change& fine) {
 /// Halves the step of the scene three times.
 Finding order_is_as_claimed(Trial& trial, const PortableScene& scene) {
   const int claimed = trial.declaration().order;
-  if (claimed == 0) throw NotOffered{"a claimed order"};
   std::vector<Run> runs;
   for (const long count : {steps, 2 * steps, 4 * steps, 8 * steps}) {
     const PerParticle3 x = positions_after(trial, scene, count);
@@ -130,23 +126,12 @@ Finding order_is_as_claimed(Trial& trial, const PortableScene& scene) {
                     "rounding by up to {:.2g} m",
                     changes[1].size, changes[1].rounding)};
   const oracles::Estimate& observed = fine.uncertainty <= clear ? fine : coarse;
-  Table measured{{"observed", "1"},
-                 {"observed on coarser steps", "1"},
-                 {"claimed", "1"},
-                 {"short of the claim", "1"}};
+  Table measured = table_of(
+      "observed [1] | observed on coarser steps [1] | claimed [1] | short of the claim [1]");
   measured.row(observed, coarse, claimed,
                oracles::Estimate{double(claimed) - observed.value, observed.uncertainty});
   return judge_worst(measured, "short of the claim", allowed,
                      "the next term of the series shifts the observed order by at most a third");
-}
-
-Finding order_of_the_moving_sheet(Trial& trial) {
-  return order_is_as_claimed(trial, moving_sheet());
-}
-
-Finding order_with_damping(Trial& trial) {
-  trial.require("damping");
-  return order_is_as_claimed(trial, damped_moving_sheet());
 }
 
 constexpr int most_readings = 5;
@@ -179,12 +164,9 @@ PerParticle3 limit_of(const std::vector<Run>& runs, const Declaration& declared)
 Table errors_and_costs(const std::vector<Run>& runs, const Declaration& declared) {
   const PerParticle3 limit = limit_of(runs, declared);
   const double motion = (limit - moving_sheet().x).norm();
-  Table table{{"steps", "1"},
-              {"step", "s"},
-              {"seconds by the clock", "s"},
-              {"change from twice the step", "motion"},
-              {"rounding", "motion"},
-              {"error", "motion"}};
+  Table table = table_of(
+      "steps [1] | step [s] | seconds by the clock [s] | change from twice the step [motion] | "
+      "rounding [motion] | error [motion]");
   for (size_t k = 0; k < runs.size(); ++k)
     table.row(runs[k].count, in_steps(moving_sheet(), runs[k].count).dt, runs[k].seconds,
               k == 0 ? nan : (runs[k].x - runs[k - 1].x).norm() / motion, runs[k].rounding / motion,
@@ -229,7 +211,6 @@ Finding halved_steps_approach_a_limit(Trial& trial) {
 bool is_float(double number) { return double(float(number)) == number; }
 
 Finding results_need_their_digits(Trial& trial) {
-  if (trial.declaration().is_single) throw NotOffered{"double precision"};
   const Snapshot end = trial.after(moving_sheet(), steps);
   Table measured{{"of", ""}, {"numbers", "1"}, {"share that single precision holds", "1"}};
   for (const auto& [of, numbers] : {std::pair("positions", end.x), {"velocities", end.v}}) {
@@ -248,18 +229,18 @@ std::vector<Law> repeat_laws() {
       {"repeat.second-scene-starts-afresh", "A scene gives the same bits after another one.",
        "determinism", second_scene_starts_afresh},
       {"repeat.step-depends-on-its-state-alone", "A state that is set again gives the same step.",
-       "determinism", step_depends_on_its_state_alone},
+       "determinism", step_depends_on_its_state_alone, "L1 set_state"},
       {"order.observed-is-as-claimed", "Halving the step reduces the error as claimed.",
-       "Richardson", order_of_the_moving_sheet},
+       "Richardson", in_scene(order_is_as_claimed, moving_sheet), "order", "observed | claimed"},
       {"order.with-damping-is-as-claimed",
        "Halving the step reduces the error as claimed where edges are damped, too.", "Richardson",
-       order_with_damping},
+       in_scene(order_is_as_claimed, damped_moving_sheet), "damping order", "observed | claimed"},
       {"order.halved-steps-approach-a-limit",
        "Each halving of the step changes the motion less than the one before.", "Cauchy",
        halved_steps_approach_a_limit},
       {"precision.results-need-the-declared-digits",
        "Positions and velocities declared as double are not just single-precision values.",
-       "IEEE 754", results_need_their_digits},
+       "IEEE 754", results_need_their_digits, "f8"},
   };
 }
 

@@ -15,6 +15,7 @@ namespace foldproof::suite {
 namespace {
 
 constexpr double step = 0.002;  // s; a third of the explicit limit of the sheet
+constexpr double young = 5;     // N/m
 
 const Vector3 earth{0, 0, -9.81};
 
@@ -25,18 +26,26 @@ const Vector3 corner_on_plane{0.4, -0.3, 0.7};  // m
 
 }  // namespace
 
-PortableScene sheet_of_cells(int cells) {
+PortableScene resting(std::string name, TriangleMesh mesh, const PortableMaterial& material) {
   PortableScene scene;
-  scene.mesh = make_sheet({.pattern = SheetPattern::jittered,
-                           .width = 0.1 * cells,
-                           .columns = cells,
-                           .rows = cells,
-                           .jitter = 0.2,
-                           .seed = 7});
+  scene.name = std::move(name);
+  scene.mesh = std::move(mesh);
   scene.x = scene.mesh.rest;
   scene.v = PerParticle3::Zero(3, scene.x.cols());
-  scene.material.young = 5;
-  scene.mass = lumped_masses(scene.mesh, scene.material.density);
+  scene.material = material;
+  scene.mass = lumped_masses(scene.mesh, material.density);
+  return scene;
+}
+
+PortableScene sheet_of_cells(int cells) {
+  PortableScene scene = resting("",
+                                make_sheet({.pattern = SheetPattern::jittered,
+                                            .width = 0.1 * cells,
+                                            .columns = cells,
+                                            .rows = cells,
+                                            .jitter = 0.2,
+                                            .seed = 7}),
+                                {.young = young});
   scene.dt = step;
   return scene;
 }
@@ -56,18 +65,13 @@ std::vector<PortableScene> sheets_at_rest() {
                                       {"equilateral", SheetPattern::equilateral},
                                       {"random Delaunay", SheetPattern::random_delaunay},
                                       {"curved", SheetPattern::one_diagonal}}) {
-    PortableScene scene = sheet_at_rest();
-    scene.mesh = make_sheet(
+    TriangleMesh mesh = make_sheet(
         {.pattern = pattern, .width = 0.6, .height = 0.52, .columns = 6, .rows = 5, .seed = 7});
     if (std::string(name) == "curved")
-      for (Eigen::Index i = 0; i < scene.mesh.rest.cols(); ++i)
-        scene.mesh.rest(2, i) = 0.05 * std::sin(8 * scene.mesh.rest(0, i));
-    scene.name = name;
-    scene.x = scene.mesh.rest;
-    scene.v = PerParticle3::Zero(3, scene.x.cols());
-    scene.mass = lumped_masses(scene.mesh, scene.material.density);
-    scene.dt = step / 2;
-    all.push_back(scene);
+      for (Eigen::Index i = 0; i < mesh.rest.cols(); ++i)
+        mesh.rest(2, i) = 0.05 * std::sin(8 * mesh.rest(0, i));
+    all.push_back(resting(name, std::move(mesh), {.young = young}));
+    all.back().dt = step / 2;
   }
   return all;
 }
@@ -148,7 +152,68 @@ PerParticle3 seen_from_the_plane(const PerParticle3& x) {
   return plane_frame.transpose() * (x.colwise() - corner_on_plane);
 }
 
-double size_of(const PerParticle3& x) { return x.colwise().norm().maxCoeff(); }
+std::vector<std::string> split(std::string_view text, std::string_view separator) {
+  std::vector<std::string> parts;
+  for (size_t from = 0; from < text.size();) {
+    parts.emplace_back(text.substr(from, text.find(separator, from) - from));
+    from += parts.back().size() + separator.size();
+  }
+  return parts;
+}
+
+Table table_of(std::string_view columns) {
+  Table table;
+  for (const std::string& column : split(columns, " | ")) {
+    const size_t unit = column.find(" [");
+    if (unit == std::string::npos)
+      table.add({column, ""});
+    else
+      table.add({column.substr(0, unit), column.substr(unit + 2, column.size() - unit - 3)});
+  }
+  return table;
+}
+
+double largest(const PerParticle3& vectors) { return vectors.colwise().norm().maxCoeff(); }
+
+Vector3 middle_of(const PerParticle3& x) {
+  return (x.rowwise().maxCoeff() + x.rowwise().minCoeff()) / 2;
+}
+
+std::vector<long> multiples(long stride, long count) {
+  std::vector<long> all;
+  for (long k = 1; k <= count; ++k) all.push_back(k * stride);
+  return all;
+}
+
+double kinetic_energy(const PortableScene& scene, const PerParticle3& v) {
+  return (v.colwise().squaredNorm() * scene.mass)[0] / 2;
+}
+
+double gained_energy(const PortableScene& scene, const PerParticle3& from, const Snapshot& now) {
+  return kinetic_energy(scene, now.v) - scene.gravity.dot((now.x - from) * scene.mass);
+}
+
+Vector3 torque_of(const PerParticle3& x, const PerParticle3& f) {
+  Vector3 torque = Vector3::Zero();
+  for (Eigen::Index i = 0; i < f.cols(); ++i) torque += Vector3(x.col(i)).cross(Vector3(f.col(i)));
+  return torque;
+}
+
+double middle(const Interval& interval) { return (interval[0] + interval[1]) / 2; }
+
+Interval bisected(Interval tried, double width, const std::function<bool(double)>& is_beyond) {
+  while (tried[1] - tried[0] > width) {
+    const double value = middle(tried);
+    tried[is_beyond(value) ? 1 : 0] = value;
+  }
+  return tried;
+}
+
+std::string found_text(const Interval& found, const Interval& tried) {
+  if (found[1] == tried[1]) return fmt::format(">= {:.4g}, the most that is tried", tried[1]);
+  if (found[0] == tried[0]) return fmt::format("<= {:.4g}, the least that is tried", tried[0]);
+  return fmt::format("{:.4g}", middle(found));
+}
 
 void require_start_velocity(const PortableScene& scene, const PerParticle3& x, long steps) {
   const double time = double(steps) * scene.dt;
@@ -185,6 +250,11 @@ double narrow(double bound, const Declaration& declared) {
       fmt::format("what the solver declares ({}, solve_tolerance {:g}) allows an error of {:.2g} "
                   "of what is measured; from {:g} on, a law that holds says nothing",
                   declared.is_single ? "f4" : "f8", declared.solve_tolerance, bound, widest_bound));
+}
+
+double narrow_rounding(Trial& trial, const PortableScene& scene, long steps) {
+  const Declaration& declared = trial.declaration();
+  return narrow(rounding_error(scene, steps, declared), declared);
 }
 
 }  // namespace foldproof::suite

@@ -1,11 +1,19 @@
-// The plain scenes of the portable suite, and the error that rounding may make in them.
+// The plain scenes of the portable suite, what several laws measure in them, and the error that
+// rounding may make.
 #pragma once
 
+#include <array>
+#include <functional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "verification/subjects/suite/trial.h"
 
 namespace foldproof::suite {
+
+/// In its rest shape, at rest and free, with the masses of its density.
+PortableScene resting(std::string name, TriangleMesh mesh, const PortableMaterial& material = {});
 
 /// A flat jittered sheet of n x n cells of 0.1 m, 0.2 kg/m^2, Y = 5 N/m, in its rest shape, free.
 PortableScene sheet_of_cells(int n);
@@ -52,8 +60,38 @@ PortableScene sheet_on_a_plane(const Tilt& tilt, double friction);
 /// the second, and above it [m].
 PerParticle3 seen_from_the_plane(const PerParticle3& x);
 
-/// Largest extent of the positions, or distance from the origin [m].
-double size_of(const PerParticle3& x);
+/// The parts of a text between separators; none of an empty one.
+std::vector<std::string> split(std::string_view text, std::string_view separator);
+
+/// A table without rows, of columns "name [unit] | ...": numbers, or texts where there is no unit.
+Table table_of(std::string_view columns);
+
+/// The largest length of the vectors; of positions, their extent or distance from the origin [m].
+double largest(const PerParticle3& vectors);
+
+/// Halfway between the least and the largest coordinates [m].
+Vector3 middle_of(const PerParticle3& x);
+
+/// stride, 2 stride, ..., count stride
+std::vector<long> multiples(long stride, long count);
+
+double kinetic_energy(const PortableScene& scene, const PerParticle3& v);  // J
+
+/// The kinetic energy beyond what gravity has done since the positions `from` [J].
+double gained_energy(const PortableScene& scene, const PerParticle3& from, const Snapshot& now);
+
+/// About the origin [N m].
+Vector3 torque_of(const PerParticle3& x, const PerParticle3& f);
+
+using Interval = std::array<double, 2>;
+
+/// The interval, halved until it is no wider than that: `is_beyond` begins to be true in it.
+Interval bisected(Interval tried, double width, const std::function<bool(double)>& is_beyond);
+
+double middle(const Interval& interval);
+
+/// What a bisection found: "0.235", or ">= 0.299" if it ended where it began.
+std::string found_text(const Interval& found, const Interval& tried);
 
 /// Throws NotOffered unless the sheet, before any contact, has moved at least half as far as
 /// its start's velocities would carry it (a mean weighted by momentum). A sheet that stands
@@ -73,5 +111,8 @@ double rounding_error(const PortableScene& scene, long steps, const Declaration&
 /// if the declaration makes it `widest_bound` or more.
 constexpr double widest_bound = 0.2;
 double narrow(double bound, const Declaration& declared);
+
+/// The rounding error, if it is narrow.
+double narrow_rounding(Trial& trial, const PortableScene& scene, long steps);
 
 }  // namespace foldproof::suite

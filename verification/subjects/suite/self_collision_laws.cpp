@@ -3,7 +3,6 @@
 
 #include "verification/oracles/exact_crossings.h"
 #include "verification/subjects/suite/laws.h"
-#include "verification/subjects/suite/scenes.h"
 
 namespace foldproof {
 
@@ -34,11 +33,8 @@ PortableScene folding_sheet() {
 }
 
 Finding never_passes_through_itself(Trial& trial) {
-  trial.require("self_collision");
   const PortableScene scene = folding_sheet();
-  constexpr long frames = 20, steps_a_frame = 10;
-  std::vector<long> steps;
-  for (long k = 1; k <= frames; ++k) steps.push_back(k * steps_a_frame);
+  const std::vector<long> steps = multiples(10, 20);
   Table measured{{"steps", "1"}, {"edges in triangles", "1"}};
   measured.row(0, oracles::exact_crossings(scene.x, scene.mesh.triangles).size());
   const std::vector<Snapshot> states = trial.motion(scene, steps);
@@ -54,7 +50,7 @@ std::vector<Law> self_collision_laws() {
   return {
       {"self-collision.folded-sheet-never-passes-through-itself",
        "A sheet that is folded onto itself never passes through itself.", "impenetrability",
-       never_passes_through_itself},
+       never_passes_through_itself, "self_collision"},
   };
 }
 

@@ -17,18 +17,13 @@ double StripShape::length() const { return rows * row_height(); }
 double StripShape::width() const { return columns * edge; }
 
 PortableScene free_strip(const StripShape& shape, const PortableMaterial& material, double dt) {
-  PortableScene scene;
-  scene.name = "strip";
-  scene.material = material;
+  TriangleMesh mesh = make_sheet({.pattern = SheetPattern::equilateral,
+                                  .width = shape.width(),
+                                  .columns = shape.columns,
+                                  .rows = shape.rows});
+  mesh.rest.row(1).array() -= shape.length() / 2;
+  PortableScene scene = resting("strip", std::move(mesh), material);
   scene.dt = dt;
-  scene.mesh = make_sheet({.pattern = SheetPattern::equilateral,
-                           .width = shape.width(),
-                           .columns = shape.columns,
-                           .rows = shape.rows});
-  scene.mesh.rest.row(1).array() -= shape.length() / 2;
-  scene.x = scene.mesh.rest;
-  scene.v = PerParticle3::Zero(3, scene.x.cols());
-  scene.mass = lumped_masses(scene.mesh, material.density);
   return scene;
 }
 
@@ -52,6 +47,19 @@ Eigen::Matrix2Xd mean_rows(const PortableScene& strip, const StripShape& shape,
   return sum.array().rowwise() / count.array();
 }
 
+PortableScene clamped_strip(const PortableScene& strip, const StripShape& shape,
+                            const Eigen::Matrix2Xd& rows, double gravity) {
+  PortableScene scene = strip;
+  scene.gravity = Vector3(0, 0, -gravity);
+  const std::vector<int> row_of = rows_of(scene, shape);
+  for (Eigen::Index i = 0; i < scene.x.cols(); ++i) {
+    const int row = row_of[size_t(i)];
+    scene.x.col(i) << scene.mesh.rest(0, i), rows.col(row);
+    if (row < 2 || row > shape.rows - 2) scene.held.push_back(int(i));
+  }
+  return scene;
+}
+
 double squared_turns(const Eigen::Matrix2Xd& rows) {
   double sum = 0;
   for (Eigen::Index k = 1; k + 1 < rows.cols(); ++k) {
@@ -72,6 +80,38 @@ std::vector<int> rows_at_distance(const PortableScene& strip, const StripShape& 
   return found;
 }
 
+double gravity_of(double gamma, double rigidity, const PortableScene& strip, double length) {
+  return gamma * rigidity / (strip.material.density * std::pow(length, 3));
+}
+
+std::array<double, 2> possible_weights(double rounding) {
+  const double off = 0.02 + rounding;
+  return {1 / (1 + off), 1 / ((1 - off) * (1 - largest_poisson * largest_poisson))};
+}
+
+double slowest_vibration(double rigidity, const PortableScene& strip, double length) {
+  return 3.516 * std::sqrt(rigidity / strip.material.density) / (length * length);
+}
+
+void bend(PortableScene& sheet, int axis, double curvature) {
+  for (Eigen::Index i = 0; i < sheet.x.cols(); ++i) {
+    const double turn = curvature * sheet.mesh.rest(axis, i);
+    sheet.x(axis, i) = std::sin(turn) / curvature;
+    sheet.x(2, i) = (1 - std::cos(turn)) / curvature;
+  }
+}
+
+double angular_momentum(const PortableScene& sheet, const PerParticle3& v, int axis, double from,
+                        const Vector3& away) {
+  double sum = 0;
+  for (Eigen::Index i = 0; i < v.cols(); ++i) {
+    const Vector3 arm = sheet.x.col(i) - away;
+    if (sheet.mesh.rest(axis, i) > from)
+      sum += sheet.mass[i] * (arm.z() * v(axis, i) - arm[axis] * v(2, i));
+  }
+  return sum;
+}
+
 namespace {
 
 /// Of a strip that lies elsewhere [m].
@@ -82,18 +122,10 @@ double rigidity_at(Trial& trial, const PortableScene& strip, const StripShape& s
   double moment = 0;  // N, per width
   for (const double sign : {1.0, -1.0}) {
     PortableScene scene = strip;
-    const double by = sign * curvature;
-    for (Eigen::Index i = 0; i < scene.x.cols(); ++i) {
-      const double turn = by * scene.mesh.rest(1, i);
-      scene.x(1, i) = std::sin(turn) / by;
-      scene.x(2, i) = (1 - std::cos(turn)) / by;
-    }
+    bend(scene, 1, sign * curvature);
     scene.x.colwise() += away;
     const PerParticle3 v = trial.after(scene, steps).v;
-    double momentum = 0;
-    for (Eigen::Index i = 0; i < v.cols(); ++i)
-      if (scene.mesh.rest(1, i) > shape.row_height() / 4)
-        momentum -= scene.mass[i] * (scene.x.col(i) - away).cross(v.col(i)).x();
+    const double momentum = angular_momentum(scene, v, 1, shape.row_height() / 4, away);
     moment += sign * momentum / (2 * double(steps) * scene.dt * shape.width());
   }
   return moment / curvature;
@@ -156,7 +188,6 @@ double measured_twisting(Trial& trial, const PortableScene& strip, const StripSh
 }
 
 void require_resistance(std::string_view to_what, double measured, double given) {
-  constexpr double least_rigidity = 1e-2;  // of the scene's
   if (measured > least_rigidity * given) return;
   throw FailedWithoutNumber(
       fmt::format("the strip does not resist {}: {:.2g} N m are measured, the scene has {:.2g} N m",

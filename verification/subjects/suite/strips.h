@@ -1,14 +1,20 @@
 // A strip of equilateral triangles, and the rigidity that a solver gives it.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "verification/subjects/suite/trial.h"
+#include "verification/subjects/suite/scenes.h"
 
 namespace foldproof::suite {
+
+// A wide strip has the plate's rigidity B. A narrow one, whose sides curl the other way, has the
+// beam's, B (1 - nu^2); others are between them.
+constexpr double largest_poisson = 0.5;  // nu [1]
+constexpr double least_rigidity = 1e-2;  // of the scene's: limper strips hang as a chain [1]
 
 /// Rows of edges along x, so many along y, about y = 0.
 struct StripShape {
@@ -30,12 +36,34 @@ std::vector<int> rows_of(const PortableScene& strip, const StripShape& shape);
 Eigen::Matrix2Xd mean_rows(const PortableScene& strip, const StripShape& shape,
                            const PerParticle3& x);
 
+/// The strip with its rows there, across and up [m]; two rows at each end are held.
+PortableScene clamped_strip(const PortableScene& strip, const StripShape& shape,
+                            const Eigen::Matrix2Xd& rows, double gravity);
+
 /// Of (turn from panel to panel)^2 between such rows, summed [rad^2].
 double squared_turns(const Eigen::Matrix2Xd& rows);
 
 /// Particles of the rows at this distance from y = 0, in the rest shape.
 std::vector<int> rows_at_distance(const PortableScene& strip, const StripShape& shape,
                                   double distance);
+
+/// The gravity under which rho g L^3/B is gamma [m/s^2].
+double gravity_of(double gamma, double rigidity, const PortableScene& strip, double length);
+
+/// Weights between which a strip is, over that of its rigidity: it is measured to 2 % and to
+/// `rounding` of the load, and the strip may be a plate or a beam [1].
+std::array<double, 2> possible_weights(double rounding);
+
+/// Of a clamped strip's slowest vibration [rad/s].
+double slowest_vibration(double rigidity, const PortableScene& strip, double length);
+
+/// Bends a flat sheet to a cylinder, along an axis of its plane [1/m].
+void bend(PortableScene& sheet, int axis, double curvature);
+
+/// Of the part whose rest shape is beyond `from` along that axis, about the other one; `away` is
+/// where the sheet lies [kg m^2/s].
+double angular_momentum(const PortableScene& sheet, const PerParticle3& v, int axis, double from,
+                        const Vector3& away);
 
 /// Measures a sheet where it is. In single precision, also in three other places `away` [m], and
 /// returns the mean; throws NotOffered if their range is over twice `most` of it.

@@ -6,7 +6,6 @@
 #include <Eigen/Geometry>
 
 #include "verification/subjects/suite/laws.h"
-#include "verification/subjects/suite/scenes.h"
 
 namespace foldproof {
 
@@ -40,14 +39,16 @@ double allowed(Trial& trial, const PortableScene& scene) {
   return narrow(2 * rounding_error(scene, steps, declared), declared);
 }
 
-Finding same_when_moved(Trial& trial, const Eigen::Matrix3d& turn, const Vector3& shift) {
-  const PortableScene scene = moved(turn, shift);
-  const PerParticle3 expected = (turn * trial.after(original(), steps).x).colwise() + shift;
-  const double error = (trial.after(scene, steps).x - expected).colwise().norm().maxCoeff();
+Finding moves_to(Trial& trial, const PortableScene& scene, const PerParticle3& expected,
+                 const char* why = "both runs round differently, within the bound of one each") {
   Table measured{{"steps", "1"}, {"difference of positions", "of the largest position"}};
-  measured.row(steps, error / size_of(scene.x));
-  return judge_worst(measured, allowed(trial, scene),
-                     "both runs round differently, within the bound of one each");
+  measured.row(steps, largest(trial.after(scene, steps).x - expected) / largest(scene.x));
+  return judge_worst(measured, allowed(trial, scene), why);
+}
+
+Finding same_when_moved(Trial& trial, const Eigen::Matrix3d& turn, const Vector3& shift) {
+  const PerParticle3 expected = (turn * trial.after(original(), steps).x).colwise() + shift;
+  return moves_to(trial, moved(turn, shift), expected);
 }
 
 Finding same_elsewhere(Trial& trial) {
@@ -67,11 +68,8 @@ Finding same_in_the_mirror(Trial& trial) {
   scene.mesh = make_triangle_mesh(scene.mesh.rest, triangles);
   PerParticle3 expected = trial.after(original(), steps).x;
   expected.row(0) *= -1;
-  const double error = (trial.after(scene, steps).x - expected).colwise().norm().maxCoeff();
-  Table measured{{"steps", "1"}, {"difference of positions", "of the largest position"}};
-  measured.row(steps, error / size_of(scene.x));
-  return judge_worst(measured, allowed(trial, scene),
-                     "sums in another order round differently, within the bound of one run each");
+  return moves_to(trial, scene, expected,
+                  "sums in another order round differently, within the bound of one run each");
 }
 
 /// The scene in other units of length, mass and time: the same numbers of steps and particles.
@@ -84,12 +82,7 @@ Finding same_in_other_units(Trial& trial) {
   scene.mass *= mass, scene.material.density *= mass / (length * length);
   scene.material.young *= mass / (time * time);
   scene.dt *= time;
-  const PerParticle3 expected = length * trial.after(first, steps).x;
-  const double error = (trial.after(scene, steps).x - expected).colwise().norm().maxCoeff();
-  Table measured{{"steps", "1"}, {"difference of positions", "of the largest position"}};
-  measured.row(steps, error / size_of(scene.x));
-  return judge_worst(measured, allowed(trial, scene),
-                     "both runs round differently, within the bound of one each");
+  return moves_to(trial, scene, length * trial.after(first, steps).x);
 }
 
 /// Particle i of the original is number[i].
@@ -141,20 +134,18 @@ double moved_by_the_step(Trial& trial) {
   const PerParticle3 coarse = trial.after(original(), steps).x,
                      fine = trial.after(original_in_steps(2 * steps), 2 * steps).x;
   const double order = std::max(1, trial.declaration().order);
-  return (coarse - fine).colwise().norm().maxCoeff() / (1 - std::pow(0.5, order));
+  return largest(coarse - fine) / (1 - std::pow(0.5, order));
 }
 
 /// Solvers that treat springs in turn, as Gauss and Seidel did, depend on the numbers by an error
 /// of the step, which falls with it. Physics that depends on them stays.
 Finding same_when_renumbered(Trial& trial) {
   const PortableScene scene = original();
-  const double rounding = allowed(trial, scene) * size_of(scene.x);
+  const double rounding = allowed(trial, scene) * largest(scene.x);
   const double moved = moved_by_numbers(trial, steps);
-  Table measured{{"steps", "1"},
-                 {"difference of positions", "m"},
-                 {"rounding", "m"},
-                 {"error of the step", "m"},
-                 {"beyond what both explain", "1"}};
+  Table measured = table_of(
+      "steps [1] | difference of positions [m] | rounding [m] | error of the step [m] | "
+      "beyond what both explain [1]");
   if (moved <= rounding) {
     measured.row(steps, moved, rounding, nan, moved / rounding);
   } else {

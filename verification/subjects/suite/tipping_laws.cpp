@@ -19,11 +19,10 @@ using namespace suite;
 //   |______________      it in its stiff plane; beyond a load it tips over: it turns about y and
 //   |______________|_ y  leaves the plane along x.
 constexpr StripShape ribbon{2, 20, 0.04};
-constexpr double given = 4e-3;           // B of the scene [N m]
-constexpr double young = 750;            // N/m; in its plane it is 100 times as stiff
-constexpr double tip_twist = 0.02;       // at the start [rad]
-constexpr double radians = 2;            // of the weightless strip's slowest vibration
-constexpr double largest_poisson = 0.5;  // of a strip of rigidity B (1 - nu^2) to B
+constexpr double given = 4e-3;      // B of the scene [N m]
+constexpr double young = 750;       // N/m; in its plane it is 100 times as stiff
+constexpr double tip_twist = 0.02;  // at the start [rad]
+constexpr double radians = 2;       // of the weightless strip's slowest vibration
 
 // Bending begins in the middle of the held panel, or at its inner row: as for the column.
 const double h = ribbon.row_height(), longest = (ribbon.rows - 0.5) * h,
@@ -52,9 +51,8 @@ struct Rigidities {
 
 /// Gravity under which a ribbon of these rigidities and length tips [m/s^2].
 double tips_under(const Rigidities& rigidities, double length) {
-  return oracles::tipping_load_by_series().value *
-         std::sqrt(rigidities.bending * rigidities.twisting) /
-         (lying_ribbon().material.density * std::pow(length, 3));
+  return gravity_of(oracles::tipping_load_by_series().value,
+                    std::sqrt(rigidities.bending * rigidities.twisting), lying_ribbon(), length);
 }
 
 /// At the clamp a ribbon cannot warp. The energy of warping, B w^3/12 twist''^2/2, against that of
@@ -122,16 +120,13 @@ class Ribbon {
 /// [1]; above 1 it tips.
 double tipping(Trial& trial, const Ribbon& ribbon_at_rest, double rigidity, double gravity) {
   const PortableScene scene = ribbon_at_rest.under(gravity);
-  const double slowest =  // of a cantilever [1/s]
-      3.516 * std::sqrt(rigidity / scene.material.density) / (longest * longest);
+  const double slowest = slowest_vibration(rigidity, scene, longest);
   const PerParticle3 end = trial.after(scene, std::lround(radians / slowest / scene.dt)).x;
   const PerParticle weights = scene.mass.cwiseProduct(scene.x.row(0).transpose());
   return end.row(0).dot(weights) / scene.x.row(0).dot(weights);
 }
 
 Finding tips_at_its_load(Trial& trial) {
-  trial.require_level(1);
-  trial.require("held");
   const double bending = measured_rigidity(trial, lying_ribbon(), ribbon);
   require_resistance("bending", bending, given);
   const double twisting = measured_twisting(trial, lying_ribbon(), ribbon, 0.4);
@@ -143,10 +138,9 @@ Finding tips_at_its_load(Trial& trial) {
   const Ribbon at_rest(trial, rigidities);
   const Bracket bracket = bracketed(
       expected, [&](double gravity) { return !(tipping(trial, at_rest, bending, gravity) < 1); });
-  Table measured{{"measured rigidity", "N m"}, {"of twist, over the width", "N m"},
-                 {"stands under", ""},         {"tips under", ""},
-                 {"at least", "m/s^2"},        {"at most", "m/s^2"},
-                 {"outside of both", "1"}};
+  Table measured = table_of(
+      "measured rigidity [N m] | of twist, over the width [N m] | stands under | tips under | "
+      "at least [m/s^2] | at most [m/s^2] | outside of both [1]");
   measured.row(bending, twisting, bracket.stands_text(), bracket.falls_text(), least, most,
                std::max({0.0, 1 - bracket.falls / least, bracket.stands / most - 1}));
   return judge_worst(
@@ -162,7 +156,8 @@ std::vector<Law> tipping_laws() {
       {"buckling.strip-on-edge-tips-at-its-load",
        "A strip on edge, clamped at one end, tips sideways under the weight that its own "
        "rigidities of bending and twist say.",
-       "Prandtl 1899, Timoshenko", tips_at_its_load},
+       "Prandtl 1899, Timoshenko", tips_at_its_load, "L1 held bending",
+       "stands under | tips under | at least | at most"},
   };
 }
 

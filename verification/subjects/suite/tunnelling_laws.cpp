@@ -7,7 +7,6 @@
 #include <Eigen/Geometry>
 
 #include "verification/subjects/suite/laws.h"
-#include "verification/subjects/suite/scenes.h"
 
 namespace foldproof {
 
@@ -39,14 +38,12 @@ long particles_through(Trial& trial, const PortableScene& scene) {
 }
 
 Finding nothing_passes(Trial& trial) {
-  trial.require("boxes");
   constexpr double slowest = 0.45;  // thicknesses
   const PortableScene slow = thrown_sheet(slowest);
   require_start_velocity(slow, trial.after(slow, free_steps).x, free_steps);
-  Table measured{{"way in a step", "thickness"},
-                 {"speed", "m/s"},
-                 {"particles through", "1"},
-                 {"those that a step cannot carry through", "1"}};
+  Table measured = table_of(
+      "way in a step [thickness] | speed [m/s] | particles through [1] | "
+      "those that a step cannot carry through [1]");
   double safe = 0;  // thicknesses
   bool passed = false;
   for (const double thicknesses : {slowest, 0.9, 1.8, 3.6, 7.2, 14.4, 28.8}) {
@@ -68,7 +65,7 @@ std::vector<Law> tunnelling_laws() {
   return {
       {"tunnelling.thin-box-stops-a-slow-sheet",
        "Nothing passes through a thin box where a step moves less than half its thickness.",
-       "impenetrability", nothing_passes},
+       "impenetrability", nothing_passes, "boxes"},
   };
 }
 

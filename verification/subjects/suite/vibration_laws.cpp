@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "verification/subjects/suite/laws.h"
-#include "verification/subjects/suite/scenes.h"
 
 namespace foldproof {
 
@@ -23,19 +22,12 @@ constexpr long stride = 8;             // samples, 0.8 radians
 constexpr double damping_ratio = 0.1;  // rate over omega [1]
 
 PortableScene triangle() {
-  PortableScene scene;
   PerParticle3 corners(3, 3);
   for (int i = 0; i < 3; ++i) {
     const double turn = 2 * pi * i / 3;
     corners.col(i) = side / std::sqrt(3.0) * Vector3(std::cos(turn), std::sin(turn), 0);
   }
-  scene.mesh = make_triangle_mesh(corners, {{0, 1, 2}});
-  scene.name = "breathing triangle";
-  scene.x = corners;
-  scene.v = PerParticle3::Zero(3, 3);
-  scene.material.young = 5;
-  scene.mass = lumped_masses(scene.mesh, scene.material.density);
-  return scene;
+  return resting("breathing triangle", make_triangle_mesh(corners, {{0, 1, 2}}), {.young = 5});
 }
 
 double omega_of(const PortableScene& scene) {  // 1/s
@@ -80,9 +72,7 @@ Oscillation fit(const std::vector<double>& s) {
 /// At the coarsest step over `parts`.
 Oscillation oscillation(Trial& trial, PortableScene scene, long parts) {
   scene.dt = coarsest / omega_of(scene) / double(parts);
-  std::vector<long> steps;
-  for (long k = 1; k <= samples; ++k) steps.push_back(k * parts);
-  return fit(strains(trial, scene, steps));
+  return fit(strains(trial, scene, multiples(parts, samples)));
 }
 
 /// The limit of a number at two steps, the second half of the first, by the claimed order.
@@ -137,13 +127,9 @@ Finding vibrates_with(Trial& trial, const PortableScene& scene, double ratio) {
     table.row(of, at[0].*member, at[1].*member, at[2].*member, limit, expected,
               std::abs(limit - expected));
   };
-  Table measured{{"of", ""},
-                 {"63 steps a period", "omega"},
-                 {"126 steps", "omega"},
-                 {"251 steps", "omega"},
-                 {"extrapolated", "omega"},
-                 {"expected", "omega"},
-                 {"difference", "omega"}};
+  Table measured = table_of(
+      "of | 63 steps a period [omega] | 126 steps [omega] | 251 steps [omega] | "
+      "extrapolated [omega] | expected [omega] | difference [omega]");
   row(measured, "decay", &Oscillation::decay, decay);
   row(measured, "frequency", &Oscillation::frequency, frequency);
   return judge_worst(measured, bound,
@@ -154,7 +140,6 @@ Finding vibrates_with(Trial& trial, const PortableScene& scene, double ratio) {
 Finding undamped_goes_on(Trial& trial) { return vibrates_with(trial, triangle(), 0); }
 
 Finding damped_decays(Trial& trial) {
-  trial.require("damping");
   PortableScene scene = triangle();
   scene.name += ", damped";
   scene.material.stretch_damping = 2 * damping_ratio * scene.material.young / omega_of(scene);
@@ -168,10 +153,10 @@ std::vector<Law> vibration_laws() {
       {"vibration.undamped-goes-on",
        "Without damping, a free vibration keeps its period and its amplitude as the step goes to "
        "0.",
-       "harmonic oscillator", undamped_goes_on},
+       "harmonic oscillator", undamped_goes_on, "", "of | extrapolated | expected"},
       {"vibration.damped-decays-as-its-damping-says",
        "A damped free vibration has the period and the decay of the damped oscillator.",
-       "damped harmonic oscillator", damped_decays},
+       "damped harmonic oscillator", damped_decays, "damping", "of | extrapolated | expected"},
   };
 }
 

@@ -131,27 +131,16 @@ bool slips(Trial& trial, const Pressed& strip, double friction) {
 }
 
 Finding slips_as_the_elastica(Trial& trial) {
-  trial.require_level(1);
-  trial.require("held");
-  trial.require("planes");
   const double rigidity = measured_rigidity(trial, flat_strip(), shape);
   require_resistance("bending", rigidity, given);
-  Table measured{{"compression", "L"},
-                 {"measured rigidity", "N m"},
-                 {"mu that just holds", "1"},
-                 {"at least", "1"},
-                 {"at most", "1"},
-                 {"last move", "L"},
-                 {"outside of both", "mu"}};
+  Table measured = table_of(
+      "compression [L] | measured rigidity [N m] | mu that just holds [1] | at least [1] | "
+      "at most [1] | last move [L] | outside of both [mu]");
   for (const double compression : {0.1, 0.2}) {
     const Pressed strip = strip_at_rest(trial, compression, rigidity);
     const double least = strip.least(), most = strip.most();
-    double moves = 0.7 * least, rests = 1.3 * most;
-    while (rests - moves > 0.01 * least) {
-      const double middle = (rests + moves) / 2;
-      (slips(trial, strip, middle) ? moves : rests) = middle;
-    }
-    const double found = (rests + moves) / 2;
+    const double found = middle(bisected({0.7 * least, 1.3 * most}, 0.01 * least,
+                                         [&](double mu) { return !slips(trial, strip, mu); }));
     measured.row(compression, rigidity, found, least, most, strip.last_move / length,
                  std::max({0.0, 1 - found / least, found / most - 1}));
   }
@@ -170,7 +159,8 @@ std::vector<Law> floor_laws() {
       {"floor.pressed-strip-slips-as-the-elastica",
        "The tip of a strip that is pressed on a floor slips at the friction at which the "
        "elastica's does.",
-       "Romero et al. 2021", slips_as_the_elastica},
+       "Romero et al. 2021", slips_as_the_elastica, "L1 held planes bending",
+       "compression | mu that just holds | at least | at most"},
   };
 }
 

@@ -24,10 +24,6 @@ constexpr double young = 500;                                      // N/m
 constexpr double gamma_of_law = 80, gamma_of_start = 300;          // rho g L^3/B [1]
 const double h = shape.row_height(), length = shape.length() - h;  // between middles of panels [m]
 
-// As of other bent strips: a narrow one has a rigidity of B (1 - nu^2) to B.
-constexpr double largest_poisson = 0.5;  // 1
-constexpr double measured_to = 0.02;     // of the rigidity [1]
-
 PortableScene flat_strip() {
   return free_strip(shape, {.young = young, .bending_rigidity = given}, 2e-4);
 }
@@ -62,17 +58,9 @@ Eigen::Matrix2Xd rows_of_fold(double gamma) {
 }
 
 PortableScene fold_on_floor(double gravity) {
-  PortableScene scene = flat_strip();
+  PortableScene scene = clamped_strip(flat_strip(), shape, rows_of_fold(gamma_of_start), gravity);
   scene.name = "fold on a floor";
-  scene.gravity = Vector3(0, 0, -gravity);
   scene.planes = {{Vector3::Zero(), Vector3::UnitZ(), 0}};
-  const Eigen::Matrix2Xd rows = rows_of_fold(gamma_of_start);
-  const std::vector<int> row_of = rows_of(scene, shape);
-  for (Eigen::Index i = 0; i < scene.x.cols(); ++i) {
-    const int row = row_of[size_t(i)];
-    scene.x.col(i) << scene.mesh.rest(0, i), rows.col(row);
-    if (row < 2 || row > shape.rows - 2) scene.held.push_back(int(i));
-  }
   return scene;
 }
 
@@ -114,11 +102,9 @@ struct Allowed {
 
 /// rounding: of the load [1]
 Allowed allowed(double rounding) {
-  const double off = measured_to + rounding;
   Allowed all{{length, length}, {0, 0}};
   for (const double inside : {0.0, h / 2})
-    for (const double heavier :
-         {1 / (1 + off), 1 / ((1 - off) * (1 - largest_poisson * largest_poisson))}) {
+    for (const double heavier : possible_weights(rounding)) {
       const Extent one = extent_of(gamma_of_law * heavier, inside);
       all.least.height = std::min(all.least.height, one.height);
       all.least.reach = std::min(all.least.reach, one.reach);
@@ -129,13 +115,10 @@ Allowed allowed(double rounding) {
 }
 
 Finding stands_as_high_as_the_elastica(Trial& trial) {
-  trial.require_level(1);
-  trial.require("held");
-  trial.require("planes");
   const double rigidity = measured_rigidity(trial, flat_strip(), shape);
   require_resistance("bending", rigidity, given);
   const double density = flat_strip().material.density,
-               gravity = gamma_of_law * rigidity / (density * std::pow(length, 3));
+               gravity = gravity_of(gamma_of_law, rigidity, flat_strip(), length);
   const PortableScene scene = fold_on_floor(gravity);
   const Eigen::Matrix2Xd start = mean_rows(scene, shape, scene.x);
   const double stored = rigidity * shape.width() * squared_turns(start) / (2 * h);
@@ -150,15 +133,10 @@ Finding stands_as_high_as_the_elastica(Trial& trial) {
                off_floor = std::abs(rows.row(1).segment(2, 3).mean()) / length,
                bound = squared_turns(rows_of_fold(gamma_of_law)) / (24 * shape.rows) +
                        density * gravity * length / (2 * young) + off_floor;
-  Table measured{{"of the fold", ""},
-                 {"measured rigidity", "N m"},
-                 {"at the start", "L"},
-                 {"measured", "L"},
-                 {"at least", "L"},
-                 {"at most", "L"},
-                 {"last move", "L"},
-                 {"allowed", "L"},
-                 {"outside of both and last move, over what is allowed", "1"}};
+  Table measured = table_of(
+      "of the fold | measured rigidity [N m] | at the start [L] | measured [L] | at least [L] | "
+      "at most [L] | last move [L] | allowed [L] | "
+      "outside of both and last move, over what is allowed [1]");
   const auto row = [&](const char* of, double began, double value, double least, double most) {
     const double outside = std::max({0.0, least - value, value - most}) / length;
     measured.row(of, rigidity, began / length, value / length, least / length, most / length, moved,
@@ -182,7 +160,8 @@ std::vector<Law> fold_laws() {
       {"floor.clamped-fold-stands-as-high-as-the-elastica",
        "A strip that lies on a smooth floor, folded back over itself, stands as high as the "
        "elastica and goes as far out.",
-       "heavy elastica, Plaut 2015", stands_as_high_as_the_elastica},
+       "heavy elastica, Plaut 2015", stands_as_high_as_the_elastica, "L1 held planes bending",
+       "of the fold | measured | at least | at most"},
   };
 }
 

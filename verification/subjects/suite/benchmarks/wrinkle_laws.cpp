@@ -129,22 +129,15 @@ long steps_of(const Plate& plate, double density) {
 }
 
 Finding wrinkles_as_its_tension_says(Trial& trial) {
-  trial.require_level(1);
-  trial.require("held");
   const Plate plate = plate_of(trial);
   const PortableScene scene = wrinkled_sheet();
   const long steps = steps_of(plate, scene.material.density);
   const PerParticle3 end = trial.after(scene, steps).x;
-  Table measured{{"half waves", "1"},
-                 {"measured rigidity", "N m"},
-                 {"tension along", "N/m"},
-                 {"and across", "N/m"},
-                 {"height, over the start's", "1"},
-                 {"stiffness to it", "N/m^3"},
-                 {"of a plate", "N/m^3"},
-                 {"difference, over the sum of its parts", "1"},
-                 {"allowed", "1"},
-                 {"of the difference, over what is allowed", "1"}};
+  Table measured = table_of(
+      "half waves [1] | measured rigidity [N m] | tension along [N/m] | and across [N/m] | "
+      "height, over the start's [1] | stiffness to it [N/m^3] | of a plate [N/m^3] | "
+      "difference, over the sum of its parts [1] | allowed [1] | "
+      "of the difference, over what is allowed [1]");
   for (int n = 1; n <= waves; ++n) {
     const Wave wave{n};
     const double over_start = height_of(scene, wave, end) / height_of(scene, wave, scene.x),
@@ -167,7 +160,8 @@ std::vector<Law> wrinkle_laws() {
       {"wrinkles.grow-as-tension-and-rigidity-say",
        "In a sheet that is stretched one way and compressed across, each wave grows or swings as "
        "in a plate of the solver's own rigidity under its own stresses.",
-       "plate under tension; Cerda and Mahadevan 2003", wrinkles_as_its_tension_says},
+       "plate under tension; Cerda and Mahadevan 2003", wrinkles_as_its_tension_says,
+       "L1 held bending", "half waves | stiffness to it | of a plate"},
   };
 }
 

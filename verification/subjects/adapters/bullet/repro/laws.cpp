@@ -1,8 +1,9 @@
-// What the laws find in Bullet, without foldproof: each line is one observation.
+// What the laws find in Bullet, without foldproof: each line is one observation. With the word
+// `friction`, how far a position based sheet slides on a slope.
 //
 //   g++ -std=c++17 -O2 -DBT_USE_DOUBLE_PRECISION -isystem /usr/include/bullet \
 //     verification/subjects/adapters/bullet/repro/laws.cpp -o laws -lBulletSoftBody-float64 \
-//     -lBulletDynamics-float64 -lBulletCollision-float64 -lLinearMath-float64 && ./laws
+//     -lBulletDynamics-float64 -lBulletCollision-float64 -lLinearMath-float64 && ./laws && ./laws friction
 #include <BulletSoftBody/btDeformableBodySolver.h>
 #include <BulletSoftBody/btDeformableGravityForce.h>
 #include <BulletSoftBody/btDeformableMassSpringForce.h>
@@ -15,13 +16,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 using Points = std::vector<btVector3>;
 
-constexpr double dt = 0.002;
-constexpr int side = 4;  // particles along each side of a sheet
+constexpr double dt = 0.002, weight = 9.81;  // s, m/s^2
+constexpr int side = 4;                      // particles along each side of a sheet
 
 btSoftBodyRigidBodyCollisionConfiguration configuration;
 btCollisionDispatcher dispatcher(&configuration);
@@ -96,13 +98,17 @@ double largest_difference(const Points& a, const Points& b) {
   return largest;
 }
 
-Points move_position_based(Sheet& sheet, const btVector3& gravity, int steps) {
+/// obstacle: may be none
+Points move_position_based(Sheet& sheet, const btVector3& gravity, int steps,
+                           btRigidBody* obstacle = nullptr) {
   btSequentialImpulseConstraintSolver constraints;
   btSoftRigidDynamicsWorld world(&dispatcher, &sheet.broadphase, &constraints, &configuration);
   world.setGravity(gravity);
   world.addSoftBody(sheet.body);
+  if (obstacle) world.addCollisionObject(obstacle);
   for (int k = 0; k < steps; ++k) world.stepSimulation(dt, 0);
   const Points end = sheet.positions();
+  if (obstacle) world.removeCollisionObject(obstacle);
   world.removeSoftBody(sheet.body);
   return end;
 }
@@ -169,7 +175,55 @@ void explicit_steps() {
   world.removeSoftBody(sheet.body);
 }
 
-int main() {
+// Bullet 3.24 takes the share mu of a sliding particle's speed in each step, whatever presses it
+// on. So the speed ends at (1 - mu)/mu times what gravity adds in a step, and the way of n steps is
+// 2 (1 - mu)/(n mu) of that without friction, on every slope on which it slides at all:
+//
+//      mu   slope/mu        Coulomb          200 steps of 2 ms   2 (1 - mu)/(200 mu)
+//     0.23  0.5             0                0
+//     0.23  0.7, 1.3, 4.0   0, 0.23, 0.75    0.033               0.0335
+//     0.61  0.5             0                0
+//     0.61  0.7, 1.3, 4.0   0, 0.23, 0.75    0.0063, 0.0064      0.0064
+
+/// On the upper side of a box; gravity is tilted instead of it. Mean way down over the way without
+/// friction [1].
+double share_of_way(double slope, double friction, int iterations, int steps) {
+  const double angle = std::atan(slope), time = steps * dt;
+  const btVector3 gravity(weight * std::sin(angle), 0, -weight * std::cos(angle));
+  Sheet sheet(false, 1, gravity, btVector3(0, 0, 0));
+  sheet.info.m_sparsesdf.Initialize();
+  sheet.body->m_cfg.kDF = 1;  // times the box's friction
+  sheet.body->m_cfg.piterations = iterations;
+  sheet.body->getCollisionShape()->setMargin(1e-4);
+  btBoxShape shape(btVector3(5, 5, 5));
+  shape.setMargin(0);
+  btRigidBody box(0, nullptr, &shape);
+  box.setWorldTransform(btTransform(btQuaternion::getIdentity(), btVector3(0, 0, -5)));
+  box.setFriction(friction);
+  const Points start = sheet.positions(), end = move_position_based(sheet, gravity, steps, &box);
+  double sum = 0;
+  for (size_t i = 0; i < end.size(); ++i) sum += end[i].x() - start[i].x();
+  return sum / double(end.size()) / (weight * std::sin(angle) * time * time / 2);
+}
+
+void friction() {
+  std::printf("%11s %5s %9s %9s %10s %10s\n", "iterations", "mu", "slope/mu", "Coulomb",
+              "200 steps", "400 steps");
+  for (const int iterations : {1, 10})
+    for (const double mu : {0.23, 0.61})
+      for (const double over : {0.5, 0.7, 0.9, 1.1, 1.3, 2.0, 4.0})
+        std::printf("%11d %5.2f %9.1f %9.4f %10.4f %10.4f\n", iterations, mu, over,
+                    std::fmax(0, 1 - 1 / over), share_of_way(over * mu, mu, iterations, 200),
+                    share_of_way(over * mu, mu, iterations, 400));
+}
+
+int main(int count, char** words) {
+  if (count == 2 && std::string_view(words[1]) == "friction") {
+    std::printf("Bullet %d, position based: way down a slope over that without friction\n",
+                btGetVersion());
+    friction();
+    return 0;
+  }
   std::printf("Bullet %d\n", btGetVersion());
   numbering();
   speed_of_a_fall();
