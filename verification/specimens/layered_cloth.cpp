@@ -10,14 +10,7 @@ namespace foldproof {
 
 Scene layered_scene(const LayeredSheets& wanted) {
   Random random(wanted.seed);
-  Sheet sheet;
-  sheet.pattern = SheetPattern::jittered;
-  sheet.width = 0.1;
-  sheet.height = 0.12;
-  sheet.columns = 5;
-  sheet.rows = 6;
-  sheet.jitter = 0.2;
-  const TriangleMesh one = make_sheet(sheet);
+  const TriangleMesh one = make_sheet({SheetPattern::jittered, 0.1, 0.12, 5, 6, 0.2});
   const Eigen::Index n = one.particles();
   PerParticle3 rest(3, n * wanted.sheets);
   std::vector<Triangle> triangles;

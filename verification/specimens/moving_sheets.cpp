@@ -11,26 +11,10 @@ namespace foldproof {
 namespace {
 
 Sheet irregular_sheet() {
-  Sheet sheet;
-  sheet.pattern = SheetPattern::random_delaunay;
-  sheet.width = 0.7;
-  sheet.height = 0.55;
-  sheet.columns = 5;
-  sheet.rows = 4;
-  sheet.seed = shifted_seed(31);
-  return sheet;
+  return {SheetPattern::random_delaunay, 0.7, 0.55, 5, 4, 0, shifted_seed(31)};
 }
 
-Sheet jittered_sheet() {
-  Sheet sheet;
-  sheet.pattern = SheetPattern::jittered;
-  sheet.width = 0.6;
-  sheet.columns = 5;
-  sheet.rows = 4;
-  sheet.jitter = 0.27;
-  sheet.seed = shifted_seed(17);
-  return sheet;
-}
+Sheet jittered_sheet() { return {SheetPattern::jittered, 0.6, 0, 5, 4, 0.27, shifted_seed(17)}; }
 
 /// Displaces and sets in motion at random: a tenth of an edge in the plane, a third of one across
 /// it, and less where triangles are thin: they are neither to be turned over nor folded back.

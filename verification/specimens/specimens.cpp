@@ -36,17 +36,7 @@ Specimen crumple_specimen(const std::string& name, TriangleMesh mesh, double edg
   return specimen;
 }
 
-Sheet sheet_of(SheetPattern pattern) {
-  Sheet sheet;
-  sheet.pattern = pattern;
-  sheet.width = 0.43;
-  sheet.height = 0.31;
-  sheet.columns = 6;
-  sheet.rows = 5;
-  sheet.jitter = 0.24;
-  sheet.seed = shifted_seed(71);
-  return sheet;
-}
+Sheet sheet_of(SheetPattern pattern) { return {pattern, 0.43, 0.31, 6, 5, 0.24, shifted_seed(71)}; }
 
 Specimen at_rest(const std::string& name, TriangleMesh mesh) {
   Specimen specimen{name, scene_at_rest(std::move(mesh), 0.31), {}};

@@ -1,7 +1,5 @@
 // Checks of the second opinions on inside and outside: ray parity, winding numbers, and the
 // repair by them.
-#include <cmath>
-
 #include "reference/bodies/closed_mesh.h"
 #include "reference/bodies/mesh_inspection.h"
 #include "reference/bodies/ray_parity.h"
@@ -9,8 +7,7 @@
 #include "reference/bodies/winding.h"
 #include "reference/level_set/mesh_grid.h"
 #include "reference/mesh/shapes.h"
-#include "verification/checks/bodies/body_checks.h"
-#include "verification/evidence.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/random.h"
 #include "verification/specimens/specimens.h"
 #include "verification/specimens/ugly_solids.h"
@@ -27,7 +24,7 @@ std::shared_ptr<const Grid> grid_of(const TriangleSoup& soup) {
   return make_grid(make_mesh_distance(soup.rest, soup.triangles), method);
 }
 
-Finding parity_agrees(const Subject&) {
+Finding parity_agrees() {
   Table measured{{"case", ""}, {"nodes that are counted otherwise", "1"}};
   std::vector<std::pair<std::string, TriangleSoup>> soups{{"statue", statue()}};
   const TriangleMesh sphere = make_icosphere(1, 3);  // rays of the lattice run through its vertices
@@ -45,7 +42,7 @@ Finding parity_agrees(const Subject&) {
 }
 
 /// Reports on meshes with known defects.
-Finding inspection_tells(const Subject&) {
+Finding inspection_tells() {
   const TriangleMesh ball = make_icosphere(0.7, 3);
   TriangleSoup whole{ball.rest, ball.triangles, {}}, open = whole, flipped = whole;
   open.triangles.erase(open.triangles.begin());
@@ -53,23 +50,20 @@ Finding inspection_tells(const Subject&) {
   const TriangleSoup sheet{ball.rest, {ball.triangles[0]}, {}};
   const MeshInspection a = inspect_mesh(whole, 20), b = inspect_mesh(open, 20),
                        c = inspect_mesh(flipped, 20), d = inspect_mesh(sheet, 20);
-  const auto lacks = [](const std::string& text, const char* part) {
-    return text.find(part) == std::string::npos;
-  };
   Table measured{{"case", ""}, {"what is said wrongly", "1"}};
   measured.row("a ball is a solid", !a.rejection.empty() || a.pieces != 1 || a.triangles != 1280);
   measured.row("its volume, over 1 percent",
                std::abs(a.volume / (4 * EIGEN_PI / 3 * 0.343) - 1) > 0.01);
   measured.row("no opinion differs", double(a.against_sign + a.among_rays));
-  measured.row("a hole", lacks(b.rejection, "a hole") || !b.repair_failure.empty());
+  measured.row("a hole", count_missing(b.rejection, {"a hole"}) || !b.repair_failure.empty());
   measured.row("rays differ behind it", b.among_rays > b.against_sign ? 0 : 1);
-  measured.row("a flipped triangle", lacks(c.rejection, "opposite orientation"));
+  measured.row("a flipped triangle", count_missing(c.rejection, {"opposite orientation"}));
   measured.row("a triangle alone has no inside",
-               lacks(d.repair_failure, "no inside") || d.nodes != 0);
+               count_missing(d.repair_failure, {"no inside"}) || d.nodes != 0);
   return judge_worst(measured, 0, "each defect must be reported, and no others");
 }
 
-Finding parity_shows_holes(const Subject&) {
+Finding parity_shows_holes() {
   const TriangleSoup whole = statue();
   const auto grid = grid_of(whole);
   int unseen = 0;
@@ -106,7 +100,7 @@ Vector3 about(Random& random, const Bounds& bounds) {
   return bounds.min() + p.cwiseProduct(bounds.sizes());
 }
 
-Finding winding_is_whole(const Subject&) {
+Finding winding_is_whole() {
   Table measured{{"case", ""}, {"deviation from 1 inside and 0 outside", "1"}};
   for (const UglySolid& solid : ugly_solids()) {
     Random random(101);
@@ -128,7 +122,7 @@ Finding winding_is_whole(const Subject&) {
       "its digits to cancellation, epsilon times the squared ratio of sizes");
 }
 
-Finding tree_is_near(const Subject&) {
+Finding tree_is_near() {
   const TriangleMesh& mesh = small_statue();
   const MeshDistance distance = make_mesh_distance(mesh.rest, mesh.triangles);
   const std::vector<Dipole> dipoles = make_dipoles(distance);
@@ -200,7 +194,7 @@ Mended against_union(const Grid& mended) {
   return result;
 }
 
-Finding repair_mends(const Subject&) {
+Finding repair_mends() {
   const TriangleSoup whole = statue();
   const auto truth = grid_of(whole);
   TriangleSoup open = whole, flipped = whole, inward = whole;

@@ -1,17 +1,12 @@
 // Savings from computing the position-dependent terms of damping once per solve, and to
 // assemble no matrix.
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <functional>
 #include <set>
-#include <vector>
 
 #include "reference/dynamics/simulate.h"
 #include "reference/mesh/shapes.h"
 #include "reference/scene/scene.h"
-#include "verification/checks/dynamics/dynamics_checks.h"
 #include "verification/processor_time.h"
+#include "verification/specimens/check.h"
 
 namespace foldproof {
 
@@ -61,7 +56,7 @@ TimedRatio timed_ratio(const std::function<void()>& one, const std::function<voi
   return ratio;
 }
 
-Finding time_finding(const Subject&) {
+Finding time_finding() {
   Table times{{"particles", "1"},
               {"product with cached terms", "s"},
               {"product with terms computed anew", "s"},
@@ -102,7 +97,7 @@ double blocks_of(const TriangleMesh& mesh) {
   return double(blocks.size());
 }
 
-Finding memory_finding(const Subject&) {
+Finding memory_finding() {
   // nine entries and a column's number
   constexpr double block_bytes = 9 * sizeof(double) + sizeof(int);
   Table sizes{{"particles", "1"},

@@ -2,14 +2,12 @@
 #include "reference/dynamics/conjugate_gradient.h"
 #include "reference/dynamics/system.h"
 #include "reference/mesh/shapes.h"
-#include "verification/checks/dynamics/dynamics_checks.h"
-#include "verification/evidence.h"
 #include "verification/oracles/dense_algebra.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/moving_sheets.h"
 #include "verification/specimens/random.h"
 #include "verification/specimens/solver_problems.h"
 #include "verification/specimens/stepper.h"
-#include <cmath>
 
 namespace foldproof {
 
@@ -56,7 +54,7 @@ Table residual_table() {
   return table;
 }
 
-Finding promise_finding(const Subject&) {
+Finding promise_finding() {
   const Table table = residual_table();
   const std::vector<double>&tolerance = table.numbers("tolerance"),
         &recomputed = table.numbers("recomputed");
@@ -70,7 +68,7 @@ Finding promise_finding(const Subject&) {
           "dampers."};
 }
 
-Finding returned_finding(const Subject&) {
+Finding returned_finding() {
   const Table table = residual_table();
   const std::vector<double>&returned = table.numbers("returned"),
         &recomputed = table.numbers("recomputed");
@@ -85,7 +83,7 @@ Finding returned_finding(const Subject&) {
           ""};
 }
 
-Finding cholesky_finding(const Subject&) {
+Finding cholesky_finding() {
   Worst worst;
   Table errors{{"half step", "s"}, {"tolerance", "1"}, {"error over the velocity", "1"}};
   for (double s : {2.3e-4, 3.1e-3, 0.047})
@@ -137,7 +135,7 @@ SolveResult solve_with_rates(int k, unsigned seed) {
       0.19, v, work);
 }
 
-Finding eigenvalue_finding(const Subject&) {
+Finding eigenvalue_finding() {
   Worst worst;
   Table solves{{"distinct eigenvalues", "1"}, {"iterations", "1"}};
   for (int k = 1; k <= 7; ++k) {
@@ -154,14 +152,14 @@ Finding eigenvalue_finding(const Subject&) {
 }
 
 /// Number of false reports of a solve that may not finish, and of one that cannot.
-Finding cap_finding(const Subject&) {
+Finding cap_finding() {
   const Problem problem = make_problem(free_sheet(), 3);
   const auto solve = [&](const SolverSettings& settings, PerParticle3 w, Work& work) {
     return solve_velocity(system_of(problem.system.mass, problem.system.inverse_mass, settings),
                           problem.damping, 0.047, w, work);
   };
   PerParticle3 spoiled = problem.guess;
-  spoiled(1, 6) = std::numeric_limits<double>::quiet_NaN();
+  spoiled(1, 6) = nan;
   Work capped, finished, broken;
   const SolveResult cap = solve({1e-13, 3, ResidualScale::momentum}, problem.guess, capped);
   const SolveResult whole = solve({1e-6, 500, ResidualScale::momentum}, problem.guess, finished);
@@ -212,7 +210,7 @@ Finding operator_finding(const Subject& subject) {
           "the operator is I - s M^{-1/2} D M^{-1/2}"};
 }
 
-Finding rigid_finding(const Subject&) {
+Finding rigid_finding() {
   const Problem problem = make_problem(free_sheet(), 3);
   const Vector3 spin(2.3, -1.7, 0.6), drift(0.4, 3.1, -0.7);
   PerParticle3 v(3, problem.s.x.cols());
@@ -249,7 +247,7 @@ double residual_left(const Problem& problem, double s, const PerParticle3& w) {
   return std::sqrt(squared(r) / squared(problem.guess * mass.asDiagonal()));
 }
 
-Finding large_finding(const Subject&) {
+Finding large_finding() {
   constexpr double tolerance = 1e-7;
   Table measured{{"case", ""}, {"residual left", "of the tolerance"}};
   // 441, 529, 1024 and 2116 particles: less than one block, more, two blocks, five

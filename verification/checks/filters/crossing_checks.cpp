@@ -1,11 +1,9 @@
-#include "reference/filters/feature_pair.h"
-#include "verification/checks/filters/filter_checks.h"
-#include "verification/evidence.h"
-#include "verification/oracles/feature_distance.h"
-#include "verification/specimens/random.h"
 #include <fmt/format.h>
-#include <Eigen/Geometry>
-#include <cmath>
+
+#include "reference/filters/feature_pair.h"
+#include "verification/oracles/feature_distance.h"
+#include "verification/specimens/check.h"
+#include "verification/specimens/random.h"
 
 namespace foldproof {
 
@@ -69,7 +67,7 @@ Corners4 thin(Random& random, PairKind kind, double s) {
   return x;
 }
 
-Finding distance_is_exact(const Subject&) {
+Finding distance_is_exact() {
   Table measured = roundings_of("max |x|");
   for (const PairKind kind : kinds)
     for (const PointMaker& maker : makers()) {
@@ -92,7 +90,7 @@ Finding distance_is_exact(const Subject&) {
                      "which changes their distance in second order");
 }
 
-Finding thin_ones_are_as_good(const Subject&) {
+Finding thin_ones_are_as_good() {
   Table measured{{"case", ""}, {"largest error over the extent", "1"}};
   for (const PairKind kind : kinds)
     for (double s = 0.1; s > 1e-13; s /= 10) {
@@ -123,7 +121,7 @@ double weight_error(PairKind kind, const Eigen::Vector4d& w) {
   return worst.value();
 }
 
-Finding weights_lead_across(const Subject&) {
+Finding weights_lead_across() {
   Table measured = roundings_of("1, and of max |x|");
   for (const PairKind kind : kinds)
     for (const PointMaker& maker : makers()) {

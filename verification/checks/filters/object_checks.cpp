@@ -1,11 +1,5 @@
 // How objects move, and that nothing passes through them.
-#include <Eigen/Geometry>
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
-#include "verification/checks/filters/filter_checks.h"
-#include "verification/evidence.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/contact_scenes.h"
 #include "verification/specimens/random.h"
 #include "verification/specimens/stepper.h"
@@ -35,7 +29,7 @@ RigidMotion keyframed_motion() {
 }
 
 /// The velocity of a body's point against the central difference of its places, each h away.
-Finding velocity_finding(const Subject&) {
+Finding velocity_finding() {
   Table measured{{"case", ""}, {"difference over that of the places' derivative", "1"}};
   const double small = 1e-4;
   Random random(3);
@@ -60,7 +54,7 @@ Finding velocity_finding(const Subject&) {
 }
 
 /// On the keys themselves, and outside them at rest.
-Finding keyframe_finding(const Subject&) {
+Finding keyframe_finding() {
   Table measured = roundings_of("length");
   const RigidMotion motion = keyframed_motion();
   const std::vector<Keyframe>& keys = std::get<Keyframes>(motion).keys;
@@ -95,7 +89,7 @@ SceneObject with_motion(SceneObject part, const Vector3& velocity, const Vector3
 }
 
 double depth(const std::vector<SceneObject>& objects, const Vector3& p, double time) {
-  double deepest = -std::numeric_limits<double>::infinity();
+  double deepest = -INFINITY;
   for (const SceneObject& part : objects)
     deepest =
         std::max(deepest, -std::get<RigidObject>(part.object.body).at(p, {time, time, 0}).phi);

@@ -1,11 +1,6 @@
 // The two responses that forecasting is compared with: projection after the step, and pushing out
 // in the next one.
-#include <algorithm>
-#include <cmath>
-#include <functional>
-
-#include "verification/checks/filters/filter_checks.h"
-#include "verification/evidence.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/contact_scenes.h"
 #include "verification/specimens/differences.h"
 

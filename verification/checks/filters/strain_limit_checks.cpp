@@ -1,14 +1,11 @@
 // One correction by strain limits: of one spring, exactly; of a cloth, whatever the
 // order of sweeps.
 #include "reference/dynamics/system.h"
-#include "verification/checks/filters/filter_checks.h"
-#include "verification/evidence.h"
 #include "verification/oracles/limited_spring.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/differences.h"
 #include "verification/specimens/random.h"
 #include "verification/specimens/strain_scenes.h"
-#include <Eigen/Geometry>
-#include <cmath>
 
 namespace foldproof {
 
@@ -253,17 +250,16 @@ std::vector<Check> strain_limit_checks() {
              "' predict lengths within the limits, to the tolerance, of cloth that is within them.",
          source,
          [order = named.order](const Subject& subject) { return limits_finding(subject, order); }});
-  for (const Check& check : std::vector<Check>{
-           {"strain.momentum-is-conserved",
-            "A correction changes neither the linear nor the angular momentum of a free cloth.",
-            source, momentum_finding},
-           {"strain.prescribed-particles-are-left-alone",
-            "Velocities of particles with prescribed motion are unchanged, bit for bit.", source,
-            held_finding},
-           {"strain.springs-within-limits-are-left-alone",
-            "Where no spring would leave its limits, velocities are unchanged, bit for bit.",
-            source, untouched_within_limits_finding}})
-    list.push_back(check);
+  list.insert(list.end(),
+              {{"strain.momentum-is-conserved",
+                "A correction changes neither the linear nor the angular momentum of a free cloth.",
+                source, momentum_finding},
+               {"strain.prescribed-particles-are-left-alone",
+                "Velocities of particles with prescribed motion are unchanged, bit for bit.",
+                source, held_finding},
+               {"strain.springs-within-limits-are-left-alone",
+                "Where no spring would leave its limits, velocities are unchanged, bit for bit.",
+                source, untouched_within_limits_finding}});
   return list;
 }
 

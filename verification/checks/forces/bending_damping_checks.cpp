@@ -1,9 +1,6 @@
-#include <cmath>
-
 #include "verification/checks/forces/damping_laws.h"
-#include "verification/checks/forces/force_checks.h"
-#include "verification/evidence.h"
-#include "verification/specimens/balance.h"
+#include "verification/specimens/differences.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/probe.h"
 #include "verification/specimens/specimens.h"
 

@@ -1,8 +1,5 @@
-#include <cmath>
-
-#include "verification/checks/forces/force_checks.h"
 #include "verification/checks/forces/work.h"
-#include "verification/evidence.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/probe.h"
 #include "verification/specimens/specimens.h"
 

@@ -1,10 +1,8 @@
-#include "verification/checks/forces/force_checks.h"
-#include "verification/evidence.h"
 #include "verification/oracles/dense_algebra.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/differences.h"
 #include "verification/specimens/probe.h"
 #include "verification/specimens/specimens.h"
-#include <cmath>
 
 namespace foldproof {
 
@@ -18,20 +16,7 @@ Matrix stiffness_of(const Specimen& specimen, Definiteness definiteness) {
   Work uncounted;
   const ForceDifferential differential =
       elastic_differential_at(system.forces, specimen.state, definiteness, uncounted);
-  const Eigen::Index size = specimen.state.x.size();
-  Matrix K(size, size);
-  for (Eigen::Index k = 0; k < size; ++k) {
-    PerParticle3 unit = PerParticle3::Zero(3, size / 3), product = unit;
-    unit.reshaped()[k] = 1;
-    differential.add_product(unit, product);
-    K.col(k) = product.reshaped();
-  }
-  return K;
-}
-
-/// The largest entry of a matrix without sign; NaN if any is.
-double largest_entry(const Matrix& matrix) {
-  return matrix.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+  return matrix_of(differential, specimen.state.x.cols());
 }
 
 Specimen with(Specimen specimen, const std::optional<BendingMaterial>& bending,
@@ -45,7 +30,7 @@ BendingMaterial bending_by(std::string_view law, Weighting weighting) {
   return {0.0037, 0, weighting, DampingFactor::edge, law};
 }
 
-Finding hinge_is_second_derivative(const Subject&) {
+Finding hinge_is_second_derivative() {
   Table measured = roundings_of("the largest entry times the thinness squared");
   for (Specimen hinge : hinges_of_all_angles()) {
     hinge.scene.bending = bending_by("sine", Weighting::rest);
@@ -78,31 +63,17 @@ std::vector<Specimen> elastic_specimens() {
 
 /// dF/dx of the subject by central differences with Richardson's extrapolation, 3N x 3N [N/m], and
 /// how far the two steps disagree.
-struct Differences {
+struct EstimatedDerivative {
   Matrix K;
   double uncertainty;
 };
 
-Matrix central_differences(const Probe& probe, const State& s, double step) {
-  const Eigen::Index size = s.x.size();
-  Matrix K(size, size);
-  State moved = s;
-  for (Eigen::Index k = 0; k < size; ++k) {
-    moved.x.reshaped()[k] = s.x.reshaped()[k] + step;
-    const PerParticle3 ahead = probe.elastic(moved);
-    moved.x.reshaped()[k] = s.x.reshaped()[k] - step;
-    const PerParticle3 column = (ahead - probe.elastic(moved)) / (2 * step);
-    moved.x.reshaped()[k] = s.x.reshaped()[k];
-    K.col(k) = column.reshaped();
-  }
-  return K;
-}
-
-Differences differences_of(const Probe& probe, const State& s) {
+EstimatedDerivative differences_of(const Probe& probe, const State& s) {
   const double step = 4e-4 * extent(s.x);
-  const Matrix coarse = central_differences(probe, s, step),
-               fine = central_differences(probe, s, step / 2),
-               finest = central_differences(probe, s, step / 4);
+  const auto by = [&](double width) {
+    return central_differences([&](const State& at) { return probe.elastic(at); }, s, width);
+  };
+  const Matrix coarse = by(step), fine = by(step / 2), finest = by(step / 4);
   const Matrix first = (4 * fine - coarse) / 3, second = (4 * finest - fine) / 3;
   return {(16 * second - first) / 15, largest_entry(second - first)};
 }
@@ -110,7 +81,8 @@ Differences differences_of(const Probe& probe, const State& s) {
 Finding matches_differences(const Subject& subject) {
   Table measured{{"case", ""}, {"largest difference over the largest entry", "1"}};
   for (const Specimen& specimen : elastic_specimens()) {
-    const Differences differences = differences_of(Probe(subject, specimen.scene), specimen.state);
+    const EstimatedDerivative differences =
+        differences_of(Probe(subject, specimen.scene), specimen.state);
     const double scale = largest_entry(differences.K);
     const Matrix difference = stiffness_of(specimen, Definiteness::exact) - differences.K;
     measured.row(specimen.name, oracles::Estimate{largest_entry(difference) / scale,
@@ -122,7 +94,7 @@ Finding matches_differences(const Subject& subject) {
                      "extrapolations disagree is added; a missing or wrong term is of order 1");
 }
 
-Finding is_symmetric(const Subject&) {
+Finding is_symmetric() {
   Table measured = roundings_of("the largest entry");
   for (const Specimen& specimen : elastic_specimens())
     for (const Definiteness definiteness : {Definiteness::exact, Definiteness::semidefinite}) {
@@ -145,7 +117,7 @@ double projection_error(const Matrix& A, const Matrix& P) {
   return worst.value() / epsilon;
 }
 
-Finding projection_is_nearest(const Subject&) {
+Finding projection_is_nearest() {
   Table measured = roundings_of("the matrix");
   for (Specimen hinge : hinges_of_all_angles()) {
     hinge = with(hinge, bending_by("sine", Weighting::rest), {});
@@ -169,14 +141,14 @@ double spring_error(double stretch) {
   return projection_error(exact.pairs[0].block, projected.pairs[0].block);
 }
 
-Finding spring_projection_is_nearest(const Subject&) {
+Finding spring_projection_is_nearest() {
   Table measured = roundings_of("the matrix");
   for (const double stretch : {0.43, 0.97, 1.02, 1.7})
     measured.row("length over rest length " + std::to_string(stretch), spring_error(stretch));
   return judge_worst(measured, 16, "a 3 x 3 matrix of a few products");
 }
 
-Finding semidefinite_only_resists(const Subject&) {
+Finding semidefinite_only_resists() {
   Table measured = roundings_of("the largest entry");
   for (const Specimen& specimen : elastic_specimens()) {
     const Matrix K = stiffness_of(specimen, Definiteness::semidefinite);

@@ -1,14 +1,11 @@
 // The derivative of all forces by the positions while the velocities stay, which Newton's method
 // needs on damped cloth.
-#include <cmath>
 #include <optional>
 
 #include "reference/dynamics/system.h"
 #include "reference/forces/springs.h"
-#include "verification/checks/forces/derivatives.h"
-#include "verification/checks/forces/force_checks.h"
-#include "verification/evidence.h"
 #include "verification/oracles/force_derivatives.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/differences.h"
 #include "verification/specimens/probe.h"
 #include "verification/specimens/random.h"
@@ -20,56 +17,6 @@ namespace {
 
 using Matrix = Eigen::MatrixXd;
 
-double largest_entry(const Matrix& matrix) {
-  return matrix.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
-}
-
-/// The matrix of a differential over N particles, column by column: 3N x 3N [N/m].
-Matrix matrix_of(const ForceDifferential& differential, Eigen::Index particles) {
-  Matrix K(3 * particles, 3 * particles);
-  for (Eigen::Index k = 0; k < K.cols(); ++k) {
-    PerParticle3 unit = PerParticle3::Zero(3, particles), product = unit;
-    unit.reshaped()[k] = 1;
-    differential.add_product(unit, product);
-    K.col(k) = product.reshaped();
-  }
-  return K;
-}
-
-/// d(F + D v)/dx of the subject by central differences at fixed v, 3N x 3N [N/m].
-Matrix central_differences(const Probe& probe, const State& s, double step) {
-  const auto force = [&](const State& at) -> PerParticle3 {
-    return probe.elastic(at) + probe.damping(at, s.v);
-  };
-  Matrix K(s.x.size(), s.x.size());
-  State moved = s;
-  for (Eigen::Index k = 0; k < s.x.size(); ++k) {
-    moved.x.reshaped()[k] = s.x.reshaped()[k] + step;
-    const PerParticle3 ahead = force(moved);
-    moved.x.reshaped()[k] = s.x.reshaped()[k] - step;
-    const PerParticle3 column = (ahead - force(moved)) / (2 * step);
-    moved.x.reshaped()[k] = s.x.reshaped()[k];
-    K.col(k) = column.reshaped();
-  }
-  return K;
-}
-
-}  // namespace
-
-Matrix force_derivative(const Scene& scene, const State& s) {
-  const System system = build_system(scene);
-  Work uncounted;
-  return matrix_of(force_differential_at(system.forces, s, uncounted), s.x.cols());
-}
-
-Matrix differences_of_forces(const Probe& probe, const State& s, double step) {
-  const Matrix coarse = central_differences(probe, s, step),
-               fine = central_differences(probe, s, step / 2);
-  return (4 * fine - coarse) / 3;
-}
-
-namespace {
-
 Matrix derivative_of(const Specimen& specimen) {
   return force_derivative(specimen.scene, specimen.state);
 }
@@ -80,7 +27,7 @@ std::vector<BendingMaterial> moving_materials() {
           {0.0019, 0.0071, Weighting::current, DampingFactor::edge_squared_over_area, "sine"}};
 }
 
-Finding hinge_is_derivative(const Subject&) {
+Finding hinge_is_derivative() {
   Table measured = roundings_of("the largest entry times the thinness squared");
   for (const BendingMaterial& material : moving_materials())
     for (Specimen hinge : hinges_of_all_angles()) {
@@ -100,7 +47,7 @@ Finding hinge_is_derivative(const Subject&) {
                      "triangle's thinness, its derivative's once more");
 }
 
-Finding spring_is_derivative(const Subject&) {
+Finding spring_is_derivative() {
   Table measured = roundings_of("the largest entry");
   Random random(67);
   for (const double stretch : {0.43, 0.97, 1.02, 1.7}) {
@@ -156,7 +103,7 @@ Matrix damped_answers(const StretchSprings& springs, const State& s) {
   return answers;
 }
 
-Finding springs_answer_for_themselves(const Subject&) {
+Finding springs_answer_for_themselves() {
   Table measured = roundings_of("the largest entry");
   Random random(71);
   const StretchSprings all{
@@ -178,7 +125,7 @@ struct Variant {
   std::optional<BendingMaterial> bending;
 };
 
-Finding flag_is_right(const Subject&) {
+Finding flag_is_right() {
   Table measured{{"case", ""}, {"derivatives wrongly marked as symmetric, or wrongly not", "1"}};
   const BendingMaterial plain{0.0037, 0, Weighting::rest, DampingFactor::edge, "sine"};
   const std::vector<Variant> variants = {

@@ -1,16 +1,12 @@
 // Forming and breaking of bonds, and their storage in the state.
 #include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <set>
 
 #include "reference/dynamics/simulate.h"
 #include "reference/mesh/shapes.h"
-#include "verification/checks/forces/force_checks.h"
-#include "verification/evidence.h"
 #include "verification/oracles/triangle_distance.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/differences.h"
 #include "verification/specimens/moving_sheets.h"
 #include "verification/specimens/probe.h"
@@ -202,7 +198,7 @@ Finding timed_finding(const Subject& subject) {
                      "roundings, where q is the elapsed share of `release`");
 }
 
-Finding events_finding(const Subject&) {
+Finding events_finding() {
   Scene scene = timed_palm();
   scene.schedule.end = 0.31;
   scene.schedule.frame_interval = 0.31;
@@ -297,7 +293,7 @@ SurroundedParticle surround(double near, double distance) {
   return made;
 }
 
-Finding sides_finding(const Subject&) {
+Finding sides_finding() {
   Table measured{{"case", ""}, {"particles of six that stick wrongly", "1"}};
   for (const double near : {0.051, 0.43})
     for (const double part : {0.4, 0.99, 1.01}) {

@@ -1,12 +1,9 @@
-#include <algorithm>
-#include <cmath>
 #include <random>
 
 #include "reference/level_set/octree_nodes.h"
-#include "verification/checks/level_set/level_set_checks.h"
 #include "verification/checks/level_set/octree_samples.h"
-#include "verification/evidence.h"
 #include "verification/seeds.h"
+#include "verification/specimens/check.h"
 
 namespace foldproof {
 
@@ -45,7 +42,7 @@ Exact exact_union(const std::vector<DistanceFunction>& parts, const Vector3& p) 
   return {sorted[0].first, sorted[1].first, sorted[0].second, sorted[1].second, int(inside)};
 }
 
-Finding nodes_know_their_part(const Subject&) {
+Finding nodes_know_their_part() {
   const std::vector<DistanceFunction> parts = parts_of_a_body();
   const Octree tree = make_octree(parts, union_sampling(7e-4));
   const std::vector<OctreePlace> places = branch_places(tree);
@@ -84,7 +81,7 @@ std::vector<Vector3> points_near(const std::vector<DistanceFunction>& parts, dou
   return points;
 }
 
-Finding union_misses_by_its_tolerance(const Subject&) {
+Finding union_misses_by_its_tolerance() {
   const std::vector<DistanceFunction> parts = parts_of_a_body();
   Table measured{{"case", ""}, {"largest miss", "tolerances"}};
   for (const double tolerance : {2.1e-3, 7e-4}) {
@@ -106,7 +103,7 @@ Finding union_misses_by_its_tolerance(const Subject&) {
       "as for one body: each part is sampled by itself, so their crease costs nothing");
 }
 
-Finding pinch_is_flagged(const Subject&) {
+Finding pinch_is_flagged() {
   const std::vector<DistanceFunction> parts = parts_of_a_body();
   const double tolerance = 7e-4;
   const Octree tree = make_octree(parts, union_sampling(tolerance));
@@ -142,7 +139,7 @@ std::vector<DistanceFunction> scattered_balls() {
   return parts;
 }
 
-Finding union_jumps_nowhere(const Subject&) {
+Finding union_jumps_nowhere() {
   Table measured{{"case", ""}, {"largest jump", "epsilon of the cube's width"}};
   for (const double tolerance : {2.1e-3, 7e-4})
     measured.row(

@@ -1,14 +1,10 @@
 // Smooth surfaces that do not cross themselves, judged without rounding by the oracle.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <string>
-
 #include "reference/mesh/shapes.h"
 #include "reference/post/smooth_cloth.h"
-#include "verification/checks/post/projection_checks.h"
 #include "verification/oracles/exact_crossings.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/specimens.h"
 
 namespace foldproof {
@@ -50,7 +46,7 @@ long crossings(const PerParticle3& x, const std::vector<Triangle>& triangles) {
   return long(oracles::exact_crossings(x, triangles).size());
 }
 
-Finding never_crosses(const Subject&) {
+Finding never_crosses() {
   Table found{{"ridges", ""},
               {"levels", "1"},
               {"Loop's crossings", "1"},
@@ -76,7 +72,7 @@ Finding never_crosses(const Subject&) {
           "by an oracle that shares no code with the method"};
 }
 
-Finding loop_where_free(const Subject&) {
+Finding loop_where_free() {
   Table found{{"cloth", ""}, {"numbers that differ", "1"}};
   for (const Specimen& shape : curved_shapes()) {
     const ClothSmoother smoother(shape.scene.mesh, 1);
@@ -100,7 +96,7 @@ double sharpest_fold(const std::vector<Triangle>& triangles, const PerParticle3&
   return sharpest;
 }
 
-Finding contacts_keep_creases(const Subject&) {
+Finding contacts_keep_creases() {
   Table found{{"ridges", ""},
               {"sharpest fold of the cloth", "rad"},
               {"of Loop's surface", "rad"},
