@@ -47,8 +47,8 @@ Finding judge_worst(Table evidence, std::string_view column, double bound, std::
 /// The same for the table's last column.
 Finding judge_worst(Table evidence, double bound, std::string why_bound, std::string note = "");
 
-/// A property that the subject must have. `run` may throw NotOffered, and may be given as a function
-/// without a parameter, if it asks the reference alone.
+/// A property that the subject must have. `run` may throw NotOffered; a check that asks the
+/// reference alone gives a function without a parameter.
 struct Check {
   using OfSubject = std::function<Finding(const Subject&)>;
   Check(std::string name, std::string claim, std::string source, OfSubject run);

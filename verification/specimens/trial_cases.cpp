@@ -44,8 +44,7 @@ Finding rejected_cases(const std::vector<RejectedCase>& cases, const std::string
     wrong += !lacks.empty();
   }
   return {{wrong, 0, 0, "cases", "each must be refused with file, line and what is known"},
-          answers,
-          ""};
+          answers};
 }
 
 }  // namespace foldproof

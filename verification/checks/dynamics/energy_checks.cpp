@@ -163,8 +163,7 @@ Finding balance_finding(const std::string& integrator) {
   return {{std::abs(order - 2), 0.1, 0, "1",
            "second order, two-sided: the schemes' and the trapezoidal rule's for the work, in the "
            "last pair"},
-          errors,
-          ""};
+          errors};
 }
 
 }  // namespace

@@ -33,8 +33,7 @@ Finding free_fall_finding(const Subject& subject, const std::string& integrator)
   return {{worst.value(), 4.0 * steps, uncertainty, "epsilon of the way",
            "120 steps, each of which rounds the velocity three times, the position once and the "
            "time once"},
-          {},
-          ""};
+          {}};
 }
 
 struct TurningPair {
@@ -109,8 +108,7 @@ Finding no_drift_finding(const std::string& integrator) {
   deviations.row("54 to 60", late);
   return {{late / early - 1, 0.02, 0, "1",
            "the length oscillates for ever about a steady one; steps sample its extremes to 2 %"},
-          deviations,
-          ""};
+          deviations};
 }
 
 /// A particle on a spring whose other end oscillates along it, which is a linear oscillator
@@ -173,8 +171,7 @@ Finding driven_finding() {
   }
   return {{worst.value(), 0.1, 0, "1",
            "two-sided; at two hundred steps a run the next term is below a tenth of the first"},
-          measured,
-          ""};
+          measured};
 }
 
 }  // namespace

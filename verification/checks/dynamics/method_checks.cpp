@@ -170,8 +170,7 @@ Finding large_steps_finding(const Subject& subject) {
            "one in eighteen: a line search may end where no fraction of the step lowers the "
            "residual. A hinge's force jumps where it folds through half a circle, so an equation "
            "far beyond the limit need not have a solution; a solve that finds none says so"},
-          missed,
-          ""};
+          missed};
 }
 
 /// Shapes at rest far from the origin, held together by springs alone, or by hinges alone: all that

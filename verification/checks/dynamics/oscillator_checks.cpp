@@ -76,8 +76,7 @@ Finding verlet_finding(const std::string& integrator) {
        "1,000 steps of five roundings that add up like a random walk: sqrt(5000)/2 = 35 epsilon of "
        "the amplitude, and up to five times that at the worst step near the stability limit. The "
        "constants have few bits, so that no rounding is the same in every step"},
-      errors,
-      ""};
+      errors};
 }
 
 /// Sums of the absolute values of the terms that make an entry of the step matrix, explicit
@@ -109,8 +108,7 @@ Finding matrix_finding(const std::string& integrator) {
   return {{errors.worst("error"), 16, 0.5, "epsilon of the terms",
            "about twenty roundings lie between the unit vector and an entry, half an epsilon each, "
            "and one correction of the solve"},
-          errors,
-          ""};
+          errors};
 }
 
 double spectral_radius(const Eigen::Matrix2d& matrix) {
@@ -142,8 +140,7 @@ Finding stability_finding(const std::string& integrator) {
   return {{misjudged, 0, 0, "1",
            "a step is stable if the spectral radius is at most 1 + 1e-10: rounding moves it by "
            "1e-13 at most, and a millionth beyond the limit it exceeds 1 by 1e-8 at least"},
-          wrong,
-          ""};
+          wrong};
 }
 
 Finding pure_damping_finding(const std::string& integrator) {
@@ -169,8 +166,7 @@ Finding pure_damping_finding(const std::string& integrator) {
   return {{worst.value(), 4, 0, "epsilon of the path, a step",
            "each step rounds the position once and the velocity about six times; (1 + h c/2) is "
            "the ratio of the terms to the velocity left after they cancel"},
-          totals,
-          ""};
+          totals};
 }
 
 }  // namespace

@@ -79,8 +79,7 @@ Finding returned_finding() {
   return {{worst.value(), 8, 0, "epsilon of the operator's norm times the solution's",
            "each iteration rounds r in proportion to the operator times the iterate (Greenbaum "
            "1997), and the first few, whose corrections are the largest, decide"},
-          table,
-          ""};
+          table};
 }
 
 Finding cholesky_finding() {
@@ -147,8 +146,7 @@ Finding eigenvalue_finding() {
   return {{worst.value(), 0, 0, "iterations",
            "conjugate gradients are exact after as many iterations as there are distinct "
            "eigenvalues in the residual; particles without damping are not in it"},
-          solves,
-          ""};
+          solves};
 }
 
 /// Number of false reports of a solve that may not finish, and of one that cannot.
@@ -176,7 +174,7 @@ Finding cap_finding() {
   holds.row("NaN is not converged", !nan.converged);
   holds.row("NaN is counted as unfinished", broken.unfinished_solves == 1);
   holds.row("NaN is recorded", std::isnan(broken.worst_residual));
-  return {{count_false(holds), 0, 0, "false reports", "a report is true or false"}, holds, ""};
+  return {{count_false(holds), 0, 0, "false reports", "a report is true or false"}, holds};
 }
 
 Finding operator_finding(const Subject& subject) {
@@ -230,8 +228,7 @@ Finding rigid_finding() {
   return {
       {worst.value(), 0, 0, "iterations",
        "no damper resists a rigid motion: the explicit guess is the solution, and is not touched"},
-      Table{{"residual", "1"}}.with_row(solve.residual),
-      ""};
+      Table{{"residual", "1"}}.with_row(solve.residual)};
 }
 
 /// |b - (M - s D) w| over |M w0|, weighted with the masses, of a problem without known

@@ -161,8 +161,7 @@ Finding held_finding(const Subject& subject) {
   }
   return {{counts.worst("numbers that differ"), 0, 0, "numbers that differ",
            "held particles have velocity 0 and keep every bit of their position"},
-          counts,
-          ""};
+          counts};
 }
 
 /// Where a led point is, straight from the definition of Motion, the rotation by
@@ -217,8 +216,7 @@ Finding counts_finding(const Subject& subject) {
   }
   return {{worst.value(), 0, 0, "solves a step",
            "counts are exact: the paper's lists have one implicit line in A and B, two in C"},
-          solves,
-          ""};
+          solves};
 }
 
 Finding once_finding(const Subject& subject) {
@@ -245,8 +243,7 @@ Finding once_finding(const Subject& subject) {
   return {{worst.value(), 0, 0, "evaluations",
            "counts are exact: a step has two sets of positions, and every product uses the terms "
            "prepared there"},
-          counts,
-          ""};
+          counts};
 }
 
 }  // namespace

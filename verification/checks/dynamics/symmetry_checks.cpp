@@ -78,8 +78,7 @@ Finding powers_finding(const Subject& subject, const std::string& integrator) {
   }
   return {{differing.worst("numbers that differ"), 0, 0, "numbers that differ",
            "a power of two changes no digit of any number on the way"},
-          differing,
-          ""};
+          differing};
 }
 
 Finding units_finding(const Subject& subject, const std::string& integrator) {

@@ -146,7 +146,7 @@ Finding work_is_counted() {
   holds.row("a whole solve is converged", finished.converged && finished.residual <= 1e-8);
   holds.row("a capped solve is not converged", !cap.converged && cap.residual > 1e-13);
   holds.row("it took the cap's iterations", cap.iterations == 3 && capped.damping_products == 6);
-  return {{count_false(holds), 0, 0, "false reports", "a report is true or false"}, holds, ""};
+  return {{count_false(holds), 0, 0, "false reports", "a report is true or false"}, holds};
 }
 
 }  // namespace

@@ -80,8 +80,7 @@ Finding slope_finding(const Subject& subject, const std::string& integrator,
   return {{worst.value(), 4000 * epsilon * (1 + velocity.norm()), 0, "m",
            "240 steps of a motion that the schemes integrate exactly, of lengths up to 5 m: a few "
            "roundings a step, and the velocity's add up over later steps"},
-          ways,
-          ""};
+          ways};
 }
 
 Finding resting_slope(const Subject& subject, const std::string& integrator) {
@@ -114,8 +113,7 @@ Finding belt_finding(const Subject& subject, const std::string& integrator) {
   return {{worst.value(), mu * g * h * h, 0, "m",
            "exact while it slides; when the belt starts to carry it, friction may act a step too "
            "long or too short, at most mu g h^2"},
-          places,
-          ""};
+          places};
 }
 
 /// A turntable at omega: particles within mu g/omega^2 of its axis ride.
@@ -213,8 +211,7 @@ Finding capstan_finding(const Subject& subject) {
            "differs from e^(mu d) by d^2/12 of the exponent, 0.0005; inertia of the sliding strip, "
            "rho v^2 over its tension, is smaller; two percent allow for vibrations that damping "
            "has not yet removed"},
-          pulls,
-          ""};
+          pulls};
 }
 
 }  // namespace

@@ -93,8 +93,7 @@ Finding no_push_finding(const Subject& subject) {
   }
   return {{differ, 0, 0, "numbers",
            "only the velocity at the end of a step is changed, not the one that moves the point"},
-          {},
-          ""};
+          {}};
 }
 
 }  // namespace

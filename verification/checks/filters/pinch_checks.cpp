@@ -95,8 +95,7 @@ Finding each_object_finding(const Subject& subject) {
   return {{corrected_twice > 10 ? deepest.value() : nan, 100 * epsilon, 0, "m",
            "the second push leads out of the first object too, since the normals enclose less than "
            "a right angle: what remains is rounding of positions within 1 m and steps of 0.2 m"},
-          Table{{"particles that would enter both", "1"}}.with_row(corrected_twice),
-          ""};
+          Table{{"particles that would enter both", "1"}}.with_row(corrected_twice)};
 }
 
 /// The half-spaces z >= 0 of a floor and of one turned about y, particles without

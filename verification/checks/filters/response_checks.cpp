@@ -123,8 +123,7 @@ Finding untouched_finding(const Subject& subject) {
     }
   return {{untreated > 100 ? differ : nan, 0, 0, "numbers",
            "a point that is forecast to be outside must keep its velocity, bit for bit"},
-          Table{{"untreated particles", "1"}}.with_row(untreated),
-          ""};
+          Table{{"untreated particles", "1"}}.with_row(untreated)};
 }
 
 //   N0   N1       over the step the plane turns by theta from N0 to N1 and takes the point's place

@@ -146,8 +146,7 @@ Finding again_finding(const Subject& subject) {
            "steps with other bonds than predicted",
            "bonds form within 11 mm and break beyond 41 mm of their target, as the palm's known "
            "height says"},
-          bonds,
-          ""};
+          bonds};
 }
 
 Scene timed_palm() {
@@ -213,8 +212,7 @@ Finding events_finding() {
   missed += std::abs(std::ranges::count_if(times, [](double t) { return t > 0.31; }));
   return {{missed, 0, 0, "events that no step ends at",
            "steps end where a patch begins, begins to let go, and ends"},
-          {},
-          ""};
+          {}};
 }
 
 Scene sheet_on_a_palm() {

@@ -65,8 +65,7 @@ Finding seams_finding() {
   }
   return {{wrong.worst("wrong corners"), 0, 0, "corners",
            "vertices are chosen, not computed: every corner must be the very one"},
-          wrong,
-          ""};
+          wrong};
 }
 
 /// Two panels of a tube as an OBJ file: each half has its own vertices along both seams,

@@ -175,8 +175,7 @@ Finding places_finding() {
   return {{off.value(), 4, 0, "epsilon of the size",
            "a mean of a few middles, a thousandth of it, and a sum: one rounding of the largest "
            "coordinate for each of the two ways to write it, and two to spare"},
-          moved,
-          ""};
+          moved};
 }
 
 /// Two triangles in a plane and two cones, apex to apex; a corner that stands on a sheet; three

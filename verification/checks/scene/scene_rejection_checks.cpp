@@ -87,8 +87,7 @@ Finding rejected(const std::vector<Rejection>& rejections) {
   }
   return {{wrong, 0, 0, "cases",
            "each wrong case is refused with file and line, the key, and what is known or wanted"},
-          answers,
-          ""};
+          answers};
 }
 
 /// A line after another one.
