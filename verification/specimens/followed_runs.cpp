@@ -117,14 +117,7 @@ Scene stopping_and_starting() {
 /// Cloth that sticks to a palm that is there for a while, and to itself.
 Scene stuck_for_a_while() {
   Scene scene = free_sheet();
-  Motion swing;
-  swing.amplitude = {0.05, 0.02, 0.1};
-  swing.frequency = 3.1;
-  StickyPatch hand = palm(scene, 0.8, swing);
-  hand.stiffness = 40;
-  hand.forecast_time = 0.011;
-  hand.near = 0.02;
-  hand.far = 0.031;
+  StickyPatch hand = swinging_palm(scene);
   hand.from = 0.013;
   hand.until = 0.061;
   hand.release = 0.02;

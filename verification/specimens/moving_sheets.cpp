@@ -50,6 +50,19 @@ Scene undamped_sheet() {
   return scene;
 }
 
+Scene waved_sheet(TriangleMesh mesh, double height) {
+  Scene scene = scene_at_rest(std::move(mesh), 0.21);
+  scene.stretch = StretchMaterial{31, 0.017, 1};
+  scene.bending = BendingMaterial{0.0019, 0.00023, Weighting::rest, DampingFactor::edge, "sine"};
+  scene.rest_angles.assign(scene.mesh.hinges.size(), 0.03);
+  for (Eigen::Index i = 0; i < scene.x.cols(); ++i) {
+    scene.x(2, i) += height * std::sin(37 * scene.x(0, i)) * std::cos(29 * scene.x(1, i));
+    scene.v.col(i) = Vector3(std::cos(5 * scene.x(1, i)), std::sin(7 * scene.x(0, i)),
+                             std::cos(3 * scene.x(0, i)));
+  }
+  return scene;
+}
+
 Scene partly_prescribed_sheet() {
   Scene scene = sheet_of(jittered_sheet(), 7);
   scene.gravity = Vector3(0.7, -9.1, 1.9);

@@ -129,6 +129,12 @@ std::vector<Specimen> hinges_of_all_angles() {
   return hinges;
 }
 
+std::vector<Specimen> sheets_and_hinges() {
+  std::vector<Specimen> specimens = crumpled_sheets();
+  for (Specimen& hinge : hinges_of_all_angles()) specimens.push_back(std::move(hinge));
+  return specimens;
+}
+
 Scene hinge_scene(const Corners& rest, double rest_angle) {
   Scene scene = scene_at_rest(make_triangle_mesh(state_of(rest).x, {{0, 2, 3}, {1, 3, 2}}), 0.19);
   scene.rest_angles = {rest_angle};

@@ -17,19 +17,6 @@ namespace foldproof {
 
 namespace {
 
-TriangleSoup soup_of(const TriangleMesh& mesh) { return {mesh.rest, mesh.triangles, {}}; }
-
-/// Both surfaces in one, the second moved.
-TriangleSoup join(TriangleSoup first, const TriangleSoup& second, const Vector3& shift) {
-  const int before = int(first.rest.cols());
-  PerParticle3 rest(3, first.rest.cols() + second.rest.cols());
-  rest << first.rest, second.rest.colwise() + shift;
-  first.rest = rest;
-  for (const Triangle& t : second.triangles)
-    first.triangles.push_back({t[0] + before, t[1] + before, t[2] + before});
-  return first;
-}
-
 TriangleSoup turned_round(TriangleSoup soup) {
   for (Triangle& t : soup.triangles) std::swap(t[0], t[1]);
   return soup;

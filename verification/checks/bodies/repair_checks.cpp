@@ -18,7 +18,7 @@ namespace {
 
 const GridMethod method{30, 3, 2.2, MarchingOrder::second};
 
-TriangleSoup statue() { return {small_statue().rest, small_statue().triangles, {}}; }
+TriangleSoup statue() { return soup_of(small_statue()); }
 
 std::shared_ptr<const Grid> grid_of(const TriangleSoup& soup) {
   return make_grid(make_mesh_distance(soup.rest, soup.triangles), method);
@@ -28,7 +28,7 @@ Finding parity_agrees() {
   Table measured{{"case", ""}, {"nodes that are counted otherwise", "1"}};
   std::vector<std::pair<std::string, TriangleSoup>> soups{{"statue", statue()}};
   const TriangleMesh sphere = make_icosphere(1, 3);  // rays of the lattice run through its vertices
-  soups.push_back({"sphere on the lattice", {sphere.rest, sphere.triangles, {}}});
+  soups.push_back({"sphere on the lattice", soup_of(sphere)});
   for (const UglySolid& solid : ugly_solids()) soups.emplace_back(solid.name, solid.soup);
   for (const auto& [name, soup] : soups) {
     const auto grid = grid_of(soup);
@@ -167,14 +167,9 @@ Mended compare(const Grid& truth, const Grid& mended) {
 }
 
 TriangleSoup overlapping_balls() {
-  const TriangleMesh ball = make_icosphere(0.7, 3);
-  TriangleSoup soup{PerParticle3(3, 2 * ball.particles()), ball.triangles, {}};
-  soup.rest << ball.rest.colwise() - Vector3(0.35, 0.02, 0.01),
-      ball.rest.colwise() + Vector3(0.35, 0.02, 0.01);
-  for (const Triangle& t : ball.triangles)
-    soup.triangles.push_back(
-        {t[0] + ball.particles(), t[1] + ball.particles(), t[2] + ball.particles()});
-  return soup;
+  const TriangleSoup ball = soup_of(make_icosphere(0.7, 3));
+  const Vector3 c(0.35, 0.02, 0.01);
+  return join(join({PerParticle3(3, 0), {}, {}}, ball, -c), ball, c);
 }
 
 /// The union of the two balls' own grids, on the lattice given: min of the two, exact outside.

@@ -9,6 +9,7 @@
 #include "verification/specimens/contact_scenes.h"
 #include "verification/specimens/followed_runs.h"
 #include "verification/specimens/layered_cloth.h"
+#include "verification/specimens/moving_sheets.h"
 #include "verification/specimens/sticking_scenes.h"
 
 namespace foldproof {
@@ -185,19 +186,11 @@ TriangleMesh shuffled_mesh(int n) {
   return make_triangle_mesh(std::move(rest), std::move(triangles));
 }
 
-/// The sheet waved and moving, damped, with a particle held.
-Scene waved(TriangleMesh mesh) {
-  Scene scene = scene_at_rest(std::move(mesh), 0.21);
-  const double height = 0.1 / std::sqrt(double(scene.x.cols()));  // m
-  scene.stretch = StretchMaterial{31, 0.017, 1};
-  scene.bending = BendingMaterial{0.0019, 0.00023, Weighting::rest, DampingFactor::edge, "sine"};
-  scene.rest_angles.assign(scene.mesh.hinges.size(), 0.03);
+/// The sheet waved and moving, damped, under gravity, with a particle held.
+Scene held_and_waved(TriangleMesh mesh) {
+  const double height = 0.1 / std::sqrt(double(mesh.particles()));  // m
+  Scene scene = waved_sheet(std::move(mesh), height);
   scene.gravity = Vector3(0.4, -9.1, 0.7);
-  for (Eigen::Index i = 0; i < scene.x.cols(); ++i) {
-    scene.x(2, i) += height * std::sin(37 * scene.x(0, i)) * std::cos(29 * scene.x(1, i));
-    scene.v.col(i) = Vector3(std::cos(5 * scene.x(1, i)), std::sin(7 * scene.x(0, i)),
-                             std::cos(3 * scene.x(0, i)));
-  }
   scene.prescribed.push_back({0, scene.x.col(0), Motion{}});
   return scene;
 }
@@ -211,7 +204,7 @@ NamedRun stepped(const std::string& name, Scene scene, int steps) {
 
 /// A sheet of 100 x 100 particles on a large ball: contacts in several blocks of queries.
 Scene on_a_ball(PointKind points) {
-  Scene scene = waved(plain_mesh(99));
+  Scene scene = held_and_waved(plain_mesh(99));
   Pose below;
   below.translation = Vector3(0.63, 0.52, -400);
   SceneObject ball = object_at("ball", Sphere{400}, below);
@@ -235,15 +228,15 @@ NamedRun thrown_layers() {
 
 /// Sums and searches of many parts.
 std::vector<NamedRun> larger_runs() {
-  return {stepped("316 x 316 particles", waved(plain_mesh(315)), 1),
-          stepped("particles numbered at random", waved(shuffled_mesh(11)), 9),
+  return {stepped("316 x 316 particles", held_and_waved(plain_mesh(315)), 1),
+          stepped("particles numbered at random", held_and_waved(shuffled_mesh(11)), 9),
           stepped("particles on a ball", on_a_ball(PointKind::particles), 3),
           stepped("edges on a ball", on_a_ball(PointKind::edges), 3), thrown_layers()};
 }
 
 /// Many triangles without area: the same stop, for the same particle.
 NamedRun degenerate_run() {
-  Scene scene = waved(shuffled_mesh(11));
+  Scene scene = held_and_waved(shuffled_mesh(11));
   for (size_t t = 0; t < scene.mesh.triangles.size(); t += 5) {
     const auto [a, b, c] = scene.mesh.triangles[t];
     scene.x.col(a) = 0.5 * (scene.x.col(b) + scene.x.col(c));

@@ -67,22 +67,30 @@ Corners4 thin(Random& random, PairKind kind, double s) {
   return x;
 }
 
+/// The worst error of the distance between features made `count` times, in units of `scale`.
+oracles::Estimate worst_distance(PairKind kind, int count, const std::function<Corners4()>& make,
+                                 const std::function<double(const Corners4&)>& scale) {
+  Worst worst, uncertainty;
+  for (int k = 0; k < count; ++k) {
+    const Corners4 x = make();
+    const double unit = scale(x);
+    if (unit == 0) continue;  // all four in the origin
+    const oracles::Estimate truth = true_distance(kind, x);
+    worst.observe(std::abs(nearness(kind, x).distance - truth.value) / unit);
+    uncertainty.observe(truth.uncertainty / unit);
+  }
+  return {worst.value(), uncertainty.value()};
+}
+
 Finding distance_is_exact() {
   Table measured = roundings_of("max |x|");
+  const auto rounding = [](const Corners4& x) { return epsilon * x.cwiseAbs().maxCoeff(); };
   for (const PairKind kind : kinds)
     for (const PointMaker& maker : makers()) {
       Random random(23);
-      Worst worst, uncertainty;
-      for (int k = 0; k < 3000; ++k) {
-        const Corners4 x = maker.make(random);
-        const double scale = epsilon * x.cwiseAbs().maxCoeff();
-        if (scale == 0) continue;  // all four in the origin
-        const oracles::Estimate truth = true_distance(kind, x);
-        worst.observe(std::abs(nearness(kind, x).distance - truth.value) / scale);
-        uncertainty.observe(truth.uncertainty / scale);
-      }
       measured.row(name_of(kind) + ", " + maker.name,
-                   oracles::Estimate{worst.value(), uncertainty.value()});
+                   worst_distance(
+                       kind, 3000, [&] { return maker.make(random); }, rounding));
     }
   return judge_worst(measured, 16,
                      "each coordinate of the vector between the nearest points is a sum of four "
@@ -95,16 +103,11 @@ Finding thin_ones_are_as_good() {
   for (const PairKind kind : kinds)
     for (double s = 0.1; s > 1e-13; s /= 10) {
       Random random(29);
-      Worst worst, uncertainty;
-      for (int k = 0; k < 300; ++k) {
-        const Corners4 x = thin(random, kind, s * random.uniform(0.3, 3));
-        const double extent = (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).norm();
-        const oracles::Estimate truth = true_distance(kind, x);
-        worst.observe(std::abs(nearness(kind, x).distance - truth.value) / extent);
-        uncertainty.observe(truth.uncertainty / extent);
-      }
+      const auto make = [&] { return thin(random, kind, s * random.uniform(0.3, 3)); };
       measured.row(name_of(kind) + fmt::format(", sine {:.0e}", s),
-                   oracles::Estimate{worst.value(), uncertainty.value()});
+                   worst_distance(kind, 300, make, [](const Corners4& x) {
+                     return (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).norm();
+                   }));
     }
   return judge_worst(measured, 1e-9,
                      "thinner or more parallel features are tested at their sides and ends only, "

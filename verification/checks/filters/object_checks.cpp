@@ -80,12 +80,9 @@ Finding keyframe_finding() {
   return judge_worst(measured, 40, "a dozen products of unit quaternions and lengths below 1 m");
 }
 
-SceneObject with_motion(SceneObject part, const Vector3& velocity, const Vector3& turning) {
-  Motion motion;
-  motion.velocity = velocity;
-  motion.angular_velocity = turning;
-  std::get<RigidObject>(part.object.body).motion = motion;
-  return part;
+/// Without friction.
+SceneObject moving(const SceneObject& part, const Vector3& velocity, const Vector3& turning) {
+  return with_motion(part, Motion{.velocity = velocity, .angular_velocity = turning}, 0);
 }
 
 double depth(const std::vector<SceneObject>& objects, const Vector3& p, double time) {
@@ -129,11 +126,9 @@ Finding convex_finding(const Subject& subject) {
   const Vector3 drift(0.7, -0.4, 1.1);
   const Pose above{Eigen::Quaterniond::Identity(), {0, 0, 0.03}};
   const Box thin{{0.6, 0.5, 0.01}};
-  const SceneObject board = with_motion(object_at("board", thin, at_rest), drift, Vector3::Zero());
-  const SceneObject second =
-      with_motion(object_at("second board", thin, above), drift, Vector3::Zero());
-  const SceneObject ball =
-      with_motion(object_at("ball", Sphere{0.3}, at_rest), drift, Vector3::Zero());
+  const SceneObject board = moving(object_at("board", thin, at_rest), drift, Vector3::Zero());
+  const SceneObject second = moving(object_at("second board", thin, above), drift, Vector3::Zero());
+  const SceneObject ball = moving(object_at("ball", Sphere{0.3}, at_rest), drift, Vector3::Zero());
   Table measured{{"case", ""}, {"depth", "m"}};
   for (const double displacement : {0.005, 0.05, 0.7}) {
     const std::string words =
@@ -151,9 +146,9 @@ Finding convex_finding(const Subject& subject) {
 /// where it is deepest.
 Finding limit_finding(const Subject& subject) {
   const Vector3 drift(0.3, 0.2, -0.4), turning(2.1, -1.3, 0.8);
-  const SceneObject ring = with_motion(object_at("ring", Torus{0.5, 0.1}, at_rest), drift, turning);
+  const SceneObject ring = moving(object_at("ring", Torus{0.5, 0.1}, at_rest), drift, turning);
   const SceneObject board =
-      with_motion(object_at("board", Box{{0.6, 0.5, 0.03}}, at_rest), drift, turning);
+      moving(object_at("board", Box{{0.6, 0.5, 0.03}}, at_rest), drift, turning);
   Table measured{{"case", ""}, {"depth over half the thickness", "1"}};
   for (const double part : {0.3, 0.9}) {
     const std::string words =

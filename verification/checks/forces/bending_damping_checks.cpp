@@ -25,12 +25,6 @@ std::vector<Damped> with_damping(const std::vector<Specimen>& specimens) {
   return cases;
 }
 
-std::vector<Specimen> sheets_and_hinges() {
-  std::vector<Specimen> specimens = crumpled_sheets();
-  for (Specimen& hinge : hinges_of_all_angles()) specimens.push_back(std::move(hinge));
-  return specimens;
-}
-
 /// For each particle the sum over its hinges of kd s max |u| sum |u_j||v_j| times the thinness [N].
 PerParticle damping_scale(const Specimen& specimen, const PerParticle3& v) {
   const BendingMaterial& material = *specimen.scene.bending;

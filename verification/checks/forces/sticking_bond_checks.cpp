@@ -217,15 +217,8 @@ Finding events_finding() {
 
 Scene sheet_on_a_palm() {
   Scene scene = free_sheet();
-  Motion motion;
-  motion.amplitude = {0.05, 0.02, 0.1};
-  motion.frequency = 3.1;
-  StickyPatch hand = palm(scene, 0.8, motion), cloth = hand;
-  hand.stiffness = 40;
-  hand.forecast_time = 0.011;
-  hand.near = 0.02;
-  hand.far = 0.031;
-  cloth = hand;
+  const StickyPatch hand = swinging_palm(scene);
+  StickyPatch cloth = hand;
   cloth.place = {};
   cloth.velocity = {};
   cloth.triangles = {scene.mesh.triangles.front(), scene.mesh.triangles.back()};

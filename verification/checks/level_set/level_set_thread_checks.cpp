@@ -5,6 +5,7 @@
 #include "verification/checks/level_set/octree_samples.h"
 #include "verification/specimens/check.h"
 #include "verification/specimens/followed_runs.h"
+#include "verification/specimens/ugly_solids.h"
 
 namespace foldproof {
 
@@ -45,10 +46,7 @@ Numbers numbers_of(const DeformingBody& body) {
   return all;
 }
 
-TriangleSoup statue() {
-  const TriangleMesh mesh = make_statue(1, 3);
-  return {mesh.rest, mesh.triangles, {}};
-}
+TriangleSoup statue() { return soup_of(make_statue(1, 3)); }
 
 /// The same without some of its triangles.
 TriangleSoup statue_with_holes() {

@@ -11,6 +11,7 @@
 #include "verification/specimens/check.h"
 #include "verification/specimens/scratch_folder.h"
 #include "verification/specimens/trial_cases.h"
+#include "verification/specimens/ugly_solids.h"
 
 namespace foldproof {
 
@@ -23,15 +24,6 @@ std::set<int> neighbours_of(const TriangleSoup& soup, int v) {
   for (const Triangle& t : soup.triangles)
     if (std::ranges::find(t, v) != t.end()) found.insert(t.begin(), t.end());
   return found;
-}
-
-void add_piece(const TriangleMesh& piece, const Vector3& place, TriangleSoup& soup) {
-  const Eigen::Index before = soup.rest.cols();
-  PerParticle3 all(3, before + piece.rest.cols());
-  all << soup.rest, piece.rest.colwise() + place;
-  soup.rest = all;
-  for (const Triangle& t : piece.triangles)
-    soup.triangles.push_back({int(before) + t[0], int(before) + t[1], int(before) + t[2]});
 }
 
 /// Replaces b by a, if they have no neighbour in common: an edge keeps its triangles.
@@ -57,9 +49,10 @@ TriangleSoup without_unused(const TriangleSoup& soup) {
 /// glued repeatedly.
 TriangleSoup random_hangings(std::mt19937& random, int pairs) {
   TriangleSoup soup{PerParticle3(3, 0), {}, {}};
-  add_piece(make_sheet({SheetPattern::jittered, 0.7, 0.5, 7, 5, 0.2, 5}), {-0.3, 0.1, 0.9}, soup);
-  add_piece(make_icosphere(0.31, 1), {0.4, 1.3, -0.2}, soup);
-  add_piece(make_cylinder(0.17, 0.6, 7, 5), {-1.1, -0.7, 0.3}, soup);
+  soup = join(soup, soup_of(make_sheet({SheetPattern::jittered, 0.7, 0.5, 7, 5, 0.2, 5})),
+              {-0.3, 0.1, 0.9});
+  soup = join(soup, soup_of(make_icosphere(0.31, 1)), {0.4, 1.3, -0.2});
+  soup = join(soup, soup_of(make_cylinder(0.17, 0.6, 7, 5)), {-1.1, -0.7, 0.3});
   const int count = int(soup.rest.cols());
   std::shuffle(soup.triangles.begin(), soup.triangles.end(), random);
   for (int k = 0; k < pairs; ++k) {

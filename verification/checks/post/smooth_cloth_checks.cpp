@@ -6,6 +6,7 @@
 #include "verification/oracles/exact_crossings.h"
 #include "verification/specimens/check.h"
 #include "verification/specimens/specimens.h"
+#include "verification/specimens/ugly_solids.h"
 
 namespace foldproof {
 
@@ -22,18 +23,11 @@ struct NestedRidges {
 NestedRidges nested_ridges(double gap, double slope) {
   const TriangleMesh lower = make_sheet({SheetPattern::alternating, 1, 0.6, 8, 5}),
                      upper = make_sheet({SheetPattern::one_diagonal, 1, 0.6, 4, 3});
-  const Eigen::Index n = lower.rest.cols(), m = upper.rest.cols();
-  PerParticle3 rest(3, n + m), x(3, n + m);
-  rest << lower.rest, upper.rest;
-  rest.rightCols(m).row(2).array() += gap;
-  std::vector<Triangle> triangles = lower.triangles;
-  for (Triangle triangle : upper.triangles) {
-    for (int& corner : triangle) corner += int(n);
-    triangles.push_back(triangle);
-  }
-  x = rest;
-  for (Eigen::Index i = 0; i < n + m; ++i) x(2, i) -= slope * std::abs(x(0, i) - 0.5);
-  return {fmt::format("gap {}, slope {}", gap, slope), make_triangle_mesh(rest, triangles), x};
+  const TriangleSoup both = join(soup_of(lower), soup_of(upper), {0, 0, gap});
+  PerParticle3 x = both.rest;
+  for (Eigen::Index i = 0; i < x.cols(); ++i) x(2, i) -= slope * std::abs(x(0, i) - 0.5);
+  return {fmt::format("gap {}, slope {}", gap, slope),
+          make_triangle_mesh(both.rest, both.triangles), x};
 }
 
 /// In the last two, points must be held back many times, some until they stay on the cloth.
