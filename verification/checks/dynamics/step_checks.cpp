@@ -203,14 +203,19 @@ Finding led_finding(const Subject& subject, const std::string& integrator) {
           "Compared after each of 200 uneven steps; the size is 1 m, or the point's top speed."};
 }
 
+constexpr int counted_steps = 7;
+
+Work work_of_steps(const Subject& subject, const Integrator& integrator) {
+  Stepper stepper(subject, partly_prescribed_sheet(), std::string(integrator.name));
+  stepper.run(stepper.start(), 1.3e-3, counted_steps);
+  return stepper.work();
+}
+
 Finding counts_finding(const Subject& subject) {
   Worst worst;
   Table solves{{"integrator", "1"}, {"solves a step", "1"}};
-  const int steps = 7;
   for (const Integrator& integrator : paper_schemes()) {
-    Stepper stepper(subject, partly_prescribed_sheet(), std::string(integrator.name));
-    stepper.run(stepper.start(), 1.3e-3, steps);
-    const double counted = double(stepper.work().solves) / steps;
+    const double counted = double(work_of_steps(subject, integrator).solves) / counted_steps;
     solves.row(integrator.name, counted);
     worst.observe(std::abs(counted - (integrator.name == "C" ? 2 : 1)));
   }
@@ -225,11 +230,9 @@ Finding once_finding(const Subject& subject) {
                {"preparations a step", "1"},
                {"products a step", "1"},
                {"iterations a step", "1"}};
-  const int steps = 7;
+  constexpr int steps = counted_steps;
   for (const Integrator& integrator : paper_schemes()) {
-    Stepper stepper(subject, partly_prescribed_sheet(), std::string(integrator.name));
-    stepper.run(stepper.start(), 1.3e-3, steps);
-    const Work& work = stepper.work();
+    const Work work = work_of_steps(subject, integrator);
     counts.row(integrator.name, double(work.damping_preparations) / steps,
                double(work.damping_products) / steps, double(work.cg_iterations) / steps);
     worst.observe(std::abs(double(work.damping_preparations - 2 * steps)));

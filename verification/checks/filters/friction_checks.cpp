@@ -141,7 +141,7 @@ Finding turntable_finding(const Subject& subject, const std::string& integrator)
                      "(omega h)^2) a step, in these 20 s from 0.5 m to 2.5 m");
 }
 
-constexpr double radius = 0.1, straight = 0.08, width = 0.016;  // m
+constexpr double drum_radius = 0.1, straight = 0.08, width = 0.016;  // m
 constexpr double strained = 1.02;  // the strip's length at the start over its own
 constexpr double speed = 0.04;     // at which one end is drawn [m/s]
 
@@ -149,16 +149,16 @@ constexpr double speed = 0.04;     // at which one end is drawn [m/s]
 /// straight piece.
 Vector3 on_path(double s, double wrap) {
   const auto on_drum = [](double a) {
-    return Vector3(0, radius * std::cos(a), radius * std::sin(a));
+    return Vector3(0, drum_radius * std::cos(a), drum_radius * std::sin(a));
   };
   const auto along = [](double a) { return Vector3(0, -std::sin(a), std::cos(a)); };
   if (s < straight) return on_drum(0) + (s - straight) * along(0);
-  if (s < straight + radius * wrap) return on_drum((s - straight) / radius);
-  return on_drum(wrap) + (s - straight - radius * wrap) * along(wrap);
+  if (s < straight + drum_radius * wrap) return on_drum((s - straight) / drum_radius);
+  return on_drum(wrap) + (s - straight - drum_radius * wrap) * along(wrap);
 }
 
 Scene wrapped_strip(double wrap, double friction) {
-  const double length = 2 * straight + radius * wrap;
+  const double length = 2 * straight + drum_radius * wrap;
   const int rows = int(std::lround(length / width));
   Scene scene = scene_at_rest(
       make_sheet({SheetPattern::criss_cross, width, length / strained, 1, rows}), 0.2);
@@ -172,7 +172,7 @@ Scene wrapped_strip(double wrap, double friction) {
     if (s > length - 1e-9) scene.prescribed.push_back({int(i), scene.x.col(i), motion});
   }
   SceneObject drum =
-      object_at("drum", Capsule{radius, 1},
+      object_at("drum", Capsule{drum_radius, 1},
                 {oracles::rotation_between(Vector3::UnitZ(), Vector3::UnitX()), Vector3::Zero()});
   drum.object.friction = friction;
   scene.objects.push_back(drum);

@@ -1,5 +1,4 @@
 #include <filesystem>
-#include <random>
 #include <set>
 
 #include "reference/level_set/mesh_distance.h"
@@ -7,7 +6,7 @@
 #include "reference/level_set/octree_nodes.h"
 #include "reference/mesh/obj.h"
 #include "reference/mesh/shapes.h"
-#include "verification/seeds.h"
+#include "verification/checks/level_set/octree_samples.h"
 #include "verification/specimens/check.h"
 #include "verification/specimens/scratch_folder.h"
 
@@ -33,17 +32,8 @@ MeshSequence moving_ball(double displacement, std::vector<double> times) {
   return deformed_mesh(make_icosphere(radius, 3), deformation, std::move(times));
 }
 
-/// Points about the centre, no farther than `reach`.
-std::vector<Vector3> points_about(const Vector3& centre, double reach) {
-  std::mt19937 random(shifted_seed(7741));
-  std::uniform_real_distribution<double> along(-reach, reach);
-  std::vector<Vector3> points;
-  for (int i = 0; i < 2000; ++i) {
-    const double x = along(random), y = along(random), z = along(random);
-    points.push_back(centre + Vector3(x, y, z));
-  }
-  return points;
-}
+/// Points about the origin, no farther than `reach` along an axis.
+std::vector<Vector3> points_within(double reach) { return random_points(2000, reach, 7741); }
 
 /// The body's largest miss next to the surface at a part of the way from its first frame to its
 /// second, in tolerances.
@@ -51,7 +41,9 @@ double carried_miss(const MeshSequence& ball, const DeformingBody& body, double 
   const PerParticle3 x = (1 - part) * ball.positions[0] + part * ball.positions[1];
   const MeshDistance exact = make_mesh_distance(x, ball.triangles);
   Worst worst;
-  for (const Vector3& p : points_about(x.rowwise().mean(), 1.2 * radius)) {
+  const Vector3 centre = x.rowwise().mean();
+  for (const Vector3& from_centre : points_within(1.2 * radius)) {
+    const Vector3 p = centre + from_centre;
     const double phi = exact.at(p).phi;
     if (std::abs(phi) > 0.03) continue;
     worst.observe(std::abs(deforming_at(body, p, part * ball.times[1]).phi - phi) / tolerance);
@@ -233,7 +225,7 @@ Finding rests_outside_its_frames() {
   for (const BetweenFrames between : {BetweenFrames::blended, BetweenFrames::carried}) {
     const DeformingBody body = make_deforming_body(ball, coarse_sampling(), between);
     double wrong = 0;
-    for (const Vector3& p : points_about(Vector3::Zero(), 0.3)) {
+    for (const Vector3& p : points_within(0.3)) {
       const DeformingPoint before = deforming_at(body, p, -0.01),
                            after = deforming_at(body, p, 0.04);
       wrong += before.phi != body.frames.front().field.at(p).phi || before.velocity.norm() != 0;

@@ -11,18 +11,6 @@ namespace foldproof {
 
 namespace {
 
-/// Points of the cube, uniform at random; the seed is fixed.
-std::vector<Vector3> random_points(int count, double half_width) {
-  std::mt19937 random(shifted_seed(90211));
-  std::uniform_real_distribution<double> along(-half_width, half_width);
-  std::vector<Vector3> points;
-  for (int i = 0; i < count; ++i) {
-    const double x = along(random), y = along(random), z = along(random);
-    points.push_back({x, y, z});
-  }
-  return points;
-}
-
 Distance capsule_upright(const Vector3& p) { return Capsule{0.17, 0.13}.at(p); }
 Distance ball(const Vector3& p) { return Sphere{0.31}.at(p - Vector3(0.05, -0.02, 0.03)); }
 
@@ -56,7 +44,7 @@ Finding jumps_nowhere() {
 double worst_miss(const Body& body, const OctreeSettings& settings) {
   const Octree tree = make_octree({body.distance}, settings);
   Worst worst;
-  for (const Vector3& p : random_points(60000, 0.5)) {
+  for (const Vector3& p : random_points(60000, 0.5, 90211)) {
     const double phi = body.distance(p).phi;
     if (std::abs(phi) <= 0.5 * settings.band)
       worst.observe(std::abs(tree.at(p).phi - phi) / settings.tolerance);
@@ -111,7 +99,7 @@ Finding normals_are_those_of_the_cells() {
     settings.band = 4 * h;
     const Octree tree = make_octree({tilted_torus}, settings);
     Worst worst;
-    for (const Vector3& p : random_points(60000, 0.5)) {
+    for (const Vector3& p : random_points(60000, 0.5, 90211)) {
       const Distance exact = tilted_torus(p);
       if (!(std::abs(exact.phi) <= h)) continue;
       const Vector3 n = tree.at(p).normal;
@@ -132,7 +120,7 @@ Finding goes_on_beyond_the_cube() {
   for (const Body& body : smooth_bodies()) {
     const Octree tree = make_octree({body.distance}, settings);
     Worst change, below;
-    for (const Vector3& p : random_points(3000, 1.3)) {
+    for (const Vector3& p : random_points(3000, 1.3, 90211)) {
       const Vector3 q = p.cwiseMax(-0.5).cwiseMin(0.5);
       if (p == q) continue;
       const double phi = tree.at(p).phi;
@@ -167,7 +155,7 @@ Finding rides_with_its_body() {
   for (const double time : {0.0, 0.4, 1.1, 2.0}) {
     const Pose pose = after(pose_at(motion, time), object.place);
     Worst worst;
-    for (const Vector3& X : random_points(20000, 0.5)) {
+    for (const Vector3& X : random_points(20000, 0.5, 90211)) {
       const double phi = tilted_torus(X).phi;
       if (std::abs(phi) > 0.5 * settings.band) continue;
       const Vector3 x = pose.rotation * X + pose.translation;
@@ -207,6 +195,17 @@ Finding rejects_bad_settings() {
 }
 
 }  // namespace
+
+std::vector<Vector3> random_points(int count, double half_width, unsigned seed) {
+  std::mt19937 random(shifted_seed(seed));
+  std::uniform_real_distribution<double> along(-half_width, half_width);
+  std::vector<Vector3> points;
+  for (int i = 0; i < count; ++i) {
+    const double x = along(random), y = along(random), z = along(random);
+    points.push_back({x, y, z});
+  }
+  return points;
+}
 
 Distance tilted_torus(const Vector3& p) {
   const Eigen::AngleAxisd turn(0.7, Vector3(0.36, -0.48, 0.8));

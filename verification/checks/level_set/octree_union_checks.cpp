@@ -129,13 +129,9 @@ Finding pinch_is_flagged() {
 /// Small balls far from each other: in the wide cells between them one may be nearest where none
 /// of the nodes is.
 std::vector<DistanceFunction> scattered_balls() {
-  std::mt19937 random(shifted_seed(5));
-  std::uniform_real_distribution<double> along(-0.4, 0.4);
   std::vector<DistanceFunction> parts;
-  for (int k = 0; k < 9; ++k) {
-    const double x = along(random), y = along(random), z = along(random);
-    parts.push_back([=](const Vector3& p) { return Sphere{0.05}.at(p - Vector3(x, y, z)); });
-  }
+  for (const Vector3& c : random_points(9, 0.4, 5))
+    parts.push_back([=](const Vector3& p) { return Sphere{0.05}.at(p - c); });
   return parts;
 }
 
