@@ -1,4 +1,5 @@
-// The list of checks, written out by hand.
+// The list of all checks: those of each file checks/<room>/<name>_checks.cpp, which defines
+// std::vector<Check> <name>_checks(). CMakeLists.txt makes it.
 #pragma once
 
 #include <vector>

@@ -57,6 +57,16 @@ std::string_view outcome_text(const Record& record) {
   return did_not_run(record) ? "did not run" : "measured";
 }
 
+Check::Check(std::string name, std::string claim, std::string source, OfSubject run)
+    : name(std::move(name)),
+      claim(std::move(claim)),
+      source(std::move(source)),
+      run(std::move(run)) {}
+
+Check::Check(std::string name, std::string claim, std::string source, std::function<Finding()> run)
+    : Check(std::move(name), std::move(claim), std::move(source),
+            OfSubject([run = std::move(run)](const Subject&) { return run(); })) {}
+
 Finding judge_worst(Table evidence, std::string_view column, double bound, std::string why_bound,
                     std::string note) {
   const Column& judge = evidence.column(column);

@@ -32,7 +32,7 @@ Outcome outcome_of(const Verdict& verdict);
 struct Finding {
   Verdict verdict;
   Table evidence;
-  std::string note;  // what a reader must know besides the numbers; may be empty
+  std::string note = {};  // what a reader must know besides the numbers; may be empty
   // what was measured, in words and units, where the judged number is another; may be empty
   std::string headline = {};
   // of a failure without a number: what happened, alike in findings that fail for the same reason
@@ -47,12 +47,17 @@ Finding judge_worst(Table evidence, std::string_view column, double bound, std::
 /// The same for the table's last column.
 Finding judge_worst(Table evidence, double bound, std::string why_bound, std::string note = "");
 
-/// A property that the subject must have. `run` may throw NotOffered.
+/// A property that the subject must have. `run` may throw NotOffered; a check that asks the
+/// reference alone gives a function without a parameter.
 struct Check {
+  using OfSubject = std::function<Finding(const Subject&)>;
+  Check(std::string name, std::string claim, std::string source, OfSubject run);
+  Check(std::string name, std::string claim, std::string source, std::function<Finding()> run);
+
   std::string name;    // "subject-matter.statement-in-the-present-tense"
   std::string claim;   // one sentence, true when the check passes
   std::string source;  // paper section or citation
-  std::function<Finding(const Subject&)> run;
+  OfSubject run;
 };
 
 /// Thrown by a check whose subject lacks an operation: the check is "not applicable".

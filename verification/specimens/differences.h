@@ -1,4 +1,5 @@
-// Differences between two states, and the size of a state.
+// Differences between two states, sizes of states; sums of forces and torques, and rigid
+// motion, for which both vanish.
 #pragma once
 
 #include <string>
@@ -22,5 +23,15 @@ double extent(const PerParticle3& x);
 std::string smallest_defect(double bound, const std::string& scale);
 
 double largest_speed(const PerParticle3& v);  // m/s
+
+/// |sum of F| over epsilon times sum |F_i|; NaN without any force. f: 3 x N [N].
+double net_force(const PerParticle3& f);
+
+/// |sum of x_i x F_i| about the mean of x, over epsilon times sum |x_i||F_i|; NaN without any
+/// force. x: 3 x N [m].
+double net_torque(const PerParticle3& x, const PerParticle3& f);
+
+/// Velocity [m/s] of particles at x moved rigidly: v + w x (x - mean).
+PerParticle3 rigid_velocity(const PerParticle3& x, const Vector3& v, const Vector3& w);
 
 }  // namespace foldproof

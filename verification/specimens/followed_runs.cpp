@@ -10,6 +10,8 @@
 
 namespace foldproof {
 
+namespace {
+
 Observer follower(Followed& run) {
   return {[&run](const State& s) { run.frames.push_back(s); },
           [&run](const Diagnostics& row) { run.rows.push_back(row); },
@@ -18,8 +20,6 @@ Observer follower(Followed& run) {
             run.rows_at.push_back(run.rows.size());
           }};
 }
-
-namespace {
 
 void add(const State& s, Numbers& all) {
   all.push_back(s.time);
@@ -59,6 +59,29 @@ void add(const Checkpoint& checkpoint, Numbers& all) {
 
 }  // namespace
 
+Followed followed_run(const System& system, const Integrator& integrator, const State& start,
+                      const Schedule& schedule) {
+  Followed run;
+  run.result = simulate(system, integrator, start, schedule, follower(run));
+  return run;
+}
+
+Followed followed_rest(const System& system, const Integrator& integrator,
+                       const Checkpoint& checkpoint, const Schedule& schedule) {
+  Followed run;
+  run.result = resume(system, integrator, checkpoint, schedule, follower(run));
+  return run;
+}
+
+Followed followed_run(const NamedRun& of, const System& system, const Integrator& integrator) {
+  return followed_run(system, integrator, start_state(of.scene), of.scene.schedule);
+}
+
+Numbers numbers_of(const NamedRun& of, const Followed& run) {
+  if (run.result.stop.has_value() != of.stops || run.frames.empty()) return {};
+  return numbers_after(run, 0, 0, 0);
+}
+
 Numbers numbers_after(const Followed& run, std::size_t frames, std::size_t rows,
                       std::size_t checkpoints) {
   Numbers all;
@@ -94,14 +117,7 @@ Scene stopping_and_starting() {
 /// Cloth that sticks to a palm that is there for a while, and to itself.
 Scene stuck_for_a_while() {
   Scene scene = free_sheet();
-  Motion swing;
-  swing.amplitude = {0.05, 0.02, 0.1};
-  swing.frequency = 3.1;
-  StickyPatch hand = palm(scene, 0.8, swing);
-  hand.stiffness = 40;
-  hand.forecast_time = 0.011;
-  hand.near = 0.02;
-  hand.far = 0.031;
+  StickyPatch hand = swinging_palm(scene);
   hand.from = 0.013;
   hand.until = 0.061;
   hand.release = 0.02;

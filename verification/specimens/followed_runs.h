@@ -18,7 +18,10 @@ struct Followed {
   RunResult result;
 };
 
-Observer follower(Followed& run);
+Followed followed_run(const System& system, const Integrator& integrator, const State& start,
+                      const Schedule& schedule);
+Followed followed_rest(const System& system, const Integrator& integrator,
+                       const Checkpoint& checkpoint, const Schedule& schedule);
 
 /// Numbers of a run in their order; two runs are compared bit by bit.
 using Numbers = std::vector<double>;
@@ -36,6 +39,12 @@ struct NamedRun {
   Scene scene;
   bool stops = false;  // before its end
 };
+
+/// The run of its scene by the system and the integrator.
+Followed followed_run(const NamedRun& of, const System& system, const Integrator& integrator);
+
+/// All numbers of the run; none if it is not what it is meant to be.
+Numbers numbers_of(const NamedRun& of, const Followed& run);
 
 /// Small runs in which all parts of the method have a share: events, sticking, layers in contact
 /// with strain limits, divergence; with schemes that remember and schemes that do not.

@@ -5,28 +5,17 @@
 
 #include "reference/mesh/shapes.h"
 #include "verification/specimens/random.h"
+#include "verification/specimens/ugly_solids.h"
 
 namespace foldproof {
 
 Scene layered_scene(const LayeredSheets& wanted) {
   Random random(wanted.seed);
-  Sheet sheet;
-  sheet.pattern = SheetPattern::jittered;
-  sheet.width = 0.1;
-  sheet.height = 0.12;
-  sheet.columns = 5;
-  sheet.rows = 6;
-  sheet.jitter = 0.2;
-  const TriangleMesh one = make_sheet(sheet);
-  const Eigen::Index n = one.particles();
-  PerParticle3 rest(3, n * wanted.sheets);
-  std::vector<Triangle> triangles;
-  for (int k = 0; k < wanted.sheets; ++k) {
-    rest.middleCols(k * n, n) = one.rest.colwise() + Vector3(0.003 * k, -0.002 * k, wanted.gap * k);
-    for (const Triangle& t : one.triangles)
-      triangles.push_back({int(k * n) + t[0], int(k * n) + t[1], int(k * n) + t[2]});
-  }
-  Scene scene = scene_at_rest(make_triangle_mesh(std::move(rest), std::move(triangles)), 0.17);
+  const TriangleMesh one = make_sheet({SheetPattern::jittered, 0.1, 0.12, 5, 6, 0.2});
+  TriangleSoup stack{PerParticle3(3, 0), {}, {}};
+  for (int k = 0; k < wanted.sheets; ++k)
+    stack = join(stack, soup_of(one), Vector3(0.003 * k, -0.002 * k, wanted.gap * k));
+  Scene scene = scene_at_rest(make_triangle_mesh(stack.rest, stack.triangles), 0.17);
   for (Eigen::Index i = 0; i < scene.x.cols(); ++i)
     scene.x(2, i) += random.uniform(-wanted.height, wanted.height);
   scene.v = random.vectors(scene.x.cols(), wanted.speed);

@@ -11,26 +11,10 @@ namespace foldproof {
 namespace {
 
 Sheet irregular_sheet() {
-  Sheet sheet;
-  sheet.pattern = SheetPattern::random_delaunay;
-  sheet.width = 0.7;
-  sheet.height = 0.55;
-  sheet.columns = 5;
-  sheet.rows = 4;
-  sheet.seed = shifted_seed(31);
-  return sheet;
+  return {SheetPattern::random_delaunay, 0.7, 0.55, 5, 4, 0, shifted_seed(31)};
 }
 
-Sheet jittered_sheet() {
-  Sheet sheet;
-  sheet.pattern = SheetPattern::jittered;
-  sheet.width = 0.6;
-  sheet.columns = 5;
-  sheet.rows = 4;
-  sheet.jitter = 0.27;
-  sheet.seed = shifted_seed(17);
-  return sheet;
-}
+Sheet jittered_sheet() { return {SheetPattern::jittered, 0.6, 0, 5, 4, 0.27, shifted_seed(17)}; }
 
 /// Displaces and sets in motion at random: a tenth of an edge in the plane, a third of one across
 /// it, and less where triangles are thin: they are neither to be turned over nor folded back.
@@ -63,6 +47,19 @@ Scene undamped_sheet() {
   Scene scene = free_sheet();
   scene.stretch->damping = 0;
   scene.bending->damping = 0;
+  return scene;
+}
+
+Scene waved_sheet(TriangleMesh mesh, double height) {
+  Scene scene = scene_at_rest(std::move(mesh), 0.21);
+  scene.stretch = StretchMaterial{31, 0.017, 1};
+  scene.bending = BendingMaterial{0.0019, 0.00023, Weighting::rest, DampingFactor::edge, "sine"};
+  scene.rest_angles.assign(scene.mesh.hinges.size(), 0.03);
+  for (Eigen::Index i = 0; i < scene.x.cols(); ++i) {
+    scene.x(2, i) += height * std::sin(37 * scene.x(0, i)) * std::cos(29 * scene.x(1, i));
+    scene.v.col(i) = Vector3(std::cos(5 * scene.x(1, i)), std::sin(7 * scene.x(0, i)),
+                             std::cos(3 * scene.x(0, i)));
+  }
   return scene;
 }
 

@@ -12,6 +12,9 @@ Scene free_sheet();
 /// The same without any damping.
 Scene undamped_sheet();
 
+/// The mesh waved across its plane by `height` [m] and moving; springs and hinges, both damped.
+Scene waved_sheet(TriangleMesh mesh, double height);
+
 /// A jittered sheet under gravity, damped, moving: one corner is fixed, two particles are
 /// prescribed (an oscillation with drift, a rotation with drift), the others are free. Elastic
 /// limit about 2 ms, by the bound.

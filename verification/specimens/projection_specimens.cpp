@@ -83,6 +83,14 @@ ProjectedCloth project_specimen(const ProjectionCase& specimen, const FoldProjec
   return project_folds(specimen.objects, specimen.x, specimen.time, projection);
 }
 
+double longest_edge(const std::vector<Triangle>& triangles, const PerParticle3& x) {
+  double longest = 0;
+  for (const Triangle& t : triangles)
+    for (size_t k = 0; k < 3; ++k)
+      longest = std::max(longest, (x.col(t[k]) - x.col(t[(k + 1) % 3])).norm());
+  return longest;
+}
+
 PerParticle distances(const ProjectionCase& specimen, const PerParticle3& x) {
   PerParticle phi(x.cols());
   ObjectsOverSpan now(specimen.objects, {specimen.time, specimen.time, 0});

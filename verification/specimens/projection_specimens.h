@@ -31,6 +31,9 @@ FoldProjection projection_by(const std::string& map);
 
 ProjectedCloth project_specimen(const ProjectionCase& specimen, const FoldProjection& projection);
 
+/// [m]
+double longest_edge(const std::vector<Triangle>& triangles, const PerParticle3& x);
+
 /// Signed distance of each point to the union of the objects [m].
 PerParticle distances(const ProjectionCase& specimen, const PerParticle3& x);
 

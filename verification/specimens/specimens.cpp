@@ -36,17 +36,7 @@ Specimen crumple_specimen(const std::string& name, TriangleMesh mesh, double edg
   return specimen;
 }
 
-Sheet sheet_of(SheetPattern pattern) {
-  Sheet sheet;
-  sheet.pattern = pattern;
-  sheet.width = 0.43;
-  sheet.height = 0.31;
-  sheet.columns = 6;
-  sheet.rows = 5;
-  sheet.jitter = 0.24;
-  sheet.seed = shifted_seed(71);
-  return sheet;
-}
+Sheet sheet_of(SheetPattern pattern) { return {pattern, 0.43, 0.31, 6, 5, 0.24, shifted_seed(71)}; }
 
 Specimen at_rest(const std::string& name, TriangleMesh mesh) {
   Specimen specimen{name, scene_at_rest(std::move(mesh), 0.31), {}};
@@ -137,6 +127,12 @@ std::vector<Specimen> hinges_of_all_angles() {
     if (angle > 0) hinges.push_back(random_hinge(seed++, -angle));
   }
   return hinges;
+}
+
+std::vector<Specimen> sheets_and_hinges() {
+  std::vector<Specimen> specimens = crumpled_sheets();
+  for (Specimen& hinge : hinges_of_all_angles()) specimens.push_back(std::move(hinge));
+  return specimens;
 }
 
 Scene hinge_scene(const Corners& rest, double rest_angle) {

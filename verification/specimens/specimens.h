@@ -51,6 +51,9 @@ Specimen random_hinge(unsigned seed, double angle);
 /// sharp, of both signs.
 std::vector<Specimen> hinges_of_all_angles();
 
+/// All crumpled sheets, then those hinges.
+std::vector<Specimen> sheets_and_hinges();
+
 /// A scene of one hinge: particles 0, 1, 2, 3 are x1, x2, x3, x4 of it.
 Scene hinge_scene(const Corners& rest, double rest_angle);
 

@@ -35,6 +35,11 @@ PerParticle3 Stepper::damping_forces(const State& s, const PerParticle3& v) cons
   return require_offered(subject_.damping_forces, "damping_forces")(*prepared_, s, v);
 }
 
+State step_once(const std::string& integrator, const System& system, const State& s, double h) {
+  Work work;
+  return integrator_named(integrator).step(system, {&s, 1}, h, work);
+}
+
 double growth(Stepper& stepper, const State& start, double h, int steps) {
   const double small = 1e-7 * extent(start.x), duration = steps * h;
   Random random(41);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "reference/dynamics/integrator.h"
 #include "verification/subject.h"
 
 namespace foldproof {
@@ -29,6 +30,9 @@ class Stepper {
   std::unique_ptr<PreparedScene> prepared_;
   Work work_;
 };
+
+/// One step of h [s] of the reference, from s alone.
+State step_once(const std::string& integrator, const System& system, const State& s, double h);
 
 /// Largest growth factor of a small initial disturbance during `steps` steps of h [1], at least 1.
 /// The disturbance is random, its velocities scaled by 1/(steps h); rounding errors on the way

@@ -8,6 +8,7 @@
 #include "reference/mesh/shapes.h"
 #include "verification/specimens/contact_scenes.h"
 #include "verification/specimens/random.h"
+#include "verification/specimens/ugly_solids.h"
 
 namespace foldproof {
 
@@ -49,15 +50,10 @@ void stick(StuckSpecimen& specimen, int particle, const std::vector<int>& triang
 }  // namespace
 
 TriangleMesh two_sheets(int n, double side, double gap) {
-  const TriangleMesh one = make_sheet({SheetPattern::jittered, side, side, n, n, 0.23, 29});
-  const Eigen::Index count = one.rest.cols();
-  PerParticle3 rest(3, 2 * count);
-  rest.leftCols(count) = one.rest;
-  rest.rightCols(count) = one.rest.colwise() + Vector3(0, 0, gap);
-  std::vector<Triangle> triangles = one.triangles;
-  for (const auto& [a, b, c] : one.triangles)
-    triangles.push_back({a + int(count), b + int(count), c + int(count)});
-  return make_triangle_mesh(rest, triangles);
+  const TriangleSoup one =
+      soup_of(make_sheet({SheetPattern::jittered, side, side, n, n, 0.23, 29}));
+  const TriangleSoup both = join(one, one, {0, 0, gap});
+  return make_triangle_mesh(both.rest, both.triangles);
 }
 
 std::vector<StuckSpecimen> stuck_layers() {
@@ -158,6 +154,18 @@ StickyPatch layer_patch(const TriangleMesh& mesh) {
   patch.particles.resize(size_t(mesh.particles() / 2));
   std::iota(patch.particles.begin(), patch.particles.end(), mesh.particles() / 2);
   return patch;
+}
+
+StickyPatch swinging_palm(const Scene& scene) {
+  Motion swing;
+  swing.amplitude = {0.05, 0.02, 0.1};
+  swing.frequency = 3.1;
+  StickyPatch hand = palm(scene, 0.8, swing);
+  hand.stiffness = 40;
+  hand.forecast_time = 0.011;
+  hand.near = 0.02;
+  hand.far = 0.031;
+  return hand;
 }
 
 StickyPatch palm(const Scene& scene, double side, const RigidMotion& motion) {

@@ -46,6 +46,9 @@ TriangleMesh two_sheets(int n, double side, double gap);
 /// half; nothing else is set.
 StickyPatch layer_patch(const TriangleMesh& mesh);
 
+/// A palm of .8 m that swings, for all particles of the scene, with values of sticking.
+StickyPatch swinging_palm(const Scene& scene);
+
 /// A horizontal square to stick to, of two triangles that face upwards, about the origin at rest: a
 /// patch for all particles of the scene. The square moves as the motion says.
 StickyPatch palm(const Scene& scene, double side, const RigidMotion& motion);

@@ -131,6 +131,16 @@ const std::vector<NamedOrder>& sweep_orders() {
   return orders;
 }
 
+std::vector<LimitedCloth> cloths_in_all_orders() {
+  std::vector<LimitedCloth> all;
+  for (const NamedOrder& named : sweep_orders())
+    for (LimitedCloth& cloth : limited_cloths(named.order)) {
+      cloth.name = named.name + ", " + cloth.name;
+      all.push_back(std::move(cloth));
+    }
+  return all;
+}
+
 double strain_violation(const Scene& scene, const PerParticle3& x) {
   const Strains strains = strains_of(scene, x);
   const double over = strains.largest - scene.strain_limits->extension;

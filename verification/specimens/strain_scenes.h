@@ -33,6 +33,9 @@ struct NamedOrder {
 };
 const std::vector<NamedOrder>& sweep_orders();
 
+/// limited_cloths of each order, whose name begins theirs.
+std::vector<LimitedCloth> cloths_in_all_orders();
+
 /// The largest violation of the scene's strain limits at the positions x (3 x N [m]), over rest
 /// lengths [1]; negative: all are within.
 double strain_violation(const Scene& scene, const PerParticle3& x);

@@ -4,6 +4,7 @@
 
 #include "reference/bodies/level_set_provider.h"
 #include "reference/mesh/shapes.h"
+#include "verification/specimens/check.h"
 
 namespace foldproof {
 
@@ -13,25 +14,19 @@ Scene trial_scene(const std::string& tables, const std::vector<std::string>& ove
 }
 
 PerParticle3 plain_positions() {
-  Sheet sheet;
-  sheet.pattern = SheetPattern::alternating;
-  sheet.width = 0.6;
-  sheet.height = 0.43;
-  sheet.columns = 4;
-  sheet.rows = 3;
-  return make_sheet(sheet).rest;
+  return make_sheet({SheetPattern::alternating, 0.6, 0.43, 4, 3}).rest;
 }
 
-Table no_differences() { return {{"what", "1"}, {"difference", "epsilon of the size"}}; }
-
-double in_roundings(double difference, double size) {
-  return std::abs(difference) / (epsilon * size);
+void Differences::is(const std::string& what, bool right) {
+  table_.row(what, right ? 0 : INFINITY);
 }
 
-double infinite_unless(bool right) { return right ? 0 : INFINITY; }
+void Differences::is_near(const std::string& what, double difference, double size) {
+  table_.row(what, std::abs(difference) / (epsilon * size));
+}
 
-Finding judged_differences(const Table& differences, double bound, const std::string& why_bound) {
-  return judge_worst(differences, bound, why_bound,
+Finding Differences::judged(double bound, const std::string& why_bound) const {
+  return judge_worst(table_, bound, why_bound,
                      "Each difference is over the size of what is compared; a wrong statement "
                      "counts as infinite.");
 }
@@ -40,12 +35,8 @@ Finding rejected_cases(const std::vector<RejectedCase>& cases, const std::string
   Table answers{{"message", ""}, {"lacks", ""}};
   double wrong = 0;
   for (const RejectedCase& rejected : cases) {
-    std::string message;
-    try {
-      build(trial_scene(rejected.tables, {}, path), computing_provider());
-    } catch (const InputError& error) {
-      message = error.what();
-    }
+    const std::string message = rejection_message(
+        [&] { build(trial_scene(rejected.tables, {}, path), computing_provider()); });
     std::string lacks = message.starts_with(path + ":") ? "" : "file and line";
     for (const std::string& word : rejected.words)
       if (message.find(word) == std::string::npos) lacks += " '" + word + "'";
@@ -53,8 +44,7 @@ Finding rejected_cases(const std::vector<RejectedCase>& cases, const std::string
     wrong += !lacks.empty();
   }
   return {{wrong, 0, 0, "cases", "each must be refused with file, line and what is known"},
-          answers,
-          ""};
+          answers};
 }
 
 }  // namespace foldproof

@@ -47,16 +47,19 @@ Finding rejected_cases(const std::vector<RejectedCase>& cases,
 /// The positions of that sheet, 3 x N [m].
 PerParticle3 plain_positions();
 
-/// A table for differences between what was read and what was written, one per row: a description,
-/// and the difference in roundings of the compared size.
-Table no_differences();
+/// Differences between what was read and what was written, one per row.
+class Differences {
+ public:
+  /// A statement without a size: 0 if it is right, else infinite.
+  void is(const std::string& what, bool right);
 
-/// |difference| over epsilon times its size, which is in the same unit.
-double in_roundings(double difference, double size);
+  /// In roundings of the size of what is compared, which is in the same unit.
+  void is_near(const std::string& what, double difference, double size = 1);
 
-/// A statement without a size: 0 if it is right, else infinite.
-double infinite_unless(bool right);
+  Finding judged(double bound, const std::string& why_bound) const;
 
-Finding judged_differences(const Table& differences, double bound, const std::string& why_bound);
+ private:
+  Table table_{{"what", "1"}, {"difference", "epsilon of the size"}};
+};
 
 }  // namespace foldproof

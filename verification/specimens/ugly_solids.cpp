@@ -76,6 +76,18 @@ UglySolid make(const std::string& name, const std::vector<WholePrism>& prisms) {
 
 }  // namespace
 
+TriangleSoup soup_of(const TriangleMesh& mesh) { return {mesh.rest, mesh.triangles, {}}; }
+
+TriangleSoup join(TriangleSoup first, const TriangleSoup& second, const Vector3& shift) {
+  const int before = int(first.rest.cols());
+  PerParticle3 rest(3, first.rest.cols() + second.rest.cols());
+  rest << first.rest, second.rest.colwise() + shift;
+  first.rest = rest;
+  for (const Triangle& t : second.triangles)
+    first.triangles.push_back({t[0] + before, t[1] + before, t[2] + before});
+  return first;
+}
+
 std::vector<UglySolid> ugly_solids() {
   return {make("star", {scaled_star(1, -7, 12)}), make("fin", {scaled_star(1, 3, 4)}),
           make("shells", {scaled_star(4, -16, 15), scaled_star(3, -12, 13), scaled_star(2, -9, 8),

@@ -1,4 +1,5 @@
-// Closed meshes on which inside and outside are hard to tell, with an exact inside test.
+// Surfaces put together, and closed meshes on which inside and outside are hard to tell, with an
+// exact inside test.
 #pragma once
 
 #include <string>
@@ -8,6 +9,11 @@
 #include "verification/oracles/solid_prisms.h"
 
 namespace foldproof {
+
+TriangleSoup soup_of(const TriangleMesh& mesh);
+
+/// Both surfaces in one, the second moved by `shift` [m].
+TriangleSoup join(TriangleSoup first, const TriangleSoup& second, const Vector3& shift);
 
 /// Nested prisms over a star with thin rays, sheared so that no face lies along an axis. Corners
 /// are whole numbers.

@@ -1,19 +1,14 @@
 // Checks of what is refused as a solid, and of the test for intersecting triangles.
-#include <algorithm>
-#include <cmath>
-#include <functional>
 #include <iterator>
 #include <tuple>
 #include <utility>
 
 #include "reference/bodies/closed_mesh.h"
-#include "reference/mesh/self_intersection.h"
 #include "reference/mesh/obj.h"
+#include "reference/mesh/self_intersection.h"
 #include "reference/mesh/shapes.h"
-#include "verification/checks/bodies/body_checks.h"
-#include "verification/evidence.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/random.h"
-#include "verification/specimens/rejection.h"
 #include "verification/specimens/scratch_folder.h"
 #include "verification/specimens/specimens.h"
 #include "verification/specimens/ugly_solids.h"
@@ -21,19 +16,6 @@
 namespace foldproof {
 
 namespace {
-
-TriangleSoup soup_of(const TriangleMesh& mesh) { return {mesh.rest, mesh.triangles, {}}; }
-
-/// Both surfaces in one, the second moved.
-TriangleSoup join(TriangleSoup first, const TriangleSoup& second, const Vector3& shift) {
-  const int before = int(first.rest.cols());
-  PerParticle3 rest(3, first.rest.cols() + second.rest.cols());
-  rest << first.rest, second.rest.colwise() + shift;
-  first.rest = rest;
-  for (const Triangle& t : second.triangles)
-    first.triangles.push_back({t[0] + before, t[1] + before, t[2] + before});
-  return first;
-}
 
 TriangleSoup turned_round(TriangleSoup soup) {
   for (Triangle& t : soup.triangles) std::swap(t[0], t[1]);
@@ -77,15 +59,14 @@ std::vector<BadSolid> bad_solids() {
        {":" + std::to_string(2 + 2 * 162 + 320) + ":", "inward"}}};
 }
 
-Finding bad_solids_are_rejected(const Subject&) {
+Finding bad_solids_are_rejected() {
   const ScratchFolder folder;
   const std::string path = folder.file("bad.obj");
   Table measured{{"case", ""}, {"file or words missing from the refusal", "1"}, {"message", ""}};
   for (const BadSolid& bad : bad_solids()) {
     write_obj(path, bad.soup.rest, bad.soup.triangles);
     const std::string message = rejection_message([&] { make_closed_mesh(read_obj_soup(path)); });
-    int missing = message.starts_with(path + ":") ? 0 : 1;
-    for (const std::string& part : bad.parts) missing += message.find(part) == std::string::npos;
+    const int missing = !message.starts_with(path + ":") + count_missing(message, bad.parts);
     const size_t folder_size = path.size() - std::string("bad.obj").size();
     measured.row(bad.name, missing, message.substr(std::min(message.size(), folder_size)));
   }
@@ -93,7 +74,7 @@ Finding bad_solids_are_rejected(const Subject&) {
                      "each message must name the file, the defect, and how often it occurs");
 }
 
-Finding places_are_right(const Subject&) {
+Finding places_are_right() {
   Table measured{{"case", ""}, {"places that are not named as they are", "1"}};
   const TriangleSoup whole = ball(0.7);
   int wrong = 0;
@@ -113,7 +94,7 @@ Finding places_are_right(const Subject&) {
   return judge_worst(measured, 0, "the edge named must be one of the hole's");
 }
 
-Finding solids_are_accepted(const Subject&) {
+Finding solids_are_accepted() {
   Table measured{{"case", ""}, {"refused", "1"}};
   std::vector<std::pair<std::string, TriangleSoup>> good{
       {"ball", ball(0.7)},
@@ -204,7 +185,7 @@ bool has_area(const Vector3& a, const Vector3& b, const Vector3& c) {
   return (b - a).cross(c - a).norm() > 0;
 }
 
-Finding intersections_are_found(const Subject&) {
+Finding intersections_are_found() {
   Table measured{{"case", ""}, {"wrong answers", "1"}};
   for (const Family& family : families()) {
     Random random(97);
@@ -225,7 +206,7 @@ Finding intersections_are_found(const Subject&) {
 }
 
 /// Triangles that share an edge or a vertex.
-Finding neighbours_are_told_apart(const Subject&) {
+Finding neighbours_are_told_apart() {
   PerParticle3 x(3, 7);
   x << 0, 4, 0, 4, 1, 5, 1,  //
       0, 0, 4, 4, 1, 1, 1,   //
@@ -248,7 +229,7 @@ Finding neighbours_are_told_apart(const Subject&) {
 }
 
 /// The tree must find the pairs that a look at all of them finds.
-Finding pairs_are_complete(const Subject&) {
+Finding pairs_are_complete() {
   Table measured{{"case", ""}, {"pairs missing or superfluous", "1"}};
   for (const double shift : {0.4, 1.1}) {
     const TriangleSoup both = join(ball(0.7), ball(0.7), {shift, 0.31, 0.22});

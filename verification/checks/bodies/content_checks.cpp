@@ -1,15 +1,9 @@
 // Level sets cached between runs: keys that change with every input, and content that must
 // not be trusted.
-#include <array>
-#include <cmath>
-#include <functional>
-
 #include "reference/bodies/deforming_content.h"
 #include "reference/bodies/grid_content.h"
 #include "reference/mesh/shapes.h"
-#include "verification/checks/bodies/body_checks.h"
-#include "verification/evidence.h"
-#include "verification/specimens/rejection.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/ugly_solids.h"
 
 namespace foldproof {
@@ -48,11 +42,7 @@ Finding rejections_of(const T& sound, const std::vector<Change<T>>& breaks) {
     T broken = sound;
     breaking.act(broken);
     const std::string reason = breaking.what.substr(breaking.what.find(": ") + 2);
-    measured.row(breaking.what, rejection_message([&] {
-                                  require_valid_content(broken);
-                                }).find(reason) != std::string::npos
-                                    ? 0
-                                    : 1);
+    measured.row(breaking.what, !is_rejected([&] { require_valid_content(broken); }, reason));
   }
   return judge_worst(measured, 0, "inconsistent content is refused before anything uses it");
 }
@@ -72,7 +62,7 @@ GridInput grid_input() {
   return {{ball.rest, ball.triangles, {}}, {11, 2, 3, MarchingOrder::second}, Repair::refuse};
 }
 
-Finding grid_origin_finding(const Subject&) {
+Finding grid_origin_finding() {
   return keys_are_distinct<GridInput>(
       grid_input(),
       {{"a coordinate, by a rounding",
@@ -93,7 +83,7 @@ Grid small_grid() {
   return *make_level_set(input.soup, input.method, input.repair);
 }
 
-Finding grid_content_finding(const Subject&) {
+Finding grid_content_finding() {
   return keys_are_distinct<Grid>(
       small_grid(),
       {{"a value, by a rounding", [](Grid& grid) { grid.phi[17] = next_after(grid.phi[17]); }},
@@ -105,7 +95,7 @@ Finding grid_content_finding(const Subject&) {
       [](const Grid& grid) { return content_key(grid); });
 }
 
-Finding grid_sound_finding(const Subject&) {
+Finding grid_sound_finding() {
   return rejections_of<Grid>(
       small_grid(),
       {{"no place: place", [](Grid& grid) { grid.lattice.origin[0] = NAN; }},
@@ -132,7 +122,7 @@ BodyInput body_input() {
           {Vector3::Constant(-0.5), 1, 4, 3, 1e-3, 0.04, 0.3, 0, HangingNodes::constrained}};
 }
 
-Finding body_origin_finding(const Subject&) {
+Finding body_origin_finding() {
   using Settings = OctreeSettings;
   std::vector<Change<BodyInput>> changes = {
       {"a coordinate of a later frame, by a rounding",
@@ -168,7 +158,7 @@ DeformingBody small_body() {
 
 using Body = DeformingBody;
 
-Finding body_content_finding(const Subject&) {
+Finding body_content_finding() {
   return keys_are_distinct<Body>(
       small_body(),
       {{"a value, by a rounding",
@@ -191,7 +181,7 @@ Finding body_content_finding(const Subject&) {
       [](const Body& body) { return content_key(body); });
 }
 
-Finding body_sound_finding(const Subject&) {
+Finding body_sound_finding() {
   return rejections_of<Body>(
       small_body(),
       {{"no frames: no frame", [](Body& body) { body.frames.clear(); }},

@@ -1,15 +1,11 @@
 // Checks of bodies that a case file takes from OBJ files.
-#include <cmath>
 #include <filesystem>
-#include <string>
 
 #include "reference/bodies/level_set_provider.h"
 #include "reference/mesh/obj.h"
 #include "reference/mesh/shapes.h"
-#include "verification/checks/bodies/body_checks.h"
-#include "verification/evidence.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/random.h"
-#include "verification/specimens/rejection.h"
 #include "verification/specimens/scratch_folder.h"
 #include "verification/specimens/trial_cases.h"
 
@@ -47,15 +43,13 @@ std::string write_ball(const ScratchFolder& folder, int missing, int flipped) {
   return path;
 }
 
-Finding open_bodies_are_rejected(const Subject&) {
+Finding open_bodies_are_rejected() {
   const ScratchFolder folder;
   Table measured{{"case", ""}, {"file, reason or remedy missing from the refusal", "1"}};
   const auto observe = [&](const std::string& name, const std::string& file,
                            const std::string& keys, const std::vector<std::string>& parts) {
     const std::string message = rejection_message([&] { read_case_beside(file, keys); });
-    int missing = 0;
-    for (const std::string& part : parts) missing += message.find(part) == std::string::npos;
-    measured.row(name, missing);
+    measured.row(name, count_missing(message, parts));
   };
   observe("hole", write_ball(folder, 1, 0), "", {"ball.obj:", "a hole", "repair"});
   observe("hole, exact distance", write_ball(folder, 1, 0), "field = \"exact\"",
@@ -81,7 +75,7 @@ double error_of(const Scene& scene, double cell) {
   return worst.value();
 }
 
-Finding bodies_are_solid(const Subject&) {
+Finding bodies_are_solid() {
   const ScratchFolder folder;
   constexpr double cell = 2 * radius / 32;
   Table measured{{"case", ""}, {"largest error of phi", "cells"}};

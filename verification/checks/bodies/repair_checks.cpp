@@ -1,7 +1,5 @@
 // Checks of the second opinions on inside and outside: ray parity, winding numbers, and the
 // repair by them.
-#include <cmath>
-
 #include "reference/bodies/closed_mesh.h"
 #include "reference/bodies/mesh_inspection.h"
 #include "reference/bodies/ray_parity.h"
@@ -9,8 +7,7 @@
 #include "reference/bodies/winding.h"
 #include "reference/level_set/mesh_grid.h"
 #include "reference/mesh/shapes.h"
-#include "verification/checks/bodies/body_checks.h"
-#include "verification/evidence.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/random.h"
 #include "verification/specimens/specimens.h"
 #include "verification/specimens/ugly_solids.h"
@@ -21,17 +18,17 @@ namespace {
 
 const GridMethod method{30, 3, 2.2, MarchingOrder::second};
 
-TriangleSoup statue() { return {small_statue().rest, small_statue().triangles, {}}; }
+TriangleSoup statue() { return soup_of(small_statue()); }
 
 std::shared_ptr<const Grid> grid_of(const TriangleSoup& soup) {
   return make_grid(make_mesh_distance(soup.rest, soup.triangles), method);
 }
 
-Finding parity_agrees(const Subject&) {
+Finding parity_agrees() {
   Table measured{{"case", ""}, {"nodes that are counted otherwise", "1"}};
   std::vector<std::pair<std::string, TriangleSoup>> soups{{"statue", statue()}};
   const TriangleMesh sphere = make_icosphere(1, 3);  // rays of the lattice run through its vertices
-  soups.push_back({"sphere on the lattice", {sphere.rest, sphere.triangles, {}}});
+  soups.push_back({"sphere on the lattice", soup_of(sphere)});
   for (const UglySolid& solid : ugly_solids()) soups.emplace_back(solid.name, solid.soup);
   for (const auto& [name, soup] : soups) {
     const auto grid = grid_of(soup);
@@ -45,7 +42,7 @@ Finding parity_agrees(const Subject&) {
 }
 
 /// Reports on meshes with known defects.
-Finding inspection_tells(const Subject&) {
+Finding inspection_tells() {
   const TriangleMesh ball = make_icosphere(0.7, 3);
   TriangleSoup whole{ball.rest, ball.triangles, {}}, open = whole, flipped = whole;
   open.triangles.erase(open.triangles.begin());
@@ -53,23 +50,20 @@ Finding inspection_tells(const Subject&) {
   const TriangleSoup sheet{ball.rest, {ball.triangles[0]}, {}};
   const MeshInspection a = inspect_mesh(whole, 20), b = inspect_mesh(open, 20),
                        c = inspect_mesh(flipped, 20), d = inspect_mesh(sheet, 20);
-  const auto lacks = [](const std::string& text, const char* part) {
-    return text.find(part) == std::string::npos;
-  };
   Table measured{{"case", ""}, {"what is said wrongly", "1"}};
   measured.row("a ball is a solid", !a.rejection.empty() || a.pieces != 1 || a.triangles != 1280);
   measured.row("its volume, over 1 percent",
                std::abs(a.volume / (4 * EIGEN_PI / 3 * 0.343) - 1) > 0.01);
   measured.row("no opinion differs", double(a.against_sign + a.among_rays));
-  measured.row("a hole", lacks(b.rejection, "a hole") || !b.repair_failure.empty());
+  measured.row("a hole", count_missing(b.rejection, {"a hole"}) || !b.repair_failure.empty());
   measured.row("rays differ behind it", b.among_rays > b.against_sign ? 0 : 1);
-  measured.row("a flipped triangle", lacks(c.rejection, "opposite orientation"));
+  measured.row("a flipped triangle", count_missing(c.rejection, {"opposite orientation"}));
   measured.row("a triangle alone has no inside",
-               lacks(d.repair_failure, "no inside") || d.nodes != 0);
+               count_missing(d.repair_failure, {"no inside"}) || d.nodes != 0);
   return judge_worst(measured, 0, "each defect must be reported, and no others");
 }
 
-Finding parity_shows_holes(const Subject&) {
+Finding parity_shows_holes() {
   const TriangleSoup whole = statue();
   const auto grid = grid_of(whole);
   int unseen = 0;
@@ -106,7 +100,7 @@ Vector3 about(Random& random, const Bounds& bounds) {
   return bounds.min() + p.cwiseProduct(bounds.sizes());
 }
 
-Finding winding_is_whole(const Subject&) {
+Finding winding_is_whole() {
   Table measured{{"case", ""}, {"deviation from 1 inside and 0 outside", "1"}};
   for (const UglySolid& solid : ugly_solids()) {
     Random random(101);
@@ -128,7 +122,7 @@ Finding winding_is_whole(const Subject&) {
       "its digits to cancellation, epsilon times the squared ratio of sizes");
 }
 
-Finding tree_is_near(const Subject&) {
+Finding tree_is_near() {
   const TriangleMesh& mesh = small_statue();
   const MeshDistance distance = make_mesh_distance(mesh.rest, mesh.triangles);
   const std::vector<Dipole> dipoles = make_dipoles(distance);
@@ -173,14 +167,9 @@ Mended compare(const Grid& truth, const Grid& mended) {
 }
 
 TriangleSoup overlapping_balls() {
-  const TriangleMesh ball = make_icosphere(0.7, 3);
-  TriangleSoup soup{PerParticle3(3, 2 * ball.particles()), ball.triangles, {}};
-  soup.rest << ball.rest.colwise() - Vector3(0.35, 0.02, 0.01),
-      ball.rest.colwise() + Vector3(0.35, 0.02, 0.01);
-  for (const Triangle& t : ball.triangles)
-    soup.triangles.push_back(
-        {t[0] + ball.particles(), t[1] + ball.particles(), t[2] + ball.particles()});
-  return soup;
+  const TriangleSoup ball = soup_of(make_icosphere(0.7, 3));
+  const Vector3 c(0.35, 0.02, 0.01);
+  return join(join({PerParticle3(3, 0), {}, {}}, ball, -c), ball, c);
 }
 
 /// The union of the two balls' own grids, on the lattice given: min of the two, exact outside.
@@ -200,7 +189,7 @@ Mended against_union(const Grid& mended) {
   return result;
 }
 
-Finding repair_mends(const Subject&) {
+Finding repair_mends() {
   const TriangleSoup whole = statue();
   const auto truth = grid_of(whole);
   TriangleSoup open = whole, flipped = whole, inward = whole;

@@ -1,14 +1,9 @@
 // Diagnostics against sums of our own, and the balance of energy.
-#include <Eigen/Geometry>
-#include <array>
-#include <cmath>
-
 #include "reference/dynamics/simulate.h"
-#include "verification/checks/dynamics/dynamics_checks.h"
-#include "verification/evidence.h"
 #include "verification/oracles/definitions.h"
+#include "verification/specimens/check.h"
+#include "verification/specimens/followed_runs.h"
 #include "verification/specimens/moving_sheets.h"
-#include "verification/specimens/paper_schemes.h"
 #include "verification/specimens/specimens.h"
 
 namespace foldproof {
@@ -79,19 +74,9 @@ Sums sums_of(const Scene& scene, const State& s) {
   return sums;
 }
 
-struct RecordedRun {
-  std::vector<State> frames;
-  std::vector<Diagnostics> rows;
-};
-
-RecordedRun record_run(const Scene& scene, const std::string& integrator, double h, int steps) {
-  RecordedRun run;
-  const Observer observer{[&](const State& s) { run.frames.push_back(s); },
-                          [&](const Diagnostics& row) { run.rows.push_back(row); }};
-  const Schedule schedule{steps * h, h, {h, 0.5, 0.1}, 1000000};
-  simulate(build_system(scene), integrator_named(integrator), start_state(scene), schedule,
-           observer);
-  return run;
+Followed record_run(const Scene& scene, const std::string& integrator, double h, int steps) {
+  return followed_run(build_system(scene), integrator_named(integrator), start_state(scene),
+                      {steps * h, h, {h, 0.5, 0.1}, 1000000});
 }
 
 /// The largest error of a row, each quantity in epsilon of its own size.
@@ -114,10 +99,10 @@ double row_error(const Diagnostics& row, const Sums& sums, double damping_work,
   return worst.value();
 }
 
-Finding diagnostics_finding(const Subject&) {
+Finding diagnostics_finding() {
   const double h = 1.7e-3;
   const Scene scene = partly_prescribed_sheet();
-  const RecordedRun run = record_run(scene, "C", h, 9);
+  const Followed run = record_run(scene, "C", h, 9);
   const System system = build_system(scene);
   Worst worst;
   Table errors{{"time", "s"}, {"error", "epsilon of the quantity"}};
@@ -155,7 +140,7 @@ Finding diagnostics_finding(const Subject&) {
 double imbalance(const std::string& integrator, double h, int steps) {
   Scene scene = partly_prescribed_sheet();
   for (PrescribedParticle& p : scene.prescribed) p.motion = Motion{};  // what is held does no work
-  const RecordedRun run = record_run(scene, integrator, h, steps);
+  const Followed run = record_run(scene, integrator, h, steps);
   Worst worst;
   for (const Diagnostics& row : run.rows)
     worst.observe(
@@ -164,7 +149,7 @@ double imbalance(const std::string& integrator, double h, int steps) {
   return worst.value();
 }
 
-Finding balance_finding(const Subject&, const std::string& integrator) {
+Finding balance_finding(const std::string& integrator) {
   Table errors{{"step", "s"}, {"imbalance over kinetic energy", "1"}, {"observed order", "1"}};
   double last = NAN, order = NAN;
   // s: until later, a hinge may have folded by half a circle, where its energy jumps
@@ -178,8 +163,7 @@ Finding balance_finding(const Subject&, const std::string& integrator) {
   return {{std::abs(order - 2), 0.1, 0, "1",
            "second order, two-sided: the schemes' and the trapezoidal rule's for the work, in the "
            "last pair"},
-          errors,
-          ""};
+          errors};
 }
 
 }  // namespace
@@ -190,12 +174,10 @@ std::vector<Check> energy_checks() {
                               "reports are the sums that define them.",
                               "BMF03 sections 3 and 4", diagnostics_finding}};
   add_for_each_scheme(list,
-                      {"dynamics.energy-balance-closes",
-                       "on a damped sheet of the reference, energy minus the work of damping is "
-                       "conserved to second order.",
-                       "BMF03 section 3",
-                       {}},
-                      balance_finding);
+                      {{"dynamics.energy-balance-closes",
+                        "on a damped sheet of the reference, energy minus the work of damping is "
+                        "conserved to second order.",
+                        "BMF03 section 3", balance_finding}});
   return list;
 }
 

@@ -1,13 +1,9 @@
 // Events: prescribed motions that start and stop on the way, and what a run does there.
-#include <algorithm>
-#include <array>
-#include <cmath>
-
 #include "reference/dynamics/simulate.h"
 #include "reference/mesh/shapes.h"
-#include "verification/checks/dynamics/dynamics_checks.h"
 #include "verification/oracles/exact_solutions.h"
-#include "verification/evidence.h"
+#include "verification/specimens/check.h"
+#include "verification/specimens/followed_runs.h"
 
 namespace foldproof {
 
@@ -83,7 +79,7 @@ double error_at(const System& system, const Integrator& integrator, double h) {
   return std::sqrt(dx * dx + mass / stiffness * dv * dv);
 }
 
-Finding order_holds(const Subject&) {
+Finding order_holds() {
   const System system = led_spring();
   Table measured{{"case", ""}, {"|observed order - order of the table|", "1"}};
   for (const Integrator& integrator : integrators()) {
@@ -98,34 +94,34 @@ Finding order_holds(const Subject&) {
                      "the decay the next term leaves a tenth");
 }
 
-/// The times after which a run made a step, and where the led particle was then.
-struct Visits {
-  std::vector<double> times;
-  std::vector<State> frames;
-};
+const Schedule ten_frames{end, 0.1, {0.013, 0.5, 0.1}, 100000};
 
-Visits record_visits(const System& system, const std::string& integrator,
-                     const Schedule& schedule) {
-  Visits run;
-  simulate(system, integrator_named(integrator), start_of_spring(), schedule,
-           {[&](const State& s) { run.frames.push_back(s); },
-            [&](const Diagnostics& row) { run.times.push_back(row.time); }});
-  return run;
+/// A row for each event: how far it is from the nearest end of a step of the run [s].
+void see_events(const System& system, std::string_view integrator,
+                const std::vector<double>& events, Table& measured) {
+  const Followed run =
+      followed_run(system, integrator_named(integrator), start_of_spring(), ten_frames);
+  for (const double event : events) {
+    double nearest = INFINITY;
+    for (const Diagnostics& row : run.rows) nearest = std::min(nearest, std::abs(row.time - event));
+    measured.row(std::string(integrator) + ", at " + std::to_string(event) + " s", nearest);
+  }
 }
 
-Finding events_are_hit(const Subject&) {
-  const System system = led_spring();
-  Table measured{{"case", ""}, {"distance of an event from the nearest end of a step", "s"}};
-  for (const Integrator& integrator : integrators()) {
-    const Visits run =
-        record_visits(system, std::string(integrator.name), {end, 0.1, {0.013, 0.5, 0.1}, 100000});
-    for (const double event : {from, until}) {
-      double nearest = INFINITY;
-      for (const double time : run.times) nearest = std::min(nearest, std::abs(time - event));
-      measured.row(std::string(integrator.name) + ", at " + std::to_string(event) + " s", nearest);
-    }
-  }
+Finding judged_events(const Table& measured) {
   return judge_worst(measured, 0, "the state that ends at an event has its time to the bit");
+}
+
+Table no_events() {
+  return {{"case", ""}, {"distance of an event from the nearest end of a step", "s"}};
+}
+
+Finding events_are_hit() {
+  const System system = led_spring();
+  Table measured = no_events();
+  for (const Integrator& integrator : integrators())
+    see_events(system, integrator.name, {from, until}, measured);
+  return judged_events(measured);
 }
 
 /// A ball, a led cube of keyframes and a ball that deforms, far from the spring, and the times at
@@ -159,25 +155,19 @@ Movers movers() {
   return all;
 }
 
-Finding object_events_are_hit(const Subject&) {
+Finding object_events_are_hit() {
   const Movers objects = movers();
   System system = led_spring();
   system.filters.push_back(objects.collision);
-  Table measured{{"case", ""}, {"distance of an event from the nearest end of a step", "s"}};
-  for (const char* integrator : {"A", "C", "BDF2", "RK4"}) {
-    const Visits run = record_visits(system, integrator, {end, 0.1, {0.013, 0.5, 0.1}, 100000});
-    for (const double event : objects.times) {
-      double nearest = INFINITY;
-      for (const double time : run.times) nearest = std::min(nearest, std::abs(time - event));
-      measured.row(std::string(integrator) + ", at " + std::to_string(event) + " s", nearest);
-    }
-  }
-  return judge_worst(measured, 0, "the state that ends at an event has its time to the bit");
+  Table measured = no_events();
+  for (const char* integrator : {"A", "C", "BDF2", "RK4"})
+    see_events(system, integrator, objects.times, measured);
+  return judged_events(measured);
 }
 
 /// A motion that drifts and swings, between two times of which one is a frame's, but
 /// for a rounding.
-Finding path_is_kept(const Subject&) {
+Finding path_is_kept() {
   System system = led_spring();
   Motion& motion = system.prescribed.front().motion;
   motion.amplitude = Vector3(0.07, -0.03, 0.05);
@@ -186,8 +176,7 @@ Finding path_is_kept(const Subject&) {
   motion.from = 0.1 + 0.1 + 0.1;  // one rounding above 0.3
   Table measured{{"case", ""}, {"distance from the path, or of velocities, over the swing", "1"}};
   for (const Integrator& integrator : integrators()) {
-    const Visits run =
-        record_visits(system, std::string(integrator.name), {end, 0.1, {0.013, 0.5, 0.1}, 100000});
+    const Followed run = followed_run(system, integrator, start_of_spring(), ten_frames);
     Worst x, v;
     for (const State& s : run.frames) {
       const double acted = std::clamp(s.time + 1e-12, motion.from, until) - motion.from;

@@ -1,24 +1,13 @@
 // Motions known in closed form: free fall, a turning pair.
-#include <Eigen/Geometry>
-#include <algorithm>
-#include <cmath>
-
 #include "reference/dynamics/integrator.h"
-#include "verification/checks/dynamics/dynamics_checks.h"
-#include "verification/evidence.h"
 #include "verification/oracles/exact_solutions.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/moving_sheets.h"
-#include "verification/specimens/paper_schemes.h"
 #include "verification/specimens/stepper.h"
 
 namespace foldproof {
 
 namespace {
-
-State step_once(const std::string& integrator, const System& system, const State& s, double h) {
-  Work work;
-  return integrator_named(integrator).step(system, {&s, 1}, h, work);
-}
 
 Finding free_fall_finding(const Subject& subject, const std::string& integrator) {
   Scene scene = partly_prescribed_sheet();
@@ -44,8 +33,7 @@ Finding free_fall_finding(const Subject& subject, const std::string& integrator)
   return {{worst.value(), 4.0 * steps, uncertainty, "epsilon of the way",
            "120 steps, each of which rounds the velocity three times, the position once and the "
            "time once"},
-          {},
-          ""};
+          {}};
 }
 
 struct TurningPair {
@@ -93,7 +81,7 @@ double deviation(const TurningPair& pair, const std::string& integrator, double 
   return worst.value();
 }
 
-Finding rotation_finding(const Subject&, const std::string& integrator) {
+Finding rotation_finding(const std::string& integrator) {
   const TurningPair pair = turning_pair();
   Table deviations{{"step", "s"}, {"deviation of the length", "1"}, {"observed order", "1"}};
   Worst worst;
@@ -111,7 +99,7 @@ Finding rotation_finding(const Subject&, const std::string& integrator) {
           "over six turns"};
 }
 
-Finding no_drift_finding(const Subject&, const std::string& integrator) {
+Finding no_drift_finding(const std::string& integrator) {
   const TurningPair pair = turning_pair();
   const double early = deviation(pair, integrator, 8e-3, 0, 6),
                late = deviation(pair, integrator, 8e-3, 54, 60);
@@ -120,8 +108,7 @@ Finding no_drift_finding(const Subject&, const std::string& integrator) {
   deviations.row("54 to 60", late);
   return {{late / early - 1, 0.02, 0, "1",
            "the length oscillates for ever about a steady one; steps sample its extremes to 2 %"},
-          deviations,
-          ""};
+          deviations};
 }
 
 /// A particle on a spring whose other end oscillates along it, which is a linear oscillator
@@ -165,7 +152,7 @@ struct DrivenSpring {
 };
 
 /// Observed orders with a driven end: each stage must have it where it then is.
-Finding driven_finding(const Subject&) {
+Finding driven_finding() {
   const DrivenSpring driven;
   const System system = driven.system();
   Table measured{{"method", ""}, {"step", "s"}, {"error", "m"}, {"order", "1"}};
@@ -184,8 +171,7 @@ Finding driven_finding(const Subject&) {
   }
   return {{worst.value(), 0.1, 0, "1",
            "two-sided; at two hundred steps a run the next term is below a tenth of the first"},
-          measured,
-          ""};
+          measured};
 }
 
 }  // namespace
@@ -194,22 +180,16 @@ std::vector<Check> exact_motion_checks() {
   const std::string source = "BMF03 section 3";
   std::vector<Check> list;
   add_for_each_scheme(
-      list, {"dynamics.free-fall-is-exact", "free fall is exact for any steps.", source, {}},
-      free_fall_finding);
-  add_for_each_scheme(
       list,
-      {"dynamics.steady-rotation-keeps-lengths-to-second-order",
-       "the length of a steadily turning stretched pair of the reference is kept to second order.",
-       source,
-       {}},
-      rotation_finding);
-  add_for_each_scheme(list,
-                      {"dynamics.steady-rotation-does-not-drift",
-                       "the length of a turning pair of the reference deviates no more after sixty "
-                       "turns than after six.",
-                       source,
-                       {}},
-                      no_drift_finding);
+      {{"dynamics.free-fall-is-exact", "free fall is exact for any steps.", source,
+        free_fall_finding},
+       {"dynamics.steady-rotation-keeps-lengths-to-second-order",
+        "the length of a steadily turning stretched pair of the reference is kept to second order.",
+        source, rotation_finding},
+       {"dynamics.steady-rotation-does-not-drift",
+        "the length of a turning pair of the reference deviates no more after sixty "
+        "turns than after six.",
+        source, no_drift_finding}});
   list.push_back({"dynamics.explicit-stages-follow-a-driven-end",
                   "Explicit methods keep their order with a prescribed particle: each stage has it "
                   "at its place of that time.",

@@ -1,14 +1,11 @@
 // The methods that the paper's schemes are compared with: the equations of a step, and
 // what limits it.
 #include <fmt/format.h>
-
-#include <cmath>
 #include <numeric>
 
 #include "reference/dynamics/simulate.h"
-#include "verification/checks/dynamics/dynamics_checks.h"
-#include "verification/evidence.h"
 #include "verification/oracles/dense_algebra.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/differences.h"
 #include "verification/specimens/moving_sheets.h"
 #include "verification/specimens/probe.h"
@@ -118,13 +115,7 @@ Finding linearised_step(const Subject& subject) {
     Work uncounted;
     const ForceDifferential differential =
         elastic_differential_at(system.forces, now, Definiteness::semidefinite, uncounted);
-    Eigen::MatrixXd K(now.x.size(), now.x.size());
-    for (Eigen::Index k = 0; k < now.x.size(); ++k) {
-      PerParticle3 unit = PerParticle3::Zero(3, now.x.cols()), product = unit;
-      unit.reshaped()[k] = 1;
-      differential.add_product(unit, product);
-      K.col(k) = product.reshaped();
-    }
+    const Eigen::MatrixXd K = matrix_of(differential, now.x.cols());
     const Eigen::VectorXd mass = system.mass.transpose().replicate(3, 1).reshaped();
     const Eigen::MatrixXd A =
         Eigen::MatrixXd(mass.asDiagonal()) - h * damping_matrix(probe, now) - h * h * K;
@@ -179,8 +170,7 @@ Finding large_steps_finding(const Subject& subject) {
            "one in eighteen: a line search may end where no fraction of the step lowers the "
            "residual. A hinge's force jumps where it folds through half a circle, so an equation "
            "far beyond the limit need not have a solution; a solve that finds none says so"},
-          missed,
-          ""};
+          missed};
 }
 
 /// Shapes at rest far from the origin, held together by springs alone, or by hinges alone: all that
@@ -273,7 +263,7 @@ Finding damping_bound_is_a_bound(const Subject& subject) {
 }
 
 /// Two equal masses joined by a damper: as fast as the bound says.
-Finding damping_rate_is_reached(const Subject&) {
+Finding damping_rate_is_reached() {
   Table measured{{"case", ""}, {"bound over the rate of one damper, less 1", "1"}};
   for (const double mass : {0.3, 2.7}) {
     DampingOperator damper;
@@ -289,7 +279,7 @@ Finding damping_rate_is_reached(const Subject&) {
 }
 
 /// Automatic steps of a sheet whose damping, not its elasticity, limits explicit methods.
-Finding explicit_steps_respect_damping(const Subject&) {
+Finding explicit_steps_respect_damping() {
   Scene scene = free_sheet();
   scene.stretch->damping *= 1000;
   const System system = build_system(scene);
@@ -310,7 +300,7 @@ Finding explicit_steps_respect_damping(const Subject&) {
 }
 
 /// After a step of a hundredth of what is allowed, the next one.
-Finding growth_is_limited(const Subject&) {
+Finding growth_is_limited() {
   const System system = build_system(free_sheet());
   State before = start_state(free_sheet()), now = before;
   now.time = before.time + 1e-5;
@@ -333,7 +323,7 @@ Finding growth_is_limited(const Subject&) {
 
 /// Derivatives of the elastic forces that Newton's method asks for in an iteration, where they are
 /// definite: steps so short that the masses outweigh what springs and hinges under pressure lack.
-Finding newton_asks_finding(const Subject&) {
+Finding newton_asks_finding() {
   const System system = build_system(undamped_sheet());
   const State start = start_state(undamped_sheet());
   Table measured{{"case", ""}, {"derivatives an iteration, more than two", "1"}};
@@ -365,40 +355,43 @@ std::vector<Check> method_checks() {
              "steps included.",
          "Hairer, Norsett, Wanner, Solving Ordinary Differential Equations",
          [method](const Subject& subject) { return satisfies_its_equations(subject, method); }});
-  const std::vector<Check> others = {
-      {"methods.linearised-step-solves-its-equation",
-       "A step of linearised backward Euler is the solution of (M - h D - h^2 K) v = M v_n + h F.",
-       "Baraff and Witkin 1998", linearised_step},
-      {"methods.newton-solves-large-steps",
-       "Newton's method solves at least 34 of 36 steps, up to fifty times the elastic limit, of "
-       "damped and heavily damped crumpled sheets and of a compressed undamped one.",
-       "what BMF03 section 3 expects of a fully implicit method", large_steps_finding},
-      {"methods.newton-accepts-cloth-at-rest",
-       "A step of shapes at rest far from the origin is not counted as unfinished: forces need not "
-       "vanish beyond their rounding error.",
-       "floating-point arithmetic", rest_is_found},
-      {"methods.newton-converges-quickly-on-damped-cloth",
-       "Newton's method takes at most ten iterations a step on heavily damped cloth that turns and "
-       "crumples, at steps up to five times the elastic limit.",
-       "what BMF03 section 3 expects of a fully implicit method", newton_is_quick},
-      {"forces.damping-rate-bound-holds",
-       "The reference's bound on damping rates exceeds the largest rate of crumpled sheets.",
-       "Gershgorin's theorem", damping_bound_is_a_bound},
-      {"dynamics.explicit-steps-respect-the-damping-limit",
-       "Automatic steps of explicit methods obey the damping limit, those of other methods only "
-       "the elastic limit.",
-       limits, explicit_steps_respect_damping},
-      {"dynamics.step-growth-is-limited",
-       "BDF2's steps grow by factors below 1 + sqrt(2); those of one-step methods may grow freely.",
-       limits, growth_is_limited}};
-  checks.insert(checks.end(), others.begin(), others.end());
-  checks.push_back({"methods.newton-computes-no-needless-derivative",
-                    "Where the derivative of the elastic forces is definite, Newton's method "
-                    "computes no second one.",
-                    "ours", newton_asks_finding});
-  checks.push_back({"methods.damping-rate-bound-is-exact-for-one-damper",
-                    "The bound on the damping rate is that of a single damper.", limits,
-                    damping_rate_is_reached});
+  checks.insert(
+      checks.end(),
+      {{"methods.linearised-step-solves-its-equation",
+        "A step of linearised backward Euler is the solution of (M - h D - h^2 K) v = M v_n + h F.",
+        "Baraff and Witkin 1998", linearised_step},
+       {"methods.newton-solves-large-steps",
+        "Newton's method solves at least 34 of 36 steps, up to fifty times the elastic limit, of "
+        "damped and heavily damped crumpled sheets and of a compressed undamped one.",
+        "what BMF03 section 3 expects of a fully implicit method", large_steps_finding},
+       {"methods.newton-accepts-cloth-at-rest",
+        "A step of shapes at rest far from the origin is not counted as unfinished: forces need "
+        "not "
+        "vanish beyond their rounding error.",
+        "floating-point arithmetic", rest_is_found},
+       {"methods.newton-converges-quickly-on-damped-cloth",
+        "Newton's method takes at most ten iterations a step on heavily damped cloth that turns "
+        "and "
+        "crumples, at steps up to five times the elastic limit.",
+        "what BMF03 section 3 expects of a fully implicit method", newton_is_quick},
+       {"forces.damping-rate-bound-holds",
+        "The reference's bound on damping rates exceeds the largest rate of crumpled sheets.",
+        "Gershgorin's theorem", damping_bound_is_a_bound},
+       {"dynamics.explicit-steps-respect-the-damping-limit",
+        "Automatic steps of explicit methods obey the damping limit, those of other methods only "
+        "the elastic limit.",
+        limits, explicit_steps_respect_damping},
+       {"dynamics.step-growth-is-limited",
+        "BDF2's steps grow by factors below 1 + sqrt(2); those of one-step methods may grow "
+        "freely.",
+        limits, growth_is_limited},
+       {"methods.newton-computes-no-needless-derivative",
+        "Where the derivative of the elastic forces is definite, Newton's method "
+        "computes no second one.",
+        "ours", newton_asks_finding},
+       {"methods.damping-rate-bound-is-exact-for-one-damper",
+        "The bound on the damping rate is that of a single damper.", limits,
+        damping_rate_is_reached}});
   return checks;
 }
 

@@ -1,15 +1,9 @@
 // Conservation in every step: momentum and, without damping, reversibility.
-#include <Eigen/Geometry>
-#include <algorithm>
-#include <cmath>
-
 #include "reference/dynamics/conjugate_gradient.h"
 #include "reference/dynamics/system.h"
-#include "verification/checks/dynamics/dynamics_checks.h"
-#include "verification/evidence.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/differences.h"
 #include "verification/specimens/moving_sheets.h"
-#include "verification/specimens/paper_schemes.h"
 #include "verification/specimens/random.h"
 #include "verification/specimens/stepper.h"
 
@@ -142,7 +136,7 @@ std::pair<double, double> truncate(const Truncation& how, double h, unsigned see
           drift(after, before, Momentum::angular, before.angular_size)};
 }
 
-Finding truncated_finding(const Subject&) {
+Finding truncated_finding() {
   const std::vector<Truncation> ways = {{"1 iteration", 1e-14, 1},
                                         {"2 iterations", 1e-14, 2},
                                         {"3 iterations", 1e-14, 3},
@@ -172,33 +166,22 @@ Finding truncated_finding(const Subject&) {
 std::vector<Check> momentum_checks() {
   const std::string source = "BMF03 sections 3 and 4";
   std::vector<Check> list;
-  add_for_each_scheme(list,
-                      {"dynamics.undamped-motion-is-time-reversible",
-                       "an undamped sheet runs back the way that it came.",
-                       source,
-                       {}},
-                      reversal_finding);
-  add_for_each_scheme(list,
-                      {"dynamics.linear-momentum-is-conserved",
-                       "a free damped sheet keeps its linear momentum to rounding, however loose "
-                       "the tolerance of its solves.",
-                       source,
-                       {}},
-                      linear_finding);
-  add_for_each_scheme(list,
-                      {"dynamics.angular-momentum-is-conserved.undamped",
-                       "a free undamped sheet keeps its angular momentum to rounding.",
-                       source,
-                       {}},
-                      undamped_angular_finding);
+  add_for_each_scheme(
+      list, {{"dynamics.undamped-motion-is-time-reversible",
+              "an undamped sheet runs back the way that it came.", source, reversal_finding},
+             {"dynamics.linear-momentum-is-conserved",
+              "a free damped sheet keeps its linear momentum to rounding, however loose "
+              "the tolerance of its solves.",
+              source, linear_finding},
+             {"dynamics.angular-momentum-is-conserved.undamped",
+              "a free undamped sheet keeps its angular momentum to rounding.", source,
+              undamped_angular_finding}});
   std::vector<Check> damped;
   add_for_each_scheme(damped,
-                      {"dynamics.angular-momentum-is-conserved.damped",
-                       "a free damped sheet keeps its angular momentum to rounding, however loose "
-                       "the tolerance of its solves.",
-                       source,
-                       {}},
-                      damped_angular_finding);
+                      {{"dynamics.angular-momentum-is-conserved.damped",
+                        "a free damped sheet keeps its angular momentum to rounding, however loose "
+                        "the tolerance of its solves.",
+                        source, damped_angular_finding}});
   // C moves x with one velocity and carries momentum with another: its drift is O(h^2); a
   // study measures it
   std::erase_if(damped, [](const Check& check) { return check.name.ends_with(".C"); });

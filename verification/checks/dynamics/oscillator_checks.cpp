@@ -1,13 +1,10 @@
 // The schemes on one oscillator, where each is a matrix of two by two.
-#include <cmath>
-
 #include "reference/dynamics/integrator.h"
-#include "verification/checks/dynamics/dynamics_checks.h"
-#include "verification/evidence.h"
 #include "verification/oracles/dense_algebra.h"
 #include "verification/oracles/exact_solutions.h"
-#include "verification/specimens/paper_schemes.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/random.h"
+#include "verification/specimens/stepper.h"
 
 namespace foldproof {
 
@@ -43,11 +40,6 @@ State one_particle(double x, double v) {
   return {0, PerParticle3(Vector3(x, 0, 0)), PerParticle3(Vector3(v, 0, 0))};
 }
 
-State step_once(const std::string& integrator, const System& system, const State& s, double h) {
-  Work work;
-  return integrator_named(integrator).step(system, {&s, 1}, h, work);
-}
-
 /// The reference's step matrix, found by stepping the two unit vectors.
 Eigen::Matrix2d stepped_matrix(const std::string& integrator, const Oscillator& oscillator,
                                double h) {
@@ -59,7 +51,7 @@ Eigen::Matrix2d stepped_matrix(const std::string& integrator, const Oscillator& 
   return matrix;
 }
 
-Finding verlet_finding(const Subject&, const std::string& integrator) {
+Finding verlet_finding(const std::string& integrator) {
   const std::vector<std::pair<Oscillator, double>> cases = {
       {{27.25, 0, 0.6875, -1.84375}, 0.140625}, {{11.375, 0, -0.40625, 0.78125}, 0.53125}};
   Table errors{{"omega h", "1"}, {"error over amplitude", "1"}};
@@ -84,8 +76,7 @@ Finding verlet_finding(const Subject&, const std::string& integrator) {
        "1,000 steps of five roundings that add up like a random walk: sqrt(5000)/2 = 35 epsilon of "
        "the amplitude, and up to five times that at the worst step near the stability limit. The "
        "constants have few bits, so that no rounding is the same in every step"},
-      errors,
-      ""};
+      errors};
 }
 
 /// Sums of the absolute values of the terms that make an entry of the step matrix, explicit
@@ -99,7 +90,7 @@ Eigen::Matrix2d term_sizes(const std::string& integrator, const Oscillator& osci
   return sizes;
 }
 
-Finding matrix_finding(const Subject&, const std::string& integrator) {
+Finding matrix_finding(const std::string& integrator) {
   const Scheme scheme = scheme_named(integrator);
   Random random(12);
   Table errors{{"h c/2", "1"}, {"h^2 k/2", "1"}, {"error", "epsilon of the terms"}};
@@ -117,15 +108,14 @@ Finding matrix_finding(const Subject&, const std::string& integrator) {
   return {{errors.worst("error"), 16, 0.5, "epsilon of the terms",
            "about twenty roundings lie between the unit vector and an entry, half an epsilon each, "
            "and one correction of the solve"},
-          errors,
-          ""};
+          errors};
 }
 
 double spectral_radius(const Eigen::Matrix2d& matrix) {
   return oracles::eigenvalues(matrix).cwiseAbs().maxCoeff();
 }
 
-Finding stability_finding(const Subject&, const std::string& integrator) {
+Finding stability_finding(const std::string& integrator) {
   constexpr double threshold = 1e-10;
   const Scheme scheme = scheme_named(integrator);
   const std::vector<double> over_limit = {0.03,     0.21,     0.57, 0.83, 0.97,
@@ -150,11 +140,10 @@ Finding stability_finding(const Subject&, const std::string& integrator) {
   return {{misjudged, 0, 0, "1",
            "a step is stable if the spectral radius is at most 1 + 1e-10: rounding moves it by "
            "1e-13 at most, and a millionth beyond the limit it exceeds 1 by 1e-8 at least"},
-          wrong,
-          ""};
+          wrong};
 }
 
-Finding pure_damping_finding(const Subject&, const std::string& integrator) {
+Finding pure_damping_finding(const std::string& integrator) {
   const double c = 7.3, v0 = -0.83;
   Worst worst;
   Table totals{{"h c/2", "1"}, {"displacement over exact", "1"}};
@@ -177,8 +166,7 @@ Finding pure_damping_finding(const Subject&, const std::string& integrator) {
   return {{worst.value(), 4, 0, "epsilon of the path, a step",
            "each step rounds the position once and the velocity about six times; (1 + h c/2) is "
            "the ratio of the terms to the velocity left after they cancel"},
-          totals,
-          ""};
+          totals};
 }
 
 }  // namespace
@@ -186,22 +174,20 @@ Finding pure_damping_finding(const Subject&, const std::string& integrator) {
 std::vector<Check> oscillator_checks() {
   const std::string source = "BMF03 section 3", derived = "derived from BMF03 section 3";
   std::vector<Check> list;
-  const auto add = [&](const char* name, const char* claim, const std::string& from,
-                       const auto& run) {
-    add_for_each_scheme(list, {name, claim, from, {}}, run);
-  };
-  add("dynamics.undamped-oscillator-matches-velocity-verlet",
-      "the reference's undamped oscillator is velocity Verlet's.", source, verlet_finding);
-  add("dynamics.step-matrix-is-as-derived",
-      "the reference's step on the damped oscillator is the derived matrix.", derived,
-      matrix_finding);
-  add("dynamics.stability-limit-is-as-derived",
-      "the reference is stable on the damped oscillator up to the derived step and not beyond.",
-      derived, stability_finding);
-  add("dynamics.pure-damping-displacement-is-as-derived",
-      "a particle that is only damped travels 1 - (h c/2)^2 times the exact distance in the "
-      "reference's A, and the exact distance in B and C.",
-      derived, pure_damping_finding);
+  add_for_each_scheme(
+      list,
+      {{"dynamics.undamped-oscillator-matches-velocity-verlet",
+        "the reference's undamped oscillator is velocity Verlet's.", source, verlet_finding},
+       {"dynamics.step-matrix-is-as-derived",
+        "the reference's step on the damped oscillator is the derived matrix.", derived,
+        matrix_finding},
+       {"dynamics.stability-limit-is-as-derived",
+        "the reference is stable on the damped oscillator up to the derived step and not beyond.",
+        derived, stability_finding},
+       {"dynamics.pure-damping-displacement-is-as-derived",
+        "a particle that is only damped travels 1 - (h c/2)^2 times the exact distance in the "
+        "reference's A, and the exact distance in B and C.",
+        derived, pure_damping_finding}});
   return list;
 }
 

@@ -1,9 +1,6 @@
 // Methods of other papers on small cloth: Newmark's implicit one, and Baraff and Witkin's solve.
-#include <algorithm>
-#include <cmath>
-
 #include "reference/mesh/shapes.h"
-#include "verification/checks/dynamics/dynamics_checks.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/dense_steps.h"
 #include "verification/specimens/random.h"
 

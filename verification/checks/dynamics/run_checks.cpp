@@ -1,44 +1,25 @@
 // Runs: frames at their times, steps within their limits, and stops that say what happened.
-#include <cmath>
-
 #include "reference/dynamics/simulate.h"
 #include "reference/mesh/shapes.h"
-#include "verification/checks/dynamics/dynamics_checks.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/differences.h"
+#include "verification/specimens/followed_runs.h"
 #include "verification/specimens/moving_sheets.h"
+#include "verification/specimens/stepper.h"
 
 namespace foldproof {
 
-Table no_statements() { return {{"statement", "1"}, {"true", "1"}}; }
-
-double count_false(const Table& statements) {
-  double wrong = statements.rows() == 0 ? NAN : 0;
-  for (const double one : statements.numbers("true")) wrong += 1 - one;
-  return wrong;
-}
-
 namespace {
 
-/// A run with all that its observer saw.
-struct RecordedRun {
-  std::vector<State> frames;
-  std::vector<Diagnostics> rows;
-  RunResult result;
-};
-
-RecordedRun record_run(const System& system, const std::string& integrator, const State& start,
-                       const Schedule& schedule) {
-  RecordedRun run;
-  const Observer observer{[&](const State& s) { run.frames.push_back(s); },
-                          [&](const Diagnostics& row) { run.rows.push_back(row); }};
-  run.result = simulate(system, integrator_named(integrator), start, schedule, observer);
-  return run;
+Followed record_run(const System& system, const std::string& integrator, const State& start,
+                    const Schedule& schedule) {
+  return followed_run(system, integrator_named(integrator), start, schedule);
 }
 
 /// Defects in the frames and steps of a run that should have `frames` frames: the largest error in
 /// time [s], of a product and a sum that may be rounded as one; NaN for a wrong count or a step
 /// longer than the one asked for.
-double frame_error(const RecordedRun& run, const Schedule& schedule, size_t frames) {
+double frame_error(const Followed& run, const Schedule& schedule, size_t frames) {
   Worst worst;
   if (run.frames.size() != frames || run.result.stop) worst.observe(NAN);
   const double start = run.frames.front().time, fixed = schedule.step.fixed;
@@ -57,7 +38,7 @@ double frame_error(const RecordedRun& run, const Schedule& schedule, size_t fram
   return worst.value();
 }
 
-Finding frames_finding(const Subject&) {
+Finding frames_finding() {
   const double interval = 0.0113, length = 0.0517;  // four whole intervals and a rest
   Scene scene = partly_prescribed_sheet();
   scene.prescribed.clear();  // their paths begin at time 0, these runs do not
@@ -90,7 +71,7 @@ double strain_in(const Scene& scene, const State& s, double h) {
   return worst.value();
 }
 
-Finding limits_finding(const Subject&) {
+Finding limits_finding() {
   constexpr size_t least_steps = 4;  // fewer say nothing of how a step follows the cloth
   Worst worst;
   Table used{{"speed", "1"},
@@ -104,14 +85,13 @@ Finding limits_finding(const Subject&) {
       scene.schedule = {0.031, 0.0173, {0, 0.37, strain}, 100000};
       const System system = build_system(scene);
       State s = start_state(scene);
-      const RecordedRun run = record_run(system, "C", s, scene.schedule);
+      const Followed run = record_run(system, "C", s, scene.schedule);
       Worst of_limit, of_strain;
       for (size_t n = 1; n < run.rows.size(); ++n) {  // the run again, step by step
         const double h = run.rows[n].step;
         of_limit.observe(h / (0.37 * elastic_limit(system, s)));
         of_strain.observe(strain_in(scene, s, h) / strain);
-        Work work;
-        s = integrator_named("C").step(system, {&s, 1}, h, work);
+        s = step_once("C", system, s, h);
         s.time = run.rows[n].time;
       }
       if (run.rows.size() <= least_steps || largest_difference(s.x, run.result.last.x) != 0)
@@ -143,7 +123,7 @@ bool all_finite(const std::vector<State>& frames) {
   return true;
 }
 
-void add_common(Table& statements, const RecordedRun& run) {
+void add_common(Table& statements, const Followed& run) {
   statements.row("it stopped", run.result.stop.has_value());
   if (!run.result.stop) return;
   statements.row("the time is that of the last good state",
@@ -154,19 +134,18 @@ void add_common(Table& statements, const RecordedRun& run) {
   statements.row("the last good state is finite", all_finite({run.result.last}));
 }
 
-Finding divergence_finding(const Subject&) {
+Finding divergence_finding() {
   const Scene scene = undamped_sheet();
   const System system = build_system(scene);
   const State start = start_state(scene);
   const double h = 3 * elastic_limit(system, start);
-  const RecordedRun run = record_run(system, "C", start, {400 * h, 2 * h, {h, 0.5, 0.1}, 100000});
+  const Followed run = record_run(system, "C", start, {400 * h, 2 * h, {h, 0.5, 0.1}, 100000});
   Table statements = no_statements();
   add_common(statements, run);
   if (run.result.stop) {
     const Stop& stop = *run.result.stop;
-    Work work;
     const State& last = run.result.last;
-    const State next = integrator_named("C").step(system, {&last, 1}, h, work);
+    const State next = step_once("C", system, last, h);
     Eigen::Index farthest = 0;
     (next.x - last.x).colwise().norm().maxCoeff(&farthest);
     statements.row("the reason says divergence",
@@ -184,7 +163,7 @@ Finding divergence_finding(const Subject&) {
   return judged_statements(statements, "fixed steps of three times the elastic limit");
 }
 
-Finding nan_finding(const Subject&) {
+Finding nan_finding() {
   Scene scene = partly_prescribed_sheet();
   scene.stretch.reset();
   scene.bending.reset();
@@ -194,7 +173,7 @@ Finding nan_finding(const Subject&) {
     if (s.time > 0.0221) f(1, 5) = NAN;
   };
   system.forces.push_back(force);
-  const RecordedRun run =
+  const Followed run =
       record_run(system, "C", start_state(scene), {0.1, 0.01, {0.0034, 0.5, 0.1}, 100000});
   Table statements = no_statements();
   add_common(statements, run);
@@ -207,7 +186,7 @@ Finding nan_finding(const Subject&) {
   return judged_statements(statements, "a force becomes NaN after 0.0221 s, in the seventh step");
 }
 
-Finding lost_triangle_finding(const Subject&) {
+Finding lost_triangle_finding() {
   const double length = 0.43, duration = 0.05;
   Scene scene = scene_at_rest(make_hinge(length, 0.31), 0.21);
   scene.bending = BendingMaterial{3.7e-4, 1.9e-6, Weighting::rest, DampingFactor::edge, "sine"};
@@ -216,8 +195,8 @@ Finding lost_triangle_finding(const Subject&) {
   squeeze.velocity = Vector3(0, -0.9 * length / duration, 0);
   scene.prescribed = {
       {0, scene.x.col(0), squeeze}, {2, scene.x.col(2), Motion{}}, {3, scene.x.col(3), Motion{}}};
-  const RecordedRun run = record_run(build_system(scene), "C", start_state(scene),
-                                     {0.2, 0.01, {0.0025, 0.5, 0.1}, 100000});
+  const Followed run = record_run(build_system(scene), "C", start_state(scene),
+                                  {0.2, 0.01, {0.0025, 0.5, 0.1}, 100000});
   Table statements = no_statements();
   add_common(statements, run);
   if (run.result.stop) {
@@ -235,9 +214,9 @@ Finding lost_triangle_finding(const Subject&) {
       "a vertex is moved into the opposite edge, which it reaches at the end of step 20");
 }
 
-Finding cap_finding(const Subject&) {
+Finding cap_finding() {
   const Scene scene = free_sheet();
-  const RecordedRun run =
+  const Followed run =
       record_run(build_system(scene), "B", start_state(scene), {0.1, 0.01, {0.002, 0.5, 0.1}, 13});
   Table statements = no_statements();
   add_common(statements, run);
@@ -249,11 +228,11 @@ Finding cap_finding(const Subject&) {
   return judged_statements(statements, "a cap of 13 steps");
 }
 
-Finding standstill_finding(const Subject&) {
+Finding standstill_finding() {
   const Scene scene = free_sheet();
   State start = start_state(scene);
   start.time = 1;
-  const RecordedRun run =
+  const Followed run =
       record_run(build_system(scene), "B", start, {1.1, 0.01, {1e-17, 0.5, 0.1}, 20});
   Table statements = no_statements();
   add_common(statements, run);

@@ -2,14 +2,12 @@
 #include "reference/dynamics/conjugate_gradient.h"
 #include "reference/dynamics/system.h"
 #include "reference/mesh/shapes.h"
-#include "verification/checks/dynamics/dynamics_checks.h"
-#include "verification/evidence.h"
 #include "verification/oracles/dense_algebra.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/moving_sheets.h"
 #include "verification/specimens/random.h"
 #include "verification/specimens/solver_problems.h"
 #include "verification/specimens/stepper.h"
-#include <cmath>
 
 namespace foldproof {
 
@@ -27,6 +25,22 @@ double largest_eigenvalue(const DenseProblem& dense) {
   return values.maxCoeff();
 }
 
+/// A solve of a problem, for half a step s [s].
+struct Solved {
+  PerParticle3 w;  // 3 x N [m/s], solved for
+  Work work = {};
+  SolveResult result = {};
+};
+
+Solved solve_problem(const Problem& problem, const SolverSettings& settings, double s,
+                     const PerParticle3& guess) {
+  Solved solved{guess};
+  solved.result =
+      solve_velocity(system_of(problem.system.mass, problem.system.inverse_mass, settings),
+                     problem.damping, s, solved.w, solved.work);
+  return solved;
+}
+
 /// Solves to many tolerances: the residual returned and recomputed, and |A| |w| of the solution,
 /// where A is the operator of mass-weighted velocities.
 Table residual_table() {
@@ -39,16 +53,11 @@ Table residual_table() {
       const DenseProblem dense = make_dense(problem, s);
       const double largest = largest_eigenvalue(dense);
       for (double tolerance : {1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12}) {
-        PerParticle3 w = problem.guess;
-        Work work;
-        const SolveResult solve = solve_velocity(
-            system_of(problem.system.mass, problem.system.inverse_mass, {tolerance, 1000, scale}),
-            problem.damping, s, w, work);
-        const Eigen::VectorXd r = dense.b - dense.A * Eigen::VectorXd(w.reshaped()(dense.free));
-        const Eigen::VectorXd momentum =
-            dense.mass.cwiseProduct(Eigen::VectorXd(w.reshaped()(dense.free)));
+        const Solved solved = solve_problem(problem, {tolerance, 1000, scale}, s, problem.guess);
+        const Eigen::VectorXd w = solved.w.reshaped()(dense.free), r = dense.b - dense.A * w,
+                              momentum = dense.mass.cwiseProduct(w);
         const double size = scale_of(dense, scale);
-        table.row(name_of_scale(scale), s, tolerance, solve.residual,
+        table.row(name_of_scale(scale), s, tolerance, solved.result.residual,
                   weighted_norm(r, dense.mass) / size,
                   largest * weighted_norm(momentum, dense.mass) / size);
       }
@@ -56,7 +65,7 @@ Table residual_table() {
   return table;
 }
 
-Finding promise_finding(const Subject&) {
+Finding promise_finding() {
   const Table table = residual_table();
   const std::vector<double>&tolerance = table.numbers("tolerance"),
         &recomputed = table.numbers("recomputed");
@@ -70,7 +79,7 @@ Finding promise_finding(const Subject&) {
           "dampers."};
 }
 
-Finding returned_finding(const Subject&) {
+Finding returned_finding() {
   const Table table = residual_table();
   const std::vector<double>&returned = table.numbers("returned"),
         &recomputed = table.numbers("recomputed");
@@ -81,22 +90,18 @@ Finding returned_finding(const Subject&) {
   return {{worst.value(), 8, 0, "epsilon of the operator's norm times the solution's",
            "each iteration rounds r in proportion to the operator times the iterate (Greenbaum "
            "1997), and the first few, whose corrections are the largest, decide"},
-          table,
-          ""};
+          table};
 }
 
-Finding cholesky_finding(const Subject&) {
+Finding cholesky_finding() {
   Worst worst;
   Table errors{{"half step", "s"}, {"tolerance", "1"}, {"error over the velocity", "1"}};
   for (double s : {2.3e-4, 3.1e-3, 0.047})
     for (double tolerance : {1e-3, 1e-11}) {
       const Problem problem = make_problem(partly_prescribed_sheet(), 29);
       const DenseProblem dense = make_dense(problem, s);
-      PerParticle3 w = problem.guess;
-      Work work;
-      solve_velocity(system_of(problem.system.mass, problem.system.inverse_mass,
-                               {tolerance, 1000, ResidualScale::momentum}),
-                     problem.damping, s, w, work);
+      const PerParticle3 w =
+          solve_problem(problem, {tolerance, 1000, ResidualScale::momentum}, s, problem.guess).w;
       const Eigen::VectorXd exact = oracles::solve_symmetric(dense.A, dense.b);
       const Eigen::VectorXd error =
           dense.mass.cwiseProduct(Eigen::VectorXd(w.reshaped()(dense.free)) - exact);
@@ -137,7 +142,7 @@ SolveResult solve_with_rates(int k, unsigned seed) {
       0.19, v, work);
 }
 
-Finding eigenvalue_finding(const Subject&) {
+Finding eigenvalue_finding() {
   Worst worst;
   Table solves{{"distinct eigenvalues", "1"}, {"iterations", "1"}};
   for (int k = 1; k <= 7; ++k) {
@@ -149,36 +154,33 @@ Finding eigenvalue_finding(const Subject&) {
   return {{worst.value(), 0, 0, "iterations",
            "conjugate gradients are exact after as many iterations as there are distinct "
            "eigenvalues in the residual; particles without damping are not in it"},
-          solves,
-          ""};
+          solves};
 }
 
 /// Number of false reports of a solve that may not finish, and of one that cannot.
-Finding cap_finding(const Subject&) {
+Finding cap_finding() {
   const Problem problem = make_problem(free_sheet(), 3);
-  const auto solve = [&](const SolverSettings& settings, PerParticle3 w, Work& work) {
-    return solve_velocity(system_of(problem.system.mass, problem.system.inverse_mass, settings),
-                          problem.damping, 0.047, w, work);
+  const auto solve = [&](double tolerance, int cap, const PerParticle3& guess) {
+    return solve_problem(problem, {tolerance, cap, ResidualScale::momentum}, 0.047, guess);
   };
   PerParticle3 spoiled = problem.guess;
-  spoiled(1, 6) = std::numeric_limits<double>::quiet_NaN();
-  Work capped, finished, broken;
-  const SolveResult cap = solve({1e-13, 3, ResidualScale::momentum}, problem.guess, capped);
-  const SolveResult whole = solve({1e-6, 500, ResidualScale::momentum}, problem.guess, finished);
-  const SolveResult nan = solve({1e-6, 500, ResidualScale::momentum}, spoiled, broken);
+  spoiled(1, 6) = nan;
+  const Solved capped = solve(1e-13, 3, problem.guess), finished = solve(1e-6, 500, problem.guess),
+               broken = solve(1e-6, 500, spoiled);
+  const SolveResult &cap = capped.result, &whole = finished.result;
   Table holds = no_statements();
   holds.row("a capped solve is not converged", !cap.converged);
-  holds.row("it took the cap's iterations", cap.iterations == 3 && capped.cg_iterations == 3);
+  holds.row("it took the cap's iterations", cap.iterations == 3 && capped.work.cg_iterations == 3);
   holds.row("its residual is above the tolerance", cap.residual > 1e-13);
-  holds.row("it is counted as unfinished", capped.unfinished_solves == 1);
-  holds.row("its residual is recorded", capped.worst_residual == cap.residual);
+  holds.row("it is counted as unfinished", capped.work.unfinished_solves == 1);
+  holds.row("its residual is recorded", capped.work.worst_residual == cap.residual);
   holds.row("a whole solve is converged", whole.converged && whole.residual <= 1e-6);
   holds.row("it is not counted as unfinished",
-            finished.unfinished_solves == 0 && finished.solves == 1);
-  holds.row("NaN is not converged", !nan.converged);
-  holds.row("NaN is counted as unfinished", broken.unfinished_solves == 1);
-  holds.row("NaN is recorded", std::isnan(broken.worst_residual));
-  return {{count_false(holds), 0, 0, "false reports", "a report is true or false"}, holds, ""};
+            finished.work.unfinished_solves == 0 && finished.work.solves == 1);
+  holds.row("NaN is not converged", !broken.result.converged);
+  holds.row("NaN is counted as unfinished", broken.work.unfinished_solves == 1);
+  holds.row("NaN is recorded", std::isnan(broken.work.worst_residual));
+  return {{count_false(holds), 0, 0, "false reports", "a report is true or false"}, holds};
 }
 
 Finding operator_finding(const Subject& subject) {
@@ -212,7 +214,7 @@ Finding operator_finding(const Subject& subject) {
           "the operator is I - s M^{-1/2} D M^{-1/2}"};
 }
 
-Finding rigid_finding(const Subject&) {
+Finding rigid_finding() {
   const Problem problem = make_problem(free_sheet(), 3);
   const Vector3 spin(2.3, -1.7, 0.6), drift(0.4, 3.1, -0.7);
   PerParticle3 v(3, problem.s.x.cols());
@@ -220,20 +222,14 @@ Finding rigid_finding(const Subject&) {
     const Vector3 arm = problem.s.x.col(i);
     v.col(i) = drift + spin.cross(arm);
   }
-  const PerParticle3 before = v;
-  Work work;
-  const SolveResult solve =
-      solve_velocity(system_of(problem.system.mass, problem.system.inverse_mass,
-                               {1e-12, 100, ResidualScale::momentum}),
-                     problem.damping, 0.047, v, work);
+  const Solved solved = solve_problem(problem, {1e-12, 100, ResidualScale::momentum}, 0.047, v);
   Worst worst;
-  worst.observe(solve.iterations);
-  worst.observe(double((v.array() != before.array()).count()));
+  worst.observe(solved.result.iterations);
+  worst.observe(double((solved.w.array() != v.array()).count()));
   return {
       {worst.value(), 0, 0, "iterations",
        "no damper resists a rigid motion: the explicit guess is the solution, and is not touched"},
-      Table{{"residual", "1"}}.with_row(solve.residual),
-      ""};
+      Table{{"residual", "1"}}.with_row(solved.result.residual)};
 }
 
 /// |b - (M - s D) w| over |M w0|, weighted with the masses, of a problem without known
@@ -249,7 +245,7 @@ double residual_left(const Problem& problem, double s, const PerParticle3& w) {
   return std::sqrt(squared(r) / squared(problem.guess * mass.asDiagonal()));
 }
 
-Finding large_finding(const Subject&) {
+Finding large_finding() {
   constexpr double tolerance = 1e-7;
   Table measured{{"case", ""}, {"residual left", "of the tolerance"}};
   // 441, 529, 1024 and 2116 particles: less than one block, more, two blocks, five
@@ -260,16 +256,12 @@ Finding large_finding(const Subject&) {
     scene.bending = BendingMaterial{0.0037, 0.00053, Weighting::rest, DampingFactor::edge, "sine"};
     scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
     const Problem problem = make_problem(scene, 97);
-    PerParticle3 w = problem.guess;
-    Work work;
     const SolverSettings settings{tolerance, 200, ResidualScale::momentum};
-    const SolveResult solve =
-        solve_velocity(system_of(problem.system.mass, problem.system.inverse_mass, settings),
-                       problem.damping, 3.1e-3, w, work);
-    measured.row(std::to_string(w.cols()) + " particles",
-                 residual_left(problem, 3.1e-3, w) / tolerance);
-    measured.row(std::to_string(w.cols()) + " particles, as returned",
-                 solve.converged ? solve.residual / tolerance : nan);
+    const Solved solved = solve_problem(problem, settings, 3.1e-3, problem.guess);
+    const std::string name = std::to_string(scene.x.cols()) + " particles";
+    measured.row(name, residual_left(problem, 3.1e-3, solved.w) / tolerance);
+    measured.row(name + ", as returned",
+                 solved.result.converged ? solved.result.residual / tolerance : nan);
   }
   return judge_worst(
       measured, 1.05,

@@ -1,14 +1,9 @@
 // The lines of the schemes, one by one: what is modified, what continues from what, what is
 // led and counted.
-#include <Eigen/Geometry>
-#include <cmath>
-
 #include "reference/dynamics/integrator.h"
-#include "verification/checks/dynamics/dynamics_checks.h"
-#include "verification/evidence.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/differences.h"
 #include "verification/specimens/moving_sheets.h"
-#include "verification/specimens/paper_schemes.h"
 #include "verification/specimens/stepper.h"
 
 namespace foldproof {
@@ -71,12 +66,11 @@ FilteredStep filtered_step(const std::string& integrator, double h) {
   system.filters.emplace_back(filter);
   result.now = start_state(scene);
   result.now.time = 0.37;
-  Work work;
-  result.next = integrator_named(integrator).step(system, {&result.now, 1}, h, work);
+  result.next = step_once(integrator, system, result.now, h);
   return result;
 }
 
-Finding filter_finding(const Subject&, const std::string& integrator) {
+Finding filter_finding(const std::string& integrator) {
   const double h = 1.7e-3;
   const FilteredStep step = filtered_step(integrator, h);
   const bool ends = integrator != "B";
@@ -118,9 +112,8 @@ double end_velocity(const std::string& integrator, double h, double c, double g,
   };
   system.filters.emplace_back(filter);
   system.solver.tolerance = 1e-15;
-  Work work;
   const State s{0, PerParticle3::Zero(3, 1), PerParticle3(Vector3(v, 0, 0))};
-  return integrator_named(integrator).step(system, {&s, 1}, h, work).v(0, 0);
+  return step_once(integrator, system, s, h).v(0, 0);
 }
 
 /// The same by the printed lines: B continues from the filtered velocity, A and C do not.
@@ -168,8 +161,7 @@ Finding held_finding(const Subject& subject) {
   }
   return {{counts.worst("numbers that differ"), 0, 0, "numbers that differ",
            "held particles have velocity 0 and keep every bit of their position"},
-          counts,
-          ""};
+          counts};
 }
 
 /// Where a led point is, straight from the definition of Motion, the rotation by
@@ -211,21 +203,25 @@ Finding led_finding(const Subject& subject, const std::string& integrator) {
           "Compared after each of 200 uneven steps; the size is 1 m, or the point's top speed."};
 }
 
+constexpr int counted_steps = 7;
+
+Work work_of_steps(const Subject& subject, const Integrator& integrator) {
+  Stepper stepper(subject, partly_prescribed_sheet(), std::string(integrator.name));
+  stepper.run(stepper.start(), 1.3e-3, counted_steps);
+  return stepper.work();
+}
+
 Finding counts_finding(const Subject& subject) {
   Worst worst;
   Table solves{{"integrator", "1"}, {"solves a step", "1"}};
-  const int steps = 7;
   for (const Integrator& integrator : paper_schemes()) {
-    Stepper stepper(subject, partly_prescribed_sheet(), std::string(integrator.name));
-    stepper.run(stepper.start(), 1.3e-3, steps);
-    const double counted = double(stepper.work().solves) / steps;
+    const double counted = double(work_of_steps(subject, integrator).solves) / counted_steps;
     solves.row(integrator.name, counted);
     worst.observe(std::abs(counted - (integrator.name == "C" ? 2 : 1)));
   }
   return {{worst.value(), 0, 0, "solves a step",
            "counts are exact: the paper's lists have one implicit line in A and B, two in C"},
-          solves,
-          ""};
+          solves};
 }
 
 Finding once_finding(const Subject& subject) {
@@ -234,11 +230,9 @@ Finding once_finding(const Subject& subject) {
                {"preparations a step", "1"},
                {"products a step", "1"},
                {"iterations a step", "1"}};
-  const int steps = 7;
+  constexpr int steps = counted_steps;
   for (const Integrator& integrator : paper_schemes()) {
-    Stepper stepper(subject, partly_prescribed_sheet(), std::string(integrator.name));
-    stepper.run(stepper.start(), 1.3e-3, steps);
-    const Work& work = stepper.work();
+    const Work work = work_of_steps(subject, integrator);
     counts.row(integrator.name, double(work.damping_preparations) / steps,
                double(work.damping_products) / steps, double(work.cg_iterations) / steps);
     worst.observe(std::abs(double(work.damping_preparations - 2 * steps)));
@@ -252,8 +246,7 @@ Finding once_finding(const Subject& subject) {
   return {{worst.value(), 0, 0, "evaluations",
            "counts are exact: a step has two sets of positions, and every product uses the terms "
            "prepared there"},
-          counts,
-          ""};
+          counts};
 }
 
 }  // namespace
@@ -267,13 +260,13 @@ std::vector<Check> step_checks() {
        source, [](const Subject& subject) { return trapezoidal_finding(subject, "A"); }},
       {"dynamics.A-continues-from-the-unmodified-velocity",
        "The reference's end velocity in A continues from v*, not from the filtered velocity.",
-       source, [](const Subject&) { return continues_finding("A"); }},
+       source, []() { return continues_finding("A"); }},
       {"dynamics.B-continues-from-the-modified-velocity",
        "The reference's end velocity in B continues from the filtered velocity.", source,
-       [](const Subject&) { return continues_finding("B"); }},
+       []() { return continues_finding("B"); }},
       {"dynamics.C-continues-from-the-start-velocity",
        "The reference's end velocity in C continues from v_n, whatever a filter did.", source,
-       [](const Subject&) { return continues_finding("C"); }},
+       []() { return continues_finding("C"); }},
       {"dynamics.held-particles-do-not-move",
        "Held particles do not move, whatever forces act on them.", "our reading of BMF03 section 3",
        held_finding},
@@ -283,20 +276,14 @@ std::vector<Check> step_checks() {
        "Forces and the position-dependent terms of damping are evaluated twice a step, however "
        "many products a solve needs.",
        source, once_finding}};
-  add_for_each_scheme(list,
-                      {"dynamics.cloth-moves-with-the-filtered-velocity",
-                       "the reference moves the cloth with exactly the filtered velocity, and "
-                       "filters the end velocity where the paper does.",
-                       source,
-                       {}},
-                      filter_finding);
   add_for_each_scheme(
-      list,
-      {"dynamics.prescribed-particles-follow-their-path",
-       "prescribed particles are on their path, with its velocity, after every step.",
-       "our reading of BMF03 section 3",
-       {}},
-      led_finding);
+      list, {{"dynamics.cloth-moves-with-the-filtered-velocity",
+              "the reference moves the cloth with exactly the filtered velocity, and "
+              "filters the end velocity where the paper does.",
+              source, filter_finding},
+             {"dynamics.prescribed-particles-follow-their-path",
+              "prescribed particles are on their path, with its velocity, after every step.",
+              "our reading of BMF03 section 3", led_finding}});
   return list;
 }
 

@@ -1,13 +1,8 @@
 // Invariance of the answer under changes of units, the frame of reference, the day on
 // which it is run.
-#include <Eigen/Geometry>
-#include <cmath>
-
-#include "verification/checks/dynamics/dynamics_checks.h"
-#include "verification/evidence.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/differences.h"
 #include "verification/specimens/moving_sheets.h"
-#include "verification/specimens/paper_schemes.h"
 #include "verification/specimens/stepper.h"
 
 namespace foldproof {
@@ -83,8 +78,7 @@ Finding powers_finding(const Subject& subject, const std::string& integrator) {
   }
   return {{differing.worst("numbers that differ"), 0, 0, "numbers that differ",
            "a power of two changes no digit of any number on the way"},
-          differing,
-          ""};
+          differing};
 }
 
 Finding units_finding(const Subject& subject, const std::string& integrator) {
@@ -157,28 +151,19 @@ Finding frame_finding(const Subject& subject, const std::string& integrator) {
 
 std::vector<Check> symmetry_checks() {
   std::vector<Check> list;
-  add_for_each_scheme(list,
-                      {"dynamics.scaling-laws-hold",
-                       "units changed by powers of two give the same bits.",
-                       "dimensional analysis",
-                       {}},
-                      powers_finding);
-  add_for_each_scheme(list,
-                      {"dynamics.units-do-not-matter",
-                       "a change of units by any factor gives the same motion to rounding.",
-                       "dimensional analysis",
-                       {}},
-                      units_finding);
+  add_for_each_scheme(
+      list, {{"dynamics.scaling-laws-hold", "units changed by powers of two give the same bits.",
+              "dimensional analysis", powers_finding},
+             {"dynamics.units-do-not-matter",
+              "a change of units by any factor gives the same motion to rounding.",
+              "dimensional analysis", units_finding}});
   list.push_back({"dynamics.runs-are-bitwise-reproducible",
                   "Two runs from the same start end with the same bits.", "reproducibility",
                   twice_finding});
-  add_for_each_scheme(
-      list,
-      {"dynamics.translation-rotation-invariance-holds",
-       "a rotated, shifted and uniformly moving start gives the rotated, shifted and moved result.",
-       "Galilean invariance",
-       {}},
-      frame_finding);
+  add_for_each_scheme(list, {{"dynamics.translation-rotation-invariance-holds",
+                              "a rotated, shifted and uniformly moving start gives the rotated, "
+                              "shifted and moved result.",
+                              "Galilean invariance", frame_finding}});
   return list;
 }
 

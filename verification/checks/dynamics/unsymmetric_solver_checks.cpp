@@ -1,13 +1,11 @@
 // The reference's solver for Newton steps whose matrix is not symmetric, against dense
 // linear algebra.
-#include <cmath>
-
 #include "reference/dynamics/biconjugate_gradient.h"
 #include "reference/dynamics/system.h"
-#include "verification/checks/dynamics/dynamics_checks.h"
-#include "verification/evidence.h"
 #include "verification/oracles/dense_algebra.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/moving_sheets.h"
+#include "verification/specimens/probe.h"
 #include "verification/specimens/random.h"
 
 namespace foldproof {
@@ -33,17 +31,14 @@ struct NewtonProblem {
 /// Columns of D and K come from products with unit vectors, and are put together here.
 void make_dense(NewtonProblem& problem) {
   const Eigen::Index n = problem.r.size();
-  Eigen::MatrixXd whole(n, n);
-  for (Eigen::Index k = 0; k < n; ++k) {
-    PerParticle3 unit = PerParticle3::Zero(3, n / 3), D = unit, K = unit;
-    unit.reshaped()[k] = 1;
+  const Eigen::MatrixXd whole = matrix_of(n / 3, [&](const PerParticle3& unit) -> PerParticle3 {
+    PerParticle3 D = PerParticle3::Zero(3, n / 3), K = D;
     problem.damping.add_product(unit, D);
     problem.derivative.add_product(unit, K);
-    const PerParticle3 column =
-        unit * problem.system.mass.asDiagonal() - problem.s * D - problem.s * problem.s * K;
-    whole.col(k) = column.reshaped();
+    return unit * problem.system.mass.asDiagonal() - problem.s * D - problem.s * problem.s * K;
+  });
+  for (Eigen::Index k = 0; k < n; ++k)
     if (problem.system.inverse_mass[k / 3] != 0) problem.free.push_back(k);
-  }
   problem.root_mass.resize(Eigen::Index(problem.free.size()));
   for (size_t i = 0; i < problem.free.size(); ++i)
     problem.root_mass[Eigen::Index(i)] = std::sqrt(problem.system.mass[problem.free[i] / 3]);
@@ -88,7 +83,7 @@ Eigen::VectorXd solve_linear(const NewtonProblem& problem, double tolerance, Sol
   return problem.root_mass.cwiseProduct(Eigen::VectorXd(dw.reshaped()(problem.free)));
 }
 
-Finding promise_is_kept(const Subject&) {
+Finding promise_is_kept() {
   Table measured{{"case", ""}, {"true residual over the tolerance", "1"}};
   for (const auto& [name, problem] : newton_problems())
     for (const double tolerance : {1e-1, 1e-3, 1e-6, 1e-9}) {
@@ -104,7 +99,7 @@ Finding promise_is_kept(const Subject&) {
                      "twentieth of the smallest tolerance");
 }
 
-Finding is_the_dense_solution(const Subject&) {
+Finding is_the_dense_solution() {
   Table measured{{"case", ""}, {"error over what the tolerance allows", "1"}};
   for (const auto& [name, problem] : newton_problems()) {
     SolveResult solve{};
@@ -119,7 +114,7 @@ Finding is_the_dense_solution(const Subject&) {
       "an error is at most the residual over the matrix's least singular value; 5 % for rounding");
 }
 
-Finding unsymmetry_is_there(const Subject&) {
+Finding unsymmetry_is_there() {
   Table measured{{"case", ""}, {"a thousandth over the asymmetry", "1"}};
   const auto observe = [&](const std::string& damped, const Scene& scene) {
     const Eigen::MatrixXd A = make_newton_problem(scene, 0.012, 53).A;
@@ -135,7 +130,7 @@ Finding unsymmetry_is_there(const Subject&) {
                      "largest entry of A - A^T exceeds a thousandth of that of A");
 }
 
-Finding work_is_counted(const Subject&) {
+Finding work_is_counted() {
   const NewtonProblem problem = make_newton_problem(free_sheet(), 0.012, 53);
   PerParticle3 dw;
   Work whole, capped;
@@ -151,7 +146,7 @@ Finding work_is_counted(const Subject&) {
   holds.row("a whole solve is converged", finished.converged && finished.residual <= 1e-8);
   holds.row("a capped solve is not converged", !cap.converged && cap.residual > 1e-13);
   holds.row("it took the cap's iterations", cap.iterations == 3 && capped.damping_products == 6);
-  return {{count_false(holds), 0, 0, "false reports", "a report is true or false"}, holds, ""};
+  return {{count_false(holds), 0, 0, "false reports", "a report is true or false"}, holds};
 }
 
 }  // namespace

@@ -1,11 +1,9 @@
-#include "reference/filters/feature_pair.h"
-#include "verification/checks/filters/filter_checks.h"
-#include "verification/evidence.h"
-#include "verification/oracles/feature_distance.h"
-#include "verification/specimens/random.h"
 #include <fmt/format.h>
-#include <Eigen/Geometry>
-#include <cmath>
+
+#include "reference/filters/feature_pair.h"
+#include "verification/oracles/feature_distance.h"
+#include "verification/specimens/check.h"
+#include "verification/specimens/random.h"
 
 namespace foldproof {
 
@@ -69,22 +67,30 @@ Corners4 thin(Random& random, PairKind kind, double s) {
   return x;
 }
 
-Finding distance_is_exact(const Subject&) {
+/// The worst error of the distance between features made `count` times, in units of `scale`.
+oracles::Estimate worst_distance(PairKind kind, int count, const std::function<Corners4()>& make,
+                                 const std::function<double(const Corners4&)>& scale) {
+  Worst worst, uncertainty;
+  for (int k = 0; k < count; ++k) {
+    const Corners4 x = make();
+    const double unit = scale(x);
+    if (unit == 0) continue;  // all four in the origin
+    const oracles::Estimate truth = true_distance(kind, x);
+    worst.observe(std::abs(nearness(kind, x).distance - truth.value) / unit);
+    uncertainty.observe(truth.uncertainty / unit);
+  }
+  return {worst.value(), uncertainty.value()};
+}
+
+Finding distance_is_exact() {
   Table measured = roundings_of("max |x|");
+  const auto rounding = [](const Corners4& x) { return epsilon * x.cwiseAbs().maxCoeff(); };
   for (const PairKind kind : kinds)
     for (const PointMaker& maker : makers()) {
       Random random(23);
-      Worst worst, uncertainty;
-      for (int k = 0; k < 3000; ++k) {
-        const Corners4 x = maker.make(random);
-        const double scale = epsilon * x.cwiseAbs().maxCoeff();
-        if (scale == 0) continue;  // all four in the origin
-        const oracles::Estimate truth = true_distance(kind, x);
-        worst.observe(std::abs(nearness(kind, x).distance - truth.value) / scale);
-        uncertainty.observe(truth.uncertainty / scale);
-      }
       measured.row(name_of(kind) + ", " + maker.name,
-                   oracles::Estimate{worst.value(), uncertainty.value()});
+                   worst_distance(
+                       kind, 3000, [&] { return maker.make(random); }, rounding));
     }
   return judge_worst(measured, 16,
                      "each coordinate of the vector between the nearest points is a sum of four "
@@ -92,21 +98,16 @@ Finding distance_is_exact(const Subject&) {
                      "which changes their distance in second order");
 }
 
-Finding thin_ones_are_as_good(const Subject&) {
+Finding thin_ones_are_as_good() {
   Table measured{{"case", ""}, {"largest error over the extent", "1"}};
   for (const PairKind kind : kinds)
     for (double s = 0.1; s > 1e-13; s /= 10) {
       Random random(29);
-      Worst worst, uncertainty;
-      for (int k = 0; k < 300; ++k) {
-        const Corners4 x = thin(random, kind, s * random.uniform(0.3, 3));
-        const double extent = (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).norm();
-        const oracles::Estimate truth = true_distance(kind, x);
-        worst.observe(std::abs(nearness(kind, x).distance - truth.value) / extent);
-        uncertainty.observe(truth.uncertainty / extent);
-      }
+      const auto make = [&] { return thin(random, kind, s * random.uniform(0.3, 3)); };
       measured.row(name_of(kind) + fmt::format(", sine {:.0e}", s),
-                   oracles::Estimate{worst.value(), uncertainty.value()});
+                   worst_distance(kind, 300, make, [](const Corners4& x) {
+                     return (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).norm();
+                   }));
     }
   return judge_worst(measured, 1e-9,
                      "thinner or more parallel features are tested at their sides and ends only, "
@@ -123,7 +124,7 @@ double weight_error(PairKind kind, const Eigen::Vector4d& w) {
   return worst.value();
 }
 
-Finding weights_lead_across(const Subject&) {
+Finding weights_lead_across() {
   Table measured = roundings_of("1, and of max |x|");
   for (const PairKind kind : kinds)
     for (const PointMaker& maker : makers()) {

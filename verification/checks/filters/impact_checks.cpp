@@ -1,20 +1,15 @@
 // Motion that leaves the cloth free of crossings, rigid zones, and cloth that starts
 // crossing itself.
 #include <fmt/format.h>
-
-#include <Eigen/Geometry>
-#include <algorithm>
-#include <cmath>
 #include <thread>
 
 #include "reference/fast/kept_values.h"
 #include "reference/filters/cloth_pairs.h"
 #include "reference/filters/impact_zones.h"
 #include "reference/forces/degenerate.h"
-#include "verification/checks/filters/filter_checks.h"
-#include "verification/evidence.h"
 #include "verification/oracles/exact_crossing_times.h"
 #include "verification/oracles/exact_crossings.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/differences.h"
 #include "verification/specimens/layered_cloth.h"
 #include "verification/specimens/random.h"
@@ -152,7 +147,7 @@ Zone zone_of(const PerParticle3& x, int prescribed) {
   return zone;
 }
 
-Finding zone_momentum_finding(const Subject&) {
+Finding zone_momentum_finding() {
   Table measured = roundings_of("sum m |v|, times the zone's size for angular momentum");
   for (const auto& [name, x] : clouds()) {
     const Zone zone = zone_of(x, 0);
@@ -170,7 +165,7 @@ Finding zone_momentum_finding(const Subject&) {
 }
 
 /// (x_i - x_j).(v_i - v_j) = 0: no distance changes; and what is led leads.
-Finding zone_rigid_finding(const Subject&) {
+Finding zone_rigid_finding() {
   Table measured{
       {"case", ""},
       {"rate of distance, or difference from the prescribed velocity, over the largest velocity",
@@ -292,7 +287,7 @@ double numbers_that_kept_pairs_change() {
                      : NAN;
 }
 
-Finding kept_pairs_finding(const Subject&) {
+Finding kept_pairs_finding() {
   Table measured{{"case", ""}, {"pairs or numbers that differ", "1"}};
   see_choices(measured);
   measured.row("a run of 60 steps, and one that forgets", numbers_that_kept_pairs_change());

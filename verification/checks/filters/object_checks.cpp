@@ -1,11 +1,5 @@
 // How objects move, and that nothing passes through them.
-#include <Eigen/Geometry>
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
-#include "verification/checks/filters/filter_checks.h"
-#include "verification/evidence.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/contact_scenes.h"
 #include "verification/specimens/random.h"
 #include "verification/specimens/stepper.h"
@@ -35,7 +29,7 @@ RigidMotion keyframed_motion() {
 }
 
 /// The velocity of a body's point against the central difference of its places, each h away.
-Finding velocity_finding(const Subject&) {
+Finding velocity_finding() {
   Table measured{{"case", ""}, {"difference over that of the places' derivative", "1"}};
   const double small = 1e-4;
   Random random(3);
@@ -60,7 +54,7 @@ Finding velocity_finding(const Subject&) {
 }
 
 /// On the keys themselves, and outside them at rest.
-Finding keyframe_finding(const Subject&) {
+Finding keyframe_finding() {
   Table measured = roundings_of("length");
   const RigidMotion motion = keyframed_motion();
   const std::vector<Keyframe>& keys = std::get<Keyframes>(motion).keys;
@@ -86,16 +80,13 @@ Finding keyframe_finding(const Subject&) {
   return judge_worst(measured, 40, "a dozen products of unit quaternions and lengths below 1 m");
 }
 
-SceneObject with_motion(SceneObject part, const Vector3& velocity, const Vector3& turning) {
-  Motion motion;
-  motion.velocity = velocity;
-  motion.angular_velocity = turning;
-  std::get<RigidObject>(part.object.body).motion = motion;
-  return part;
+/// Without friction.
+SceneObject moving(const SceneObject& part, const Vector3& velocity, const Vector3& turning) {
+  return with_motion(part, Motion{.velocity = velocity, .angular_velocity = turning}, 0);
 }
 
 double depth(const std::vector<SceneObject>& objects, const Vector3& p, double time) {
-  double deepest = -std::numeric_limits<double>::infinity();
+  double deepest = -INFINITY;
   for (const SceneObject& part : objects)
     deepest =
         std::max(deepest, -std::get<RigidObject>(part.object.body).at(p, {time, time, 0}).phi);
@@ -135,11 +126,9 @@ Finding convex_finding(const Subject& subject) {
   const Vector3 drift(0.7, -0.4, 1.1);
   const Pose above{Eigen::Quaterniond::Identity(), {0, 0, 0.03}};
   const Box thin{{0.6, 0.5, 0.01}};
-  const SceneObject board = with_motion(object_at("board", thin, at_rest), drift, Vector3::Zero());
-  const SceneObject second =
-      with_motion(object_at("second board", thin, above), drift, Vector3::Zero());
-  const SceneObject ball =
-      with_motion(object_at("ball", Sphere{0.3}, at_rest), drift, Vector3::Zero());
+  const SceneObject board = moving(object_at("board", thin, at_rest), drift, Vector3::Zero());
+  const SceneObject second = moving(object_at("second board", thin, above), drift, Vector3::Zero());
+  const SceneObject ball = moving(object_at("ball", Sphere{0.3}, at_rest), drift, Vector3::Zero());
   Table measured{{"case", ""}, {"depth", "m"}};
   for (const double displacement : {0.005, 0.05, 0.7}) {
     const std::string words =
@@ -157,9 +146,9 @@ Finding convex_finding(const Subject& subject) {
 /// where it is deepest.
 Finding limit_finding(const Subject& subject) {
   const Vector3 drift(0.3, 0.2, -0.4), turning(2.1, -1.3, 0.8);
-  const SceneObject ring = with_motion(object_at("ring", Torus{0.5, 0.1}, at_rest), drift, turning);
+  const SceneObject ring = moving(object_at("ring", Torus{0.5, 0.1}, at_rest), drift, turning);
   const SceneObject board =
-      with_motion(object_at("board", Box{{0.6, 0.5, 0.03}}, at_rest), drift, turning);
+      moving(object_at("board", Box{{0.6, 0.5, 0.03}}, at_rest), drift, turning);
   Table measured{{"case", ""}, {"depth over half the thickness", "1"}};
   for (const double part : {0.3, 0.9}) {
     const std::string words =

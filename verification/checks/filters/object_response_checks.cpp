@@ -1,11 +1,6 @@
 // The two responses that forecasting is compared with: projection after the step, and pushing out
 // in the next one.
-#include <algorithm>
-#include <cmath>
-#include <functional>
-
-#include "verification/checks/filters/filter_checks.h"
-#include "verification/evidence.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/contact_scenes.h"
 #include "verification/specimens/differences.h"
 
@@ -98,8 +93,7 @@ Finding no_push_finding(const Subject& subject) {
   }
   return {{differ, 0, 0, "numbers",
            "only the velocity at the end of a step is changed, not the one that moves the point"},
-          {},
-          ""};
+          {}};
 }
 
 }  // namespace

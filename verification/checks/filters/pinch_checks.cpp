@@ -1,12 +1,7 @@
 // Points that two objects claim, and points that belong to several particles.
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "reference/filters/object_collision.h"
-#include "verification/checks/filters/filter_checks.h"
-#include "verification/evidence.h"
 #include "verification/oracles/dense_algebra.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/contact_scenes.h"
 #include "verification/specimens/random.h"
 #include "verification/specimens/specimens.h"
@@ -62,8 +57,7 @@ Finding pinch_friction_finding(const Subject& subject) {
     worst.observe((still - wanted * sliding.normalized()).norm() /
                   (epsilon * (1 / pinch.tau + v.norm() + mean.norm())));
   }
-  measured.row("two balls",
-               stuck > 20 && slid > 20 ? worst.value() : std::numeric_limits<double>::quiet_NaN());
+  measured.row("two balls", stuck > 20 && slid > 20 ? worst.value() : nan);
   return judge_worst(
       measured, 200,
       "roundings of positions near 1 m over the step, magnified by at most 1/|N_a - N_b| where the "
@@ -98,12 +92,10 @@ Finding each_object_finding(const Subject& subject) {
     deepest.observe(-std::min(end.dot(floor), end.dot(wall)));
     corrected_twice += free.dot(floor) < 0 && free.dot(wall) < 0;
   }
-  const double few = std::numeric_limits<double>::quiet_NaN();
-  return {{corrected_twice > 10 ? deepest.value() : few, 100 * epsilon, 0, "m",
+  return {{corrected_twice > 10 ? deepest.value() : nan, 100 * epsilon, 0, "m",
            "the second push leads out of the first object too, since the normals enclose less than "
            "a right angle: what remains is rounding of positions within 1 m and steps of 0.2 m"},
-          Table{{"particles that would enter both", "1"}}.with_row(corrected_twice),
-          ""};
+          Table{{"particles that would enter both", "1"}}.with_row(corrected_twice)};
 }
 
 /// The half-spaces z >= 0 of a floor and of one turned about y, particles without
@@ -155,7 +147,7 @@ Finding closing_finding(const Subject& subject) {
 
 /// Midpoints and centres get exactly the velocity of the response, by impulses that
 /// fall with the mass.
-Finding shares_finding(const Subject&) {
+Finding shares_finding() {
   const Contact contact = known_contacts().front();
   System system = build_system(contact.scene);
   PerParticle inverse_mass = system.inverse_mass;
@@ -212,8 +204,7 @@ Finding spike_finding(const Subject& subject, const Groups& groups, const Vector
     depths.row(name, deepest.value());
   }
   const std::vector<double>& depth = depths.numbers("depth of a mean");
-  const double too_easy = std::numeric_limits<double>::quiet_NaN();
-  return {{depth[0] > 1e-3 ? depth[1] : too_easy, 20 * epsilon, 0, "m",
+  return {{depth[0] > 1e-3 ? depth[1] : nan, 20 * epsilon, 0, "m",
            "the point comes down on the spike's top and is held there, up to rounding"},
           depths,
           "not a number if the particles alone keep the spike out"};
@@ -251,7 +242,7 @@ ComingDown coming_down() {
   return made;
 }
 
-Finding change_finding(const Subject&) {
+Finding change_finding() {
   Table measured = roundings_of("1 m/s");
   const ComingDown down = coming_down();
   const CollisionPoint& centre = down.filter.points[0];
@@ -269,7 +260,7 @@ Finding change_finding(const Subject&) {
   return judge_worst(measured, 32, "velocities of a few m/s, a mean of three and a product");
 }
 
-Finding counts_finding(const Subject&) {
+Finding counts_finding() {
   Table measured{{"case", ""}, {"questions and contacts that are counted wrongly", "1"}};
   const ComingDown down = coming_down();
   const auto miscounted = [&](const Span& span, const PerParticle3& start, long contacts) {

@@ -1,12 +1,8 @@
 // Layers within the thickness: what they do to each other, and what stays.
-#include <Eigen/Geometry>
-#include <algorithm>
-#include <cmath>
 #include <numeric>
 
 #include "reference/filters/cloth_pairs.h"
-#include "verification/checks/filters/filter_checks.h"
-#include "verification/evidence.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/layered_cloth.h"
 #include "verification/specimens/stepper.h"
 
@@ -199,7 +195,7 @@ Finding untouched_finding(const Subject& subject) {
 
 /// Every pair that comes nearer than the margin is among those found, once; found ones
 /// share no particle.
-Finding pairs_finding(const Subject&) {
+Finding pairs_finding() {
   Table measured{{"case", ""}, {"pairs missed, found twice, or of neighbours", "pairs"}};
   const double margin = 0.004;
   for (const unsigned seed : {1u, 2u, 3u}) {

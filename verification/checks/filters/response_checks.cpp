@@ -1,10 +1,5 @@
 // Interface forecasting for one point at one object (BMF03 section 5.2).
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
-#include "verification/checks/filters/filter_checks.h"
-#include "verification/evidence.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/contact_scenes.h"
 #include "verification/specimens/differences.h"
 #include "verification/specimens/random.h"
@@ -68,7 +63,7 @@ Finding worst_over(const Subject& subject,
       ++queries;
     }
     measured.row(contact.name + ", " + std::to_string(queries) + " particles",
-                 queries > 20 ? worst.value() : std::numeric_limits<double>::quiet_NaN());
+                 queries > 20 ? worst.value() : nan);
   }
   return judge_worst(measured, 40, why_roundings);
 }
@@ -126,11 +121,9 @@ Finding untouched_finding(const Subject& subject) {
         differ += count_differing_entries(after.col(i), contact.state.v.col(i));
       }
     }
-  const double few = std::numeric_limits<double>::quiet_NaN();
-  return {{untreated > 100 ? differ : few, 0, 0, "numbers",
+  return {{untreated > 100 ? differ : nan, 0, 0, "numbers",
            "a point that is forecast to be outside must keep its velocity, bit for bit"},
-          Table{{"untreated particles", "1"}}.with_row(untreated),
-          ""};
+          Table{{"untreated particles", "1"}}.with_row(untreated)};
 }
 
 //   N0   N1       over the step the plane turns by theta from N0 to N1 and takes the point's place
@@ -235,7 +228,7 @@ Finding neighbours_finding(const Subject& subject) {
     const double differ =
         count_differing_entries(together, corrected_alone(subject, crossed, span));
     answers.row(parts.front().object.name, changed, differ);
-    worst = changed > 0 ? worst + differ : std::numeric_limits<double>::quiet_NaN();
+    worst = changed > 0 ? worst + differ : nan;
   }
   return {{worst, 0, 0, "numbers",
            "a neighbour's distance may save a query, but only where the answer cannot matter"},

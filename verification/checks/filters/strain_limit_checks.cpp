@@ -1,14 +1,11 @@
 // One correction by strain limits: of one spring, exactly; of a cloth, whatever the
 // order of sweeps.
 #include "reference/dynamics/system.h"
-#include "verification/checks/filters/filter_checks.h"
-#include "verification/evidence.h"
 #include "verification/oracles/limited_spring.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/differences.h"
 #include "verification/specimens/random.h"
 #include "verification/specimens/strain_scenes.h"
-#include <Eigen/Geometry>
-#include <cmath>
 
 namespace foldproof {
 
@@ -147,27 +144,25 @@ Finding limits_finding(const Subject& subject, SweepOrder order) {
 
 Finding momentum_finding(const Subject& subject) {
   Table measured{{"case", ""}, {"momentum gained", "epsilon of sum m |v|, or of sum m |x| |v|"}};
-  for (const NamedOrder& named : sweep_orders())
-    for (LimitedCloth& cloth : limited_cloths(named.order)) {
-      cloth.scene.strain_limits->sweeps = 12;
-      cloth.state.x.colwise() += Vector3(0.31, -0.17, 0.23);
-      const PerParticle3 change =
-          corrected_by_strain_limits(subject, cloth, cloth.state.v) - cloth.state.v;
-      const PerParticle mass = lumped_masses(cloth.scene.mesh, cloth.scene.density);
-      Vector3 linear = Vector3::Zero(), angular = Vector3::Zero();
-      double linear_size = 0, angular_size = 0;
-      for (Eigen::Index i = 0; i < mass.size(); ++i) {
-        const Vector3 x = cloth.state.x.col(i), gained = mass[i] * change.col(i);
-        const double size = mass[i] * cloth.state.v.col(i).norm();
-        linear += gained;
-        angular += x.cross(gained);
-        linear_size += size;
-        angular_size += x.norm() * size;
-      }
-      measured.row(named.name + ", " + cloth.name, linear.norm() / (epsilon * linear_size));
-      measured.row(named.name + ", " + cloth.name + ", angular",
-                   angular.norm() / (epsilon * angular_size));
+  for (LimitedCloth& cloth : cloths_in_all_orders()) {
+    cloth.scene.strain_limits->sweeps = 12;
+    cloth.state.x.colwise() += Vector3(0.31, -0.17, 0.23);
+    const PerParticle3 change =
+        corrected_by_strain_limits(subject, cloth, cloth.state.v) - cloth.state.v;
+    const PerParticle mass = lumped_masses(cloth.scene.mesh, cloth.scene.density);
+    Vector3 linear = Vector3::Zero(), angular = Vector3::Zero();
+    double linear_size = 0, angular_size = 0;
+    for (Eigen::Index i = 0; i < mass.size(); ++i) {
+      const Vector3 x = cloth.state.x.col(i), gained = mass[i] * change.col(i);
+      const double size = mass[i] * cloth.state.v.col(i).norm();
+      linear += gained;
+      angular += x.cross(gained);
+      linear_size += size;
+      angular_size += x.norm() * size;
     }
+    measured.row(cloth.name, linear.norm() / (epsilon * linear_size));
+    measured.row(cloth.name + ", angular", angular.norm() / (epsilon * angular_size));
+  }
   return judge_worst(measured, 8,
                      "in each of 12 sweeps some six impulses meet at a particle, each a rounding "
                      "of its velocity, half an epsilon at most: 72 of them add up like a random "
@@ -182,20 +177,19 @@ void make_last_fast(LimitedCloth& cloth) {
 
 Finding held_finding(const Subject& subject) {
   Table measured{{"case", ""}, {"numbers that differ", "numbers"}};
-  for (const NamedOrder& named : sweep_orders())
-    for (LimitedCloth& cloth : limited_cloths(named.order)) {
-      // two neighbours are held: what they break stays broken
-      cloth.scene.strain_limits->sweeps = 30;
-      for (const int i : {0, 3, 7, 8})
-        cloth.scene.prescribed.push_back({i, cloth.state.x.col(i), Motion{}});
-      make_last_fast(cloth);
-      const PerParticle3 v = corrected_by_strain_limits(subject, cloth, cloth.state.v);
-      double differing = 0;
-      for (const int i : {0, 3, 7, 8})
-        differing += count_differing_entries(v.col(i), cloth.state.v.col(i));
-      const bool is_tried = count_differing_entries(v, cloth.state.v) > 0;
-      measured.row(named.name + ", " + cloth.name, is_tried ? differing : NAN);
-    }
+  for (LimitedCloth& cloth : cloths_in_all_orders()) {
+    // two neighbours are held: what they break stays broken
+    cloth.scene.strain_limits->sweeps = 30;
+    for (const int i : {0, 3, 7, 8})
+      cloth.scene.prescribed.push_back({i, cloth.state.x.col(i), Motion{}});
+    make_last_fast(cloth);
+    const PerParticle3 v = corrected_by_strain_limits(subject, cloth, cloth.state.v);
+    double differing = 0;
+    for (const int i : {0, 3, 7, 8})
+      differing += count_differing_entries(v.col(i), cloth.state.v.col(i));
+    const bool is_tried = count_differing_entries(v, cloth.state.v) > 0;
+    measured.row(cloth.name, is_tried ? differing : NAN);
+  }
   return judge_worst(measured, 0, "a prescribed velocity is known");
 }
 
@@ -210,24 +204,22 @@ PerParticle3 gentle(const LimitedCloth& cloth) {
 /// it are to be left.
 Finding untouched_within_limits_finding(const Subject& subject) {
   Table measured{{"case", ""}, {"numbers that differ", "numbers"}};
-  for (const NamedOrder& named : sweep_orders())
-    for (LimitedCloth& cloth : limited_cloths(named.order)) {
-      const PerParticle3 slow = gentle(cloth);
-      const std::string name = named.name + ", " + cloth.name;
-      measured.row(name,
-                   count_differing_entries(corrected_by_strain_limits(subject, cloth, slow), slow));
-      cloth.scene.strain_limits->sweeps = 1;
-      PerParticle3 fast = slow;
-      const Eigen::Index last = fast.cols() - 1;
-      make_last_fast(cloth);
-      fast.col(last) = cloth.state.v.col(last);
-      const PerParticle3 v = corrected_by_strain_limits(subject, cloth, fast);
-      const double after = strain_violation(cloth.scene, cloth.state.x + cloth.step * fast);
-      measured.row(name + ", one fast",
-                   after > 0 && count_differing_entries(v.col(last), fast.col(last)) > 0
-                       ? count_differing_entries(v.col(0), fast.col(0))
-                       : NAN);
-    }
+  for (LimitedCloth& cloth : cloths_in_all_orders()) {
+    const PerParticle3 slow = gentle(cloth);
+    measured.row(cloth.name,
+                 count_differing_entries(corrected_by_strain_limits(subject, cloth, slow), slow));
+    cloth.scene.strain_limits->sweeps = 1;
+    PerParticle3 fast = slow;
+    const Eigen::Index last = fast.cols() - 1;
+    make_last_fast(cloth);
+    fast.col(last) = cloth.state.v.col(last);
+    const PerParticle3 v = corrected_by_strain_limits(subject, cloth, fast);
+    const double after = strain_violation(cloth.scene, cloth.state.x + cloth.step * fast);
+    measured.row(cloth.name + ", one fast",
+                 after > 0 && count_differing_entries(v.col(last), fast.col(last)) > 0
+                     ? count_differing_entries(v.col(0), fast.col(0))
+                     : NAN);
+  }
   return judge_worst(
       measured, 0,
       "the filter must not touch motion that breaks no limit; in one sweep a correction cannot get "
@@ -253,17 +245,16 @@ std::vector<Check> strain_limit_checks() {
              "' predict lengths within the limits, to the tolerance, of cloth that is within them.",
          source,
          [order = named.order](const Subject& subject) { return limits_finding(subject, order); }});
-  for (const Check& check : std::vector<Check>{
-           {"strain.momentum-is-conserved",
-            "A correction changes neither the linear nor the angular momentum of a free cloth.",
-            source, momentum_finding},
-           {"strain.prescribed-particles-are-left-alone",
-            "Velocities of particles with prescribed motion are unchanged, bit for bit.", source,
-            held_finding},
-           {"strain.springs-within-limits-are-left-alone",
-            "Where no spring would leave its limits, velocities are unchanged, bit for bit.",
-            source, untouched_within_limits_finding}})
-    list.push_back(check);
+  list.insert(list.end(),
+              {{"strain.momentum-is-conserved",
+                "A correction changes neither the linear nor the angular momentum of a free cloth.",
+                source, momentum_finding},
+               {"strain.prescribed-particles-are-left-alone",
+                "Velocities of particles with prescribed motion are unchanged, bit for bit.",
+                source, held_finding},
+               {"strain.springs-within-limits-are-left-alone",
+                "Where no spring would leave its limits, velocities are unchanged, bit for bit.",
+                source, untouched_within_limits_finding}});
   return list;
 }
 

@@ -1,12 +1,7 @@
 // Strain limits in steps, the sweeps themselves, and what a case file says of them.
-#include <algorithm>
-#include <cmath>
-
 #include "reference/dynamics/system.h"
-#include "verification/checks/filters/filter_checks.h"
-#include "verification/evidence.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/differences.h"
-#include "verification/specimens/paper_schemes.h"
 #include "verification/specimens/random.h"
 #include "verification/specimens/stepper.h"
 #include "verification/specimens/strain_scenes.h"
@@ -143,7 +138,7 @@ double size_of(const PerParticle& mass, const PerParticle3& v) {
   return std::sqrt(v.colwise().squaredNorm().dot(mass.transpose()));
 }
 
-Finding nearer_finding(const Subject&) {
+Finding nearer_finding() {
   Table measured{{"case", ""}, {"growth in a sweep", "epsilon of sqrt(sum m |v|^2)"}};
   for (const NamedOrder& named : sweep_orders())
     for (unsigned seed : {3u, 19u, 57u, 58u}) {
@@ -173,7 +168,7 @@ Finding nearer_finding(const Subject&) {
       "Two roundings of each velocity at each of two springs, and those of the sums");
 }
 
-Finding colours_finding(const Subject&) {
+Finding colours_finding() {
   Table measured{{"case", ""},
                  {"springs of a colour that share a particle, and springs lost", "springs"}};
   for (const LimitedCloth& cloth : limited_cloths(SweepOrder::coloured)) {
@@ -199,13 +194,12 @@ Finding colours_finding(const Subject&) {
 
 const std::string springs = "[stretch]\nstiffness = 12\n";
 
-Finding read_finding(const Subject&) {
-  Table differences = no_differences();
+Finding read_finding() {
+  Differences differences;
   const StrainLimits usual = *trial_scene(springs + "[strain_limits]\n").strain_limits;
-  differences.row("default extension", in_roundings(usual.extension - 0.1, 0.1));
-  differences.row("default compression", in_roundings(usual.compression, 1));
-  differences.row("the default order is gauss_seidel",
-                  infinite_unless(usual.order == SweepOrder::gauss_seidel));
+  differences.is_near("default extension", usual.extension - 0.1, 0.1);
+  differences.is_near("default compression", usual.compression);
+  differences.is("the default order is gauss_seidel", usual.order == SweepOrder::gauss_seidel);
   for (const NamedOrder& named : sweep_orders()) {
     const Scene scene =
         trial_scene(springs +
@@ -213,32 +207,30 @@ Finding read_finding(const Subject&) {
                     "tolerance = 3e-4\norder = \"" +
                     named.name + "\"\n");
     const StrainLimits& read = *scene.strain_limits;
-    differences.row("extension", in_roundings(read.extension - 0.23, 0.23));
-    differences.row("compression", in_roundings(read.compression - 0.07, 0.07));
-    differences.row("tolerance", in_roundings(read.tolerance - 3e-4, 3e-4));
-    differences.row("sweeps", infinite_unless(read.sweeps == 9));
-    differences.row("order " + named.name, infinite_unless(read.order == named.order));
+    differences.is_near("extension", read.extension - 0.23, 0.23);
+    differences.is_near("compression", read.compression - 0.07, 0.07);
+    differences.is_near("tolerance", read.tolerance - 3e-4, 3e-4);
+    differences.is("sweeps", read.sweeps == 9);
+    differences.is("order " + named.name, read.order == named.order);
   }
   const std::string ball = "[[object]]\nshape = \"sphere\"\nradius = 0.1\n";
   const System both = build_system(trial_scene(springs + ball + "[strain_limits]\n"));
-  differences.row("limits come before objects",
-                  infinite_unless(both.filters.size() == 2 &&
-                                  std::holds_alternative<StrainLimiter>(both.filters[0]) &&
-                                  std::holds_alternative<ObjectCollision>(both.filters[1])));
-  differences.row("without the table no filter is built",
-                  infinite_unless(build_system(trial_scene(springs)).filters.empty()));
+  differences.is("limits come before objects",
+                 both.filters.size() == 2 &&
+                     std::holds_alternative<StrainLimiter>(both.filters[0]) &&
+                     std::holds_alternative<ObjectCollision>(both.filters[1]));
+  differences.is("without the table no filter is built",
+                 build_system(trial_scene(springs)).filters.empty());
   const Scene scene = trial_scene(springs + "[strain_limits]\nextension = 0.25\n");
   const std::vector<std::string> parts = describe_parts(scene, build_system(scene));
-  differences.row(
-      "a run says what was built",
-      infinite_unless(std::any_of(parts.begin(), parts.end(), [](const std::string& part) {
-        return part.find("limited to 1 to 1.25") != std::string::npos;
-      })));
-  return judged_differences(differences, 1,
-                            "a decimal is rounded once when it is read and once here");
+  differences.is("a run says what was built",
+                 std::any_of(parts.begin(), parts.end(), [](const std::string& part) {
+                   return part.find("limited to 1 to 1.25") != std::string::npos;
+                 }));
+  return differences.judged(1, "a decimal is rounded once when it is read and once here");
 }
 
-Finding rejected_finding(const Subject&) {
+Finding rejected_finding() {
   return rejected_cases({
       {"[strain_limits]\n", {"[strain_limits]", "[stretch]"}},
       {springs + "[strain_limits]\nextension = -0.1\n", {"extension", "negative"}},
@@ -275,7 +267,7 @@ StrainLimiter limiter_of(const LimitedCloth& cloth, SweepOrder order, int sweeps
                              system.inverse_mass);
 }
 
-Finding orders_finding(const Subject&) {
+Finding orders_finding() {
   Table measured{{"case", ""}, {"numbers that differ from springs taken one by one", "1"}};
   for (const LimitedCloth& cloth : limited_cloths(SweepOrder::gauss_seidel)) {
     for (const SweepOrder order :
@@ -300,34 +292,31 @@ Finding orders_finding(const Subject&) {
 std::vector<Check> strain_step_checks() {
   std::vector<Check> list;
   add_for_each_scheme(
-      list,
-      {"strain.steps-stay-within-limits",
-       "the positions that a step ends at keep the strain limits, to the tolerance.",
-       source,
-       {}},
-      steps_finding);
-  for (const Check& check : std::vector<Check>{
-           {"strain.remaining-violation-is-reported",
-            "A step reports its sweeps, and the largest violation that they left.", source,
-            report_finding},
-           {"strain.sweeps-never-add-kinetic-energy",
-            "On a line, a sweep leads no farther from any velocity within the limits, so it never "
-            "adds kinetic energy.",
-            "Bregman 1967", nearer_finding},
-           {"strain.sweeps-visit-springs-in-order",
-            "A sweep corrects springs one after the other in the list's order; every other sweep "
-            "goes backwards on request; coloured sweeps go colour by colour.",
-            source, orders_finding},
-           {"strain.springs-of-a-colour-share-no-particle",
-            "No two springs of a colour share a particle, and every spring has a colour.",
-            "our own", colours_finding},
-           {"scene.strain-limits-are-read",
-            "Strain limits are read as written, and act before objects.", "cases/KEYS.md",
-            read_finding},
-           {"scene.invalid-strain-limits-are-rejected",
-            "Strain limits that make no sense are refused, with the line.", "cases/KEYS.md",
-            rejected_finding}})
-    list.push_back(check);
+      list, {{"strain.steps-stay-within-limits",
+              "the positions that a step ends at keep the strain limits, to the tolerance.", source,
+              steps_finding}});
+  list.insert(
+      list.end(),
+      {{"strain.remaining-violation-is-reported",
+        "A step reports its sweeps, and the largest violation that they left.", source,
+        report_finding},
+       {"strain.sweeps-never-add-kinetic-energy",
+        "On a line, a sweep leads no farther from any velocity within the limits, so it never "
+        "adds kinetic energy.",
+        "Bregman 1967", nearer_finding},
+       {"strain.sweeps-visit-springs-in-order",
+        "A sweep corrects springs one after the other in the list's order; every other sweep "
+        "goes backwards on request; coloured sweeps go colour by colour.",
+        source, orders_finding},
+       {"strain.springs-of-a-colour-share-no-particle",
+        "No two springs of a colour share a particle, and every spring has a colour.", "our own",
+        colours_finding},
+       {"scene.strain-limits-are-read",
+        "Strain limits are read as written, and act before objects.", "cases/KEYS.md",
+        read_finding},
+       {"scene.invalid-strain-limits-are-rejected",
+        "Strain limits that make no sense are refused, with the line.", "cases/KEYS.md",
+        rejected_finding}});
   return list;
 }
 

@@ -1,12 +1,7 @@
-#include <Eigen/Geometry>
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <limits>
 
 #include "reference/forces/degenerate.h"
-#include "verification/checks/forces/force_checks.h"
-#include "verification/evidence.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/probe.h"
 #include "verification/specimens/random.h"
 #include "verification/specimens/specimens.h"
@@ -30,7 +25,7 @@ Corners planar_hinge(double height2) {
           Vector3(0.37, 0, 0)};
 }
 
-Finding sine_is_accurate(const Subject&) {
+Finding sine_is_accurate() {
   Table measured = roundings_of("thinness");
   Random random(421);
   for (const double small : {1e-12, 1e-10, 1e-8, 1e-6, 1e-4, 1e-2, 0.3, 1.0, 1.5}) {
@@ -47,14 +42,13 @@ Finding sine_is_accurate(const Subject&) {
     }
   }
   const double flat = sine_of(planar_hinge(-0.17));
-  measured.row("exactly flat (must be exactly zero)",
-               flat == 0 ? 0 : std::numeric_limits<double>::infinity());
+  measured.row("exactly flat (must be exactly zero)", flat == 0 ? 0 : INFINITY);
   return judge_worst(measured, 16,
                      "the normals, their products and one root: fewer than 16 roundings of 1, "
                      "magnified by the thinness");
 }
 
-Finding angle_is_accurate(const Subject&) {
+Finding angle_is_accurate() {
   Table measured = roundings_of("pi thinness");
   for (const Specimen& hinge : hinges_of_all_angles()) {
     const Corners x = corners_of(hinge.scene.mesh.hinges[0], hinge.state.x);
@@ -90,7 +84,7 @@ double worst_unevenness(double first, double last, int count) {
   return worst.value();
 }
 
-Finding sine_rises(const Subject&) {
+Finding sine_rises() {
   Table measured{{"case", ""}, {"largest fall, or rise faster than theta/2", "epsilon"}};
   measured.row("-pi to pi, 20,001 steps", worst_unevenness(-3.14159, 3.14159, 20001));
   measured.row("about -pi", worst_unevenness(-3.1415926535, -3.1415, 1009));
@@ -98,10 +92,9 @@ Finding sine_rises(const Subject&) {
   measured.row("about 0", worst_unevenness(-1.7e-9, 1.9e-9, 1009));
   measured.row("about pi/2", worst_unevenness(pi / 2 - 1e-9, pi / 2 + 1.3e-9, 997));
   measured.row("about pi", worst_unevenness(3.1415, 3.1415926535, 1013));
-  measured.row("whole range left out",
-               std::abs(sine_of(swept(3.14159)) - sine_of(swept(-3.14159)) - 2) < 1e-9
-                   ? 0
-                   : std::numeric_limits<double>::infinity());
+  measured.row(
+      "whole range left out",
+      std::abs(sine_of(swept(3.14159)) - sine_of(swept(-3.14159)) - 2) < 1e-9 ? 0 : INFINITY);
   return judge_worst(measured, 16,
                      "two neighbouring values carry fewer than 16 roundings of 1 between them",
                      "Measured is by how much, at worst, a value of sin(theta/2) lies below the "
@@ -130,7 +123,7 @@ Finding sharp_folds_stay_finite(const Subject& subject) {
         (x[0] - x[2]).cross(x[0] - x[3]).norm() + (x[1] - x[2]).cross(x[1] - x[3]).norm();
     const double limit =
         material.stiffness * edge * edge / areas * (1 + std::sin(0.83 / 2)) * u.norm();
-    ratios.row(name, damping.allFinite() ? f.norm() / limit : std::nan(""));
+    ratios.row(name, damping.allFinite() ? f.norm() / limit : nan);
   }
   const double excess = signed_largest(ratios.numbers("|F| over its limit")) - 1;
   return {{excess / epsilon, 256, 0, "epsilon of the limit",
@@ -184,7 +177,7 @@ std::vector<Loss> losses(const Scene& scene) {
       scene.x.col(a) + 0.4 * (scene.x.col(b) - scene.x.col(a)) +
       1e-12 * (scene.x.col(c) - scene.x.col(a)).cross(scene.x.col(b) - scene.x.col(a));
   cases[3].name = "a NaN";
-  cases[3].x(1, c) = std::nan("");
+  cases[3].x(1, c) = nan;
   cases[3].lost = {c};
   return cases;
 }

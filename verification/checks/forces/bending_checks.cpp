@@ -1,9 +1,7 @@
-#include "verification/checks/forces/force_checks.h"
-#include "verification/evidence.h"
-#include "verification/specimens/balance.h"
+#include "verification/specimens/differences.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/probe.h"
 #include "verification/specimens/specimens.h"
-#include <algorithm>
 
 namespace foldproof {
 
@@ -122,8 +120,7 @@ oracles::Estimate worst_difference(const PerParticle3& f, const Expected& expect
 }
 
 Finding force_is_as_defined(const Subject& subject) {
-  std::vector<Specimen> specimens = crumpled_sheets();
-  for (Specimen& hinge : hinges_of_all_angles()) specimens.push_back(std::move(hinge));
+  std::vector<Specimen> specimens = sheets_and_hinges();
   Table measured = roundings_of("ke c |u| thinness");
   for (size_t k = 0; k < specimens.size(); ++k) {
     Specimen& specimen = specimens[k];

@@ -1,9 +1,6 @@
-#include <cmath>
-
 #include "verification/checks/forces/damping_laws.h"
-#include "verification/checks/forces/force_checks.h"
-#include "verification/evidence.h"
-#include "verification/specimens/balance.h"
+#include "verification/specimens/differences.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/probe.h"
 #include "verification/specimens/specimens.h"
 
@@ -26,12 +23,6 @@ std::vector<Damped> with_damping(const std::vector<Specimen>& specimens) {
     }
   }
   return cases;
-}
-
-std::vector<Specimen> sheets_and_hinges() {
-  std::vector<Specimen> specimens = crumpled_sheets();
-  for (Specimen& hinge : hinges_of_all_angles()) specimens.push_back(std::move(hinge));
-  return specimens;
 }
 
 /// For each particle the sum over its hinges of kd s max |u| sum |u_j||v_j| times the thinness [N].

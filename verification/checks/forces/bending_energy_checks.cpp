@@ -1,8 +1,5 @@
-#include <cmath>
-
-#include "verification/checks/forces/force_checks.h"
 #include "verification/checks/forces/work.h"
-#include "verification/evidence.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/probe.h"
 #include "verification/specimens/specimens.h"
 
@@ -51,8 +48,7 @@ double potential_50(const oracles::HingeInput& input, std::string_view law, doub
 
 Finding energy_is_as_defined(const Subject& subject) {
   Table measured = roundings_of("ke c (1 + potential) thinness");
-  std::vector<Specimen> list = crumpled_sheets();
-  for (Specimen& hinge : hinges_of_all_angles()) list.push_back(std::move(hinge));
+  std::vector<Specimen> list = sheets_and_hinges();
   for (size_t k = 0; k < list.size(); ++k) {
     Specimen& specimen = list[k];
     const bool is_sheet = specimen.scene.mesh.hinges.size() > 1;

@@ -1,8 +1,5 @@
-#include <cmath>
-
-#include "verification/checks/forces/force_checks.h"
-#include "verification/evidence.h"
 #include "verification/oracles/dense_algebra.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/probe.h"
 #include "verification/specimens/random.h"
 #include "verification/specimens/specimens.h"
@@ -63,7 +60,7 @@ std::vector<Corners> shapes() {
   return list;
 }
 
-Finding mode_is_orthogonal(const Subject&) {
+Finding mode_is_orthogonal() {
   std::array<Worst, 11> worst;
   for (const Corners& x : shapes()) {
     const Eleven eleven = eleven_modes(x);
@@ -80,7 +77,7 @@ Finding mode_is_orthogonal(const Subject&) {
                      "each of |u|, magnified by the triangles' thinness");
 }
 
-Finding mode_is_the_only_one(const Subject&) {
+Finding mode_is_the_only_one() {
   Table measured = roundings_of("thinness over the eleventh singular value");
   measured.add({"smallest over largest singular value", "1"});
   for (const Corners& x : shapes()) {
@@ -90,7 +87,7 @@ Finding mode_is_the_only_one(const Subject&) {
     const double sine = (u - u.dot(alone) * alone).norm();
     const bool several = !(smallest > 1e-4);  // the eleven would not be independent
     measured.row("hinge " + std::to_string(measured.rows() + 1),
-                 several ? std::nan("") : sine * smallest / (epsilon * aspect_ratio(x)), smallest);
+                 several ? nan : sine * smallest / (epsilon * aspect_ratio(x)), smallest);
   }
   return judge_worst(measured, "measured", 64,
                      "the null vector of the eleven moves by their roundings, fewer than 64, over "
@@ -99,7 +96,7 @@ Finding mode_is_the_only_one(const Subject&) {
                      "independent: it counts as NaN.");
 }
 
-Finding mode_is_minus_gradient(const Subject&) {
+Finding mode_is_minus_gradient() {
   Table measured = roundings_of("|u| thinness");
   measured.add({"the same against 50-digit differences", "epsilon |u| thinness"});
   measured.add({"d(theta)/dt of a random motion", "rad/s"});

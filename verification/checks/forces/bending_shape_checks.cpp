@@ -1,11 +1,7 @@
 // Nonlinear damping of the angle's rate; and whether a sculpted shape comes back.
-#include <cmath>
-#include <functional>
-
 #include "reference/mesh/shapes.h"
-#include "verification/checks/forces/force_checks.h"
-#include "verification/evidence.h"
 #include "verification/oracles/dense_algebra.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/probe.h"
 #include "verification/specimens/specimens.h"
 #include "verification/specimens/stepper.h"

@@ -1,6 +1,5 @@
 #include "verification/checks/forces/damping_laws.h"
 
-#include "verification/evidence.h"
 #include "verification/oracles/dense_algebra.h"
 #include "verification/specimens/probe.h"
 

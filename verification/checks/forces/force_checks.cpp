@@ -1,14 +1,10 @@
-#include "verification/checks/forces/force_checks.h"
 #include "reference/dynamics/system.h"
 #include "reference/forces/bending.h"
-#include "verification/checks/forces/derivatives.h"
-#include "verification/evidence.h"
 #include "verification/oracles/dense_algebra.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/probe.h"
 #include "verification/specimens/random.h"
-#include "verification/specimens/rejection.h"
 #include "verification/specimens/specimens.h"
-#include <cmath>
 
 namespace foldproof {
 
@@ -69,17 +65,8 @@ Finding gravity_energy(const Subject& subject) {
 /// M^-1/2 [1/s^2].
 Eigen::MatrixXd scaled_stiffness(const Probe& probe, const State& s, const PerParticle& mass,
                                  double step) {
-  const Eigen::Index size = s.x.size();
-  Eigen::MatrixXd K(size, size);
-  State moved = s;
-  for (Eigen::Index k = 0; k < size; ++k) {
-    moved.x.reshaped()[k] = s.x.reshaped()[k] + step;
-    const PerParticle3 ahead = probe.elastic(moved);
-    moved.x.reshaped()[k] = s.x.reshaped()[k] - step;
-    const PerParticle3 column = (probe.elastic(moved) - ahead) / (2 * step);
-    moved.x.reshaped()[k] = s.x.reshaped()[k];
-    K.col(k) = column.reshaped();
-  }
+  const Eigen::MatrixXd K =
+      -central_differences([&](const State& at) { return probe.elastic(at); }, s, step);
   const Eigen::VectorXd roots =
       mass.transpose().replicate(3, 1).reshaped().cwiseSqrt().cwiseInverse();
   return roots.asDiagonal() * K * roots.asDiagonal();
@@ -198,7 +185,7 @@ PerParticle row_sums(const Specimen& specimen) {
   return sums;
 }
 
-Finding rows_are_covered(const Subject&) {
+Finding rows_are_covered() {
   Table measured{{"case", ""}, {"largest sum of a row over its bound", "1"}};
   std::vector<Specimen> cases = stiff_cases();
   for (const Specimen& specimen : far_from_rest()) cases.push_back(specimen);
@@ -212,7 +199,7 @@ Finding rows_are_covered(const Subject&) {
 }
 
 /// Hinges in their rest shape, where only the rank-one part is left: there the bound is the sum.
-Finding rows_are_reached(const Subject&) {
+Finding rows_are_reached() {
   Table measured{{"case", ""}, {"largest |sum of a row over its bound - 1|", "1"}};
   std::vector<Specimen> cases;
   unsigned seed = 370;
@@ -234,7 +221,7 @@ Finding rows_are_reached(const Subject&) {
 /// The same hinge seen from its other side: x1 and x2 in turn, and x3 and x4.
 Corners turned_round(const Corners& x) { return {x[1], x[0], x[3], x[2]}; }
 
-Finding rows_follow_their_particles(const Subject&) {
+Finding rows_follow_their_particles() {
   Table measured{{"case", ""}, {"largest difference over a row's bound", "epsilon"}};
   Random random(380);
   for (const double angle : {0.4, -1.6, 2.8}) {
@@ -258,7 +245,7 @@ Finding rows_follow_their_particles(const Subject&) {
       "to ten to one twice; terms of the wrong particle differ by the sides");
 }
 
-Finding unknown_laws_are_rejected(const Subject&) {
+Finding unknown_laws_are_rejected() {
   Table measured{{"case", ""}, {"names that are taken or refused wrongly", "1"}};
   for (const BendingLaw& law : bending_laws())
     measured.row(std::string(law.name), bending_law(law.name).magnitude == law.magnitude ? 0 : 1);

@@ -1,18 +1,10 @@
 // The forces of sticking against their definition in 50 digits, what they keep, and how they fade.
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
-#include <algorithm>
-#include <cmath>
-#include <functional>
-
 #include "reference/dynamics/system.h"
 #include "reference/forces/degenerate.h"
-#include "verification/checks/forces/derivatives.h"
-#include "verification/checks/forces/force_checks.h"
-#include "verification/evidence.h"
 #include "verification/oracles/dense_algebra.h"
-#include "verification/specimens/balance.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/differences.h"
 #include "verification/specimens/probe.h"
 #include "verification/specimens/specimens.h"
@@ -66,7 +58,7 @@ Finding damping_finding(const Subject& subject) {
                           expected = expected_damping(specimen);
     const double scale = epsilon * specimen.patch().stiffness * specimen.patch().forecast_time /
                          specimen.patch().far * extent(specimen.state.x);
-    measured.row(specimen.name, (D - expected).cwiseAbs().maxCoeff<Eigen::PropagateNaN>() / scale);
+    measured.row(specimen.name, largest_entry(D - expected) / scale);
   }
   return judge_worst(measured, 64,
                      "k depends on the distance, good to a rounding of positions over far; the "
@@ -81,9 +73,8 @@ Finding resists_finding(const Subject& subject) {
     const Eigen::VectorXd values = oracles::symmetric_eigenvalues((D + D.transpose()) / 2);
     const double largest = values.cwiseAbs().maxCoeff();
     measured.row(specimen.name + ", largest eigenvalue", values.maxCoeff() / (epsilon * largest));
-    measured.row(
-        specimen.name + ", asymmetry",
-        (D - D.transpose()).cwiseAbs().maxCoeff<Eigen::PropagateNaN>() / (epsilon * largest));
+    measured.row(specimen.name + ", asymmetry",
+                 largest_entry(D - D.transpose()) / (epsilon * largest));
   }
   return judge_worst(measured, 128,
                      "a rounding of each of the 54 rows and columns that an eigenvalue sums over");
@@ -232,11 +223,10 @@ Finding derivative_finding(const Subject& subject) {
       const Probe probe(subject, specimen.scene);
       const Eigen::MatrixXd expected =
           differences_of_forces(probe, specimen.state, 1e-4 * specimen.patch().far);
-      const double size = expected.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
-      const Eigen::MatrixXd difference =
-          force_derivative(specimen.scene, specimen.state) - expected;
-      measured.row(fmt::format("{}, tau_s = {} s", specimen.name, tau),
-                   difference.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() / size);
+      const double size = largest_entry(expected);
+      measured.row(
+          fmt::format("{}, tau_s = {} s", specimen.name, tau),
+          largest_entry(force_derivative(specimen.scene, specimen.state) - expected) / size);
     }
   return judge_worst(
       measured, 1e-6,
@@ -278,9 +268,9 @@ Finding beyond_reach_finding(const Subject& subject) {
     for (const std::vector<int>& bond : specimen.particles)
       specimen.state.x.col(bond[0]) += 2.3 * specimen.patch().far * Vector3(0.6, 0.48, 0.64);
     const PerParticle3 force = Probe(subject, specimen.scene).elastic(specimen.state);
-    measured.row(specimen.name + ", force", force.cwiseAbs().maxCoeff<Eigen::PropagateNaN>());
-    const Eigen::MatrixXd K = force_derivative(specimen.scene, specimen.state);
-    measured.row(specimen.name + ", derivative", K.cwiseAbs().maxCoeff<Eigen::PropagateNaN>());
+    measured.row(specimen.name + ", force", largest_entry(force));
+    measured.row(specimen.name + ", derivative",
+                 largest_entry(force_derivative(specimen.scene, specimen.state)));
   }
   return judge_worst(
       measured, 0,

@@ -1,14 +1,10 @@
 // Motion of stuck cloth: how it follows its target, its lag, its stable steps.
 #include <fmt/format.h>
-
-#include <Eigen/Geometry>
-#include <cmath>
 #include <memory>
 
 #include "reference/dynamics/simulate.h"
-#include "verification/checks/forces/force_checks.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/differences.h"
-#include "verification/evidence.h"
 #include "verification/specimens/moving_sheets.h"
 #include "verification/specimens/stepper.h"
 #include "verification/specimens/sticking_scenes.h"
@@ -154,7 +150,7 @@ Finding deforming_finding(const Subject& subject) {
                      "frame's own acceleration adds less than 1e-5 m: 8e-5 m, rounded up");
 }
 
-Finding forecast_step_finding(const Subject&) {
+Finding forecast_step_finding() {
   Table measured{{"case", ""}, {"step over what was derived less 1", "1"}};
   for (const double tau : {0.0, 0.0007, 0.03}) {
     Scene scene = over_the_palm(Motion{});

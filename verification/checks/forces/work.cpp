@@ -1,9 +1,5 @@
 #include "verification/checks/forces/work.h"
 
-#include <array>
-#include <cmath>
-
-#include "verification/evidence.h"
 #include "verification/specimens/probe.h"
 #include "verification/specimens/random.h"
 #include "verification/specimens/specimens.h"

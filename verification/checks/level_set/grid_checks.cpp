@@ -1,12 +1,7 @@
 // Checks of signed distance on a grid: interpolation, the narrow band, what lies
 // beyond the lattice.
-#include <algorithm>
-#include <cmath>
-#include <functional>
-
 #include "reference/level_set/narrow_band.h"
-#include "verification/checks/level_set/level_set_checks.h"
-#include "verification/evidence.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/random.h"
 #include "verification/specimens/specimens.h"
 #include "verification/specimens/ugly_solids.h"
@@ -45,7 +40,7 @@ struct Multilinear {
   }
 };
 
-Finding cell_is_trilinear(const Subject&) {
+Finding cell_is_trilinear() {
   const Multilinear truth{{0.3, -1.1, 0.7, 1.7, 2.3, -3.1, 1.3, 5.9}};
   const Vector3 origin = odd_lattice.origin;
   const Grid grid = sampled(odd_lattice, [&](const Vector3& p) { return truth.value(p - origin); });
@@ -70,7 +65,7 @@ Finding cell_is_trilinear(const Subject&) {
 }
 
 /// Differences over two cells are exact for quadratics, and so is their blend, which is linear.
-Finding nodal_gradient_is_exact(const Subject&) {
+Finding nodal_gradient_is_exact() {
   Eigen::Matrix3d curvature;
   curvature << 1.9, 0.3, -0.7, 0.3, -1.1, 0.5, -0.7, 0.5, 0.8;
   const Vector3 slope(1.7, -2.3, 3.1), origin = odd_lattice.origin;
@@ -95,7 +90,7 @@ Finding nodal_gradient_is_exact(const Subject&) {
 
 /// Outside its lattice a sphere's grid must still answer with the distance: never less than that
 /// but for the border's error, and with only so much more as the search is cut short.
-Finding beyond_is_distance(const Subject&) {
+Finding beyond_is_distance() {
   constexpr double radius = 0.7, too_small = 0.05, too_large = 0.01, turned = 0.13, jumps = 1e-6;
   const Sphere sphere{radius};
   const Lattice lattice =
@@ -130,7 +125,7 @@ Finding beyond_is_distance(const Subject&) {
       "square of that; jump: points 2e-9 apart");
 }
 
-Finding band_is_exact(const Subject&) {
+Finding band_is_exact() {
   constexpr double cells = 2.5;
   Table measured{{"case", ""}, {"nodes missing, superfluous or with another value", "1"}};
   std::vector<std::pair<std::string, MeshDistance>> meshes;

@@ -1,15 +1,11 @@
 // Level sets made on several threads: every bit is that of one thread.
-#include <cmath>
-#include <functional>
-#include <string>
-
 #include "reference/bodies/repair.h"
 #include "reference/level_set/deforming.h"
 #include "reference/mesh/shapes.h"
-#include "verification/checks/level_set/level_set_checks.h"
 #include "verification/checks/level_set/octree_samples.h"
-#include "verification/evidence.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/followed_runs.h"
+#include "verification/specimens/ugly_solids.h"
 
 namespace foldproof {
 
@@ -50,10 +46,7 @@ Numbers numbers_of(const DeformingBody& body) {
   return all;
 }
 
-TriangleSoup statue() {
-  const TriangleMesh mesh = make_statue(1, 3);
-  return {mesh.rest, mesh.triangles, {}};
-}
+TriangleSoup statue() { return soup_of(make_statue(1, 3)); }
 
 /// The same without some of its triangles.
 TriangleSoup statue_with_holes() {
@@ -102,7 +95,7 @@ std::vector<NamedMaking> makings() {
        }}};
 }
 
-Finding threads_finding(const Subject&) {
+Finding threads_finding() {
   Table measured{{"case", ""}, {"threads", "1"}, {"numbers", "1"}, {"numbers that differ", "1"}};
   for (const NamedMaking& making : makings()) {
     const Numbers alone = making.numbers_on(1);

@@ -1,13 +1,8 @@
 // Checks of fast marching and of its crude start.
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <limits>
 #include <stdexcept>
 
 #include "reference/level_set/fast_marching.h"
-#include "verification/checks/level_set/level_set_checks.h"
-#include "verification/evidence.h"
+#include "verification/specimens/check.h"
 
 namespace foldproof {
 
@@ -52,7 +47,7 @@ Lattice about_unit_ball() {
 
 /// Upwind differences of either order are exact on a plane where no characteristic enters through
 /// the border: the border's nodes are seeds, so that none does.
-Finding planes_are_exact(const Subject&) {
+Finding planes_are_exact() {
   const Lattice& lattice = lattice_of_planes;
   Table measured = roundings_of("times the lattice's size");
   for (const MarchingOrder order : {MarchingOrder::first, MarchingOrder::second}) {
@@ -95,7 +90,7 @@ double residual(const Grid& grid, long index) {
 
 double torus_phi(const Vector3& p) { return Torus{0.61, 0.23}.at(p).phi; }
 
-Finding equation_is_solved(const Subject&) {
+Finding equation_is_solved() {
   const Lattice lattice = about_unit_ball();
   Table measured = roundings_of("phi/h");
   for (const double radius : {0.71, 0.93}) {
@@ -137,7 +132,7 @@ int wrong_below_the_plane() {
   return wrong;
 }
 
-Finding sides_are_kept(const Subject&) {
+Finding sides_are_kept() {
   const Lattice lattice = about_unit_ball();
   Table measured{{"case", ""},
                  {"nodes of the wrong sign, not finite, or seeds with another value", "1"}};
@@ -164,7 +159,7 @@ Finding sides_are_kept(const Subject&) {
 
 /// A plane's own values as sides: crossings along the axes name the plane, and the distance
 /// to it is exact.
-Finding crossings_are_exact(const Subject&) {
+Finding crossings_are_exact() {
   const Lattice& lattice = lattice_of_planes;
   const auto plane = [&](const Vector3& p) { return oblique.dot(p) - 0.031; };
   std::vector<float> side, crude;
@@ -195,7 +190,7 @@ Finding crossings_are_exact(const Subject&) {
 }
 
 /// How many of three misuses are not refused.
-Finding misuse_is_rejected(const Subject&) {
+Finding misuse_is_rejected() {
   const Lattice lattice = about_unit_ball();
   Table measured{{"case", ""}, {"not refused", "1"}};
   const auto rejected = [](const std::function<void()>& act) {

@@ -1,10 +1,7 @@
 // Checks of the exact signed distance to triangle meshes.
-#include <cmath>
-
 #include "reference/level_set/mesh_distance.h"
-#include "verification/checks/level_set/level_set_checks.h"
-#include "verification/evidence.h"
 #include "verification/oracles/triangle_distance.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/random.h"
 #include "verification/specimens/specimens.h"
 #include "verification/specimens/ugly_solids.h"
@@ -58,7 +55,7 @@ double scale_of(const MeshDistance& mesh, const Vector3& p) {
   return epsilon * (p.norm() + mesh.x.colwise().norm().maxCoeff());
 }
 
-Finding distance_is_exact(const Subject&) {
+Finding distance_is_exact() {
   Table measured = roundings_of("(|p| + |x|)");
   for (const NamedMesh& named : meshes()) {
     Random random(61);
@@ -79,7 +76,7 @@ Finding distance_is_exact(const Subject&) {
       "roundings of the coordinates; an error of the weights moves it along the surface");
 }
 
-Finding normal_leads_to_the_surface(const Subject&) {
+Finding normal_leads_to_the_surface() {
   Table measured = roundings_of("(|p| + |x|)");
   for (const NamedMesh& named : meshes()) {
     Random random(67);
@@ -101,7 +98,7 @@ Finding normal_leads_to_the_surface(const Subject&) {
                      "point up to as many roundings as the distance has");
 }
 
-Finding sign_is_right(const Subject&) {
+Finding sign_is_right() {
   constexpr int points = 336000;  // on each of three meshes: a million in all
   Table measured{{"case", ""}, {"wrong signs", "1"}, {"points off the surface", "1"}};
   for (const UglySolid& solid : ugly_solids()) {
@@ -125,7 +122,7 @@ Finding sign_is_right(const Subject&) {
                      "closer to them than rounding");
 }
 
-Finding bound_is_kept(const Subject&) {
+Finding bound_is_kept() {
   Table measured{{"case", ""}, {"answers that differ from those of a search without a bound", "1"}};
   for (const NamedMesh& named : meshes()) {
     Random random(73);

@@ -5,6 +5,9 @@
 
 namespace foldproof {
 
+/// Points of a cube about the origin, uniform at random.
+std::vector<Vector3> random_points(int count, double half_width, unsigned seed);
+
 /// A torus of radii 0.29 m and 0.11 m, rotated and shifted out of alignment with the axes.
 Distance tilted_torus(const Vector3& p);
 

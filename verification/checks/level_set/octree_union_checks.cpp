@@ -1,12 +1,9 @@
-#include <algorithm>
-#include <cmath>
 #include <random>
 
 #include "reference/level_set/octree_nodes.h"
-#include "verification/checks/level_set/level_set_checks.h"
 #include "verification/checks/level_set/octree_samples.h"
-#include "verification/evidence.h"
 #include "verification/seeds.h"
+#include "verification/specimens/check.h"
 
 namespace foldproof {
 
@@ -45,7 +42,7 @@ Exact exact_union(const std::vector<DistanceFunction>& parts, const Vector3& p) 
   return {sorted[0].first, sorted[1].first, sorted[0].second, sorted[1].second, int(inside)};
 }
 
-Finding nodes_know_their_part(const Subject&) {
+Finding nodes_know_their_part() {
   const std::vector<DistanceFunction> parts = parts_of_a_body();
   const Octree tree = make_octree(parts, union_sampling(7e-4));
   const std::vector<OctreePlace> places = branch_places(tree);
@@ -84,7 +81,7 @@ std::vector<Vector3> points_near(const std::vector<DistanceFunction>& parts, dou
   return points;
 }
 
-Finding union_misses_by_its_tolerance(const Subject&) {
+Finding union_misses_by_its_tolerance() {
   const std::vector<DistanceFunction> parts = parts_of_a_body();
   Table measured{{"case", ""}, {"largest miss", "tolerances"}};
   for (const double tolerance : {2.1e-3, 7e-4}) {
@@ -106,7 +103,7 @@ Finding union_misses_by_its_tolerance(const Subject&) {
       "as for one body: each part is sampled by itself, so their crease costs nothing");
 }
 
-Finding pinch_is_flagged(const Subject&) {
+Finding pinch_is_flagged() {
   const std::vector<DistanceFunction> parts = parts_of_a_body();
   const double tolerance = 7e-4;
   const Octree tree = make_octree(parts, union_sampling(tolerance));
@@ -132,17 +129,13 @@ Finding pinch_is_flagged(const Subject&) {
 /// Small balls far from each other: in the wide cells between them one may be nearest where none
 /// of the nodes is.
 std::vector<DistanceFunction> scattered_balls() {
-  std::mt19937 random(shifted_seed(5));
-  std::uniform_real_distribution<double> along(-0.4, 0.4);
   std::vector<DistanceFunction> parts;
-  for (int k = 0; k < 9; ++k) {
-    const double x = along(random), y = along(random), z = along(random);
-    parts.push_back([=](const Vector3& p) { return Sphere{0.05}.at(p - Vector3(x, y, z)); });
-  }
+  for (const Vector3& c : random_points(9, 0.4, 5))
+    parts.push_back([=](const Vector3& p) { return Sphere{0.05}.at(p - c); });
   return parts;
 }
 
-Finding union_jumps_nowhere(const Subject&) {
+Finding union_jumps_nowhere() {
   Table measured{{"case", ""}, {"largest jump", "epsilon of the cube's width"}};
   for (const double tolerance : {2.1e-3, 7e-4})
     measured.row(

@@ -1,16 +1,12 @@
-#include "verification/checks/mesh/mesh_checks.h"
-
-#include <Eigen/Geometry>
 #include <bit>
-#include <cmath>
 #include <filesystem>
 #include <map>
 #include <utility>
 
 #include "reference/mesh/obj.h"
 #include "reference/mesh/shapes.h"
-#include "verification/evidence.h"
 #include "verification/seeds.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/random.h"
 #include "verification/specimens/scratch_folder.h"
 #include "verification/specimens/specimens.h"
@@ -30,15 +26,7 @@ struct Known {
 };
 
 Sheet sheet_of(SheetPattern pattern) {
-  Sheet sheet;
-  sheet.pattern = pattern;
-  sheet.width = width;
-  sheet.height = height;
-  sheet.columns = 7;
-  sheet.rows = 5;
-  sheet.jitter = 0.31;
-  sheet.seed = shifted_seed(83);
-  return sheet;
+  return {pattern, width, height, 7, 5, 0.31, shifted_seed(83)};
 }
 
 std::vector<Known> known_shapes() {
@@ -57,16 +45,16 @@ std::vector<Known> known_shapes() {
   shapes.push_back({"disc", make_disc(0.31, 4), 1, disc});
   shapes.push_back({"cylinder", make_cylinder(0.13, 0.37, 11, 6), 0, cylinder});
   shapes.push_back({"icosahedron", make_icosphere(0.23, 0), 2, 5 * std::sqrt(3.0) * side * side});
-  shapes.push_back({"icosphere", make_icosphere(0.23, 3), 2, std::nan("")});
-  shapes.push_back({"geodesic sphere", make_geodesic_sphere(0.23, 5), 2, std::nan("")});
+  shapes.push_back({"icosphere", make_icosphere(0.23, 3), 2, nan});
+  shapes.push_back({"geodesic sphere", make_geodesic_sphere(0.23, 5), 2, nan});
   const TriangleMesh coarse = make_sheet(sheet_of(SheetPattern::random_delaunay));
   shapes.push_back({"divided sheet", divide_edges(coarse, 4), 1, width * height});
-  shapes.push_back({"statue", small_statue(), 2, std::nan("")});
+  shapes.push_back({"statue", small_statue(), 2, nan});
   shapes.push_back({"hinge", make_hinge(0.17, 2.1), 1, 0.5 * (0.9 + 0.6) * 0.17 * 0.17});
   return shapes;
 }
 
-Finding euler_characteristic_is_known(const Subject&) {
+Finding euler_characteristic_is_known() {
   Table measured{{"case", ""}, {"difference from the surface's", "1"}};
   for (const Known& shape : known_shapes()) {
     std::map<std::pair<int, int>, int> edges;
@@ -89,7 +77,7 @@ bool runs(const Triangle& triangle, int a, int b, int c) {
          triangle == Triangle{c, a, b};
 }
 
-Finding hinges_are_oriented(const Subject&) {
+Finding hinges_are_oriented() {
   Table measured{{"case", ""}, {"hinges otherwise", "1"}};
   for (const Known& shape : known_shapes()) {
     int fallback = 0;
@@ -111,7 +99,7 @@ Finding hinges_are_oriented(const Subject&) {
                      "drawn in the paper");
 }
 
-Finding every_inner_edge_is_one_hinge(const Subject&) {
+Finding every_inner_edge_is_one_hinge() {
   Table measured{{"case", ""}, {"edges wrong", "1"}};
   for (const Known& shape : known_shapes()) {
     std::map<std::pair<int, int>, int> triangles, hinges;
@@ -133,7 +121,7 @@ Finding every_inner_edge_is_one_hinge(const Subject&) {
                      "hinge for each edge of two triangles");
 }
 
-Finding areas_and_masses_sum(const Subject&) {
+Finding areas_and_masses_sum() {
   Table measured = roundings_of("of the exact value");
   const double density = 0.37;
   for (const Known& shape : known_shapes()) {
@@ -153,7 +141,7 @@ Finding areas_and_masses_sum(const Subject&) {
       "in, and only masses and edge areas are compared with it.");
 }
 
-Finding obj_round_trip_is_exact(const Subject&) {
+Finding obj_round_trip_is_exact() {
   const ScratchFolder folder;
   Table measured{{"case", ""}, {"numbers that came back otherwise", "1"}};
   Random random(311);
@@ -175,7 +163,7 @@ Finding obj_round_trip_is_exact(const Subject&) {
                      "17 significant digits hold a double, so every bit must come back");
 }
 
-Finding pleats_are_isometric(const Subject&) {
+Finding pleats_are_isometric() {
   Table measured = roundings_of("of the size");
   for (const double angle : {0.7, -1.9, 2.9}) {
     for (const SheetPattern pattern : {SheetPattern::one_diagonal, SheetPattern::union_jack}) {
@@ -196,7 +184,7 @@ Finding pleats_are_isometric(const Subject&) {
         fold_lines += is_fold;
         fold.observe(std::abs(found - (is_fold ? std::abs(angle) : 0)) / (epsilon * pi));
       }
-      fold.observe(fold_lines == 2 * sheet.rows ? 0 : std::nan(""));
+      fold.observe(fold_lines == 2 * sheet.rows ? 0 : nan);
       const std::string name =
           (pattern == SheetPattern::union_jack ? "union_jack" : "one_diagonal");
       measured.row(name + " by " + std::to_string(angle) + " rad, lengths", length.value());
@@ -209,7 +197,7 @@ Finding pleats_are_isometric(const Subject&) {
                      "the size is the sheet's width for lengths, pi for angles");
 }
 
-Finding hinge_folds_by_its_angle(const Subject&) {
+Finding hinge_folds_by_its_angle() {
   Table measured = roundings_of("pi");
   for (const double angle : {-3.1, -1.7, -0.2, 0.0, 0.4, 1.5, 2.9}) {
     const TriangleMesh mesh = make_hinge(0.23, angle);

@@ -1,12 +1,8 @@
-#include <algorithm>
 #include <fstream>
-#include <limits>
 
 #include "reference/mesh/obj.h"
 #include "reference/mesh/shapes.h"
-#include "verification/checks/mesh/mesh_checks.h"
-#include "verification/evidence.h"
-#include "verification/specimens/rejection.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/scratch_folder.h"
 
 namespace foldproof {
@@ -51,16 +47,6 @@ std::vector<BadFile> bad_files() {
       {"nothing", "", 1, "empty"}};
 }
 
-bool holds(const std::string& message, const std::string& part) {
-  return message.find(part) != std::string::npos;
-}
-
-/// Parts of what must be said that the message leaves out.
-int left_out(const std::string& message, const std::vector<std::string>& parts) {
-  return int(std::count_if(parts.begin(), parts.end(),
-                           [&](const std::string& part) { return !holds(message, part); }));
-}
-
 /// The messages, with the folder of the run left away so that they are the same each time.
 std::string without_folder(const std::string& message) {
   const size_t slash = message.rfind('/', message.find(".obj"));
@@ -73,7 +59,7 @@ void try_bad_files(Table& measured) {
   const auto observe = [&](const std::string& name, const std::string& path,
                            std::vector<std::string> parts) {
     const std::string message = rejection_message([&] { read_obj(path); });
-    measured.row("file with " + name, left_out(message, parts), without_folder(message));
+    measured.row("file with " + name, count_missing(message, parts), without_folder(message));
   };
   for (const BadFile& bad : bad_files()) {
     const std::string path = folder.file("bad.obj");
@@ -96,7 +82,7 @@ std::vector<BadMesh> bad_meshes() {
   PerParticle3 rest(3, 4);
   rest << 0, 0.7, 0.8, 0.1, 0, 0, 0.6, 0.9, 0, 0.1, 0, 0.2;
   PerParticle3 infinite = rest, line = rest;
-  infinite(2, 3) = std::numeric_limits<double>::infinity();
+  infinite(2, 3) = INFINITY;
   line.col(3) = 0.4 * rest.col(0) + 0.6 * rest.col(2);
   return {{"no triangles", rest, {}, {"mesh", "no triangles"}},
           {"an index too large",
@@ -117,28 +103,22 @@ std::vector<BadMesh> bad_meshes() {
           {"opposite orientations", rest, {{0, 1, 2}, {0, 3, 2}}, {"triangle 1", "orientation"}}};
 }
 
-Finding bad_meshes_are_rejected(const Subject&) {
+Finding bad_meshes_are_rejected() {
   Table measured{{"case", ""}, {"file, line or keyword not named", "1"}, {"message", ""}};
   try_bad_files(measured);
   for (const BadMesh& bad : bad_meshes()) {
     const std::string message =
         rejection_message([&] { make_triangle_mesh(bad.rest, bad.triangles); });
-    measured.row("mesh with " + bad.name, left_out(message, bad.parts), message);
+    measured.row("mesh with " + bad.name, count_missing(message, bad.parts), message);
   }
   return judge_worst(
       measured, "file, line or keyword not named", 0,
       "each refusal must name the place, file and line or triangle or vertex, and the reason");
 }
 
-Finding small_and_large_meshes_are_accepted(const Subject&) {
+Finding small_and_large_meshes_are_accepted() {
   Table measured{{"case", ""}, {"meshes refused", "1"}};
-  Sheet sheet;
-  sheet.pattern = SheetPattern::one_diagonal;
-  sheet.width = 0.7;
-  sheet.height = 0.4;
-  sheet.columns = 4;
-  sheet.rows = 3;
-  const TriangleMesh mesh = make_sheet(sheet);
+  const TriangleMesh mesh = make_sheet({SheetPattern::one_diagonal, 0.7, 0.4, 4, 3});
   for (const double size : {1e-150, 1e-9, 3.0, 1e9, 1e150}) {
     const std::string message =
         rejection_message([&] { make_triangle_mesh(size * mesh.rest, mesh.triangles); });

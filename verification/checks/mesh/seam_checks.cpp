@@ -1,16 +1,14 @@
 // Panels of a garment that are sewn where their vertices meet.
-#include <algorithm>
-#include <cmath>
 #include <fstream>
 #include <random>
 
 #include "reference/mesh/obj.h"
 #include "reference/mesh/seams.h"
 #include "reference/mesh/shapes.h"
-#include "verification/checks/mesh/mesh_checks.h"
+#include "verification/seeds.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/scratch_folder.h"
 #include "verification/specimens/trial_cases.h"
-#include "verification/seeds.h"
 
 namespace foldproof {
 
@@ -44,7 +42,7 @@ TriangleSoup random_soup(const std::vector<int>& becomes, PerParticle3 x, std::m
   return soup;
 }
 
-Finding seams_finding(const Subject&) {
+Finding seams_finding() {
   std::mt19937 random(shifted_seed(41));
   std::uniform_real_distribution<double> inside(-0.5, 0.5);
   Table wrong{{"distance", "m"}, {"joined vertices", "1"}, {"wrong corners", "1"}};
@@ -67,8 +65,7 @@ Finding seams_finding(const Subject&) {
   }
   return {{wrong.worst("wrong corners"), 0, 0, "corners",
            "vertices are chosen, not computed: every corner must be the very one"},
-          wrong,
-          ""};
+          wrong};
 }
 
 /// Two panels of a tube as an OBJ file: each half has its own vertices along both seams,
@@ -92,7 +89,7 @@ std::string two_panels(double apart) {
   return text;
 }
 
-Finding panels_finding(const Subject&) {
+Finding panels_finding() {
   const ScratchFolder folder;
   std::ofstream(folder.file("tube.obj")) << two_panels(0.001);
   const auto scene = [&](const std::string& seams) {
@@ -100,31 +97,23 @@ Finding panels_finding(const Subject&) {
     return read_scene_text(text + short_time, folder.file("trial.toml"));
   };
   const auto rejected = [&](const std::string& seams, const std::string& words) {
-    try {
-      scene(seams);
-    } catch (const InputError& error) {
-      return std::string(error.what()).find(words) != std::string::npos;
-    }
-    return false;
+    return is_rejected([&] { scene(seams); }, words);
   };
   const auto borders = [](const TriangleMesh& mesh) {
     return std::ranges::count_if(mesh.edges,
                                  [](const Edge& edge) { return edge.triangles[1] < 0; });
   };
-  Table differences = no_differences();
+  Differences differences;
   const Scene apart = scene(""), sewn = scene("seams = 0.002\n"), open = scene("seams = 0.0005\n");
-  differences.row("two panels are two pieces",
-                  infinite_unless(borders(apart.mesh) == 2 * (2 * 5 + 2 * 3)));
-  differences.row("sewn they are a tube: a ring of edges above and below",
-                  infinite_unless(borders(sewn.mesh) == 2 * 10));
-  differences.row("of 40 particles", infinite_unless(sewn.mesh.particles() == 40));
-  differences.row("what is farther apart stays open",
-                  infinite_unless(borders(open.mesh) == borders(apart.mesh)));
-  differences.row("a distance of zero is refused",
-                  infinite_unless(rejected("seams = 0\n", "'seams' must be")));
-  differences.row("a triangle that would be lost is refused",
-                  infinite_unless(rejected("seams = 0.11\n", "tube.obj:49: two corners")));
-  return judged_differences(differences, 0, "edges and particles are counted");
+  differences.is("two panels are two pieces", borders(apart.mesh) == 2 * (2 * 5 + 2 * 3));
+  differences.is("sewn they are a tube: a ring of edges above and below",
+                 borders(sewn.mesh) == 2 * 10);
+  differences.is("of 40 particles", sewn.mesh.particles() == 40);
+  differences.is("what is farther apart stays open", borders(open.mesh) == borders(apart.mesh));
+  differences.is("a distance of zero is refused", rejected("seams = 0\n", "'seams' must be"));
+  differences.is("a triangle that would be lost is refused",
+                 rejected("seams = 0.11\n", "tube.obj:49: two corners"));
+  return differences.judged(0, "edges and particles are counted");
 }
 
 }  // namespace

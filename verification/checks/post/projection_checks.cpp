@@ -1,16 +1,9 @@
 // Points moved out of objects: where they end, what is left alone.
-#include "verification/checks/post/projection_checks.h"
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
 #include <numeric>
-#include <string>
 
+#include "verification/specimens/check.h"
 #include "verification/specimens/differences.h"
-#include "verification/evidence.h"
 #include "verification/specimens/projection_specimens.h"
-#include "verification/specimens/rejection.h"
 
 namespace foldproof {
 
@@ -31,21 +24,40 @@ std::vector<ProjectionCase> unpinched_cases() {
   return cases;
 }
 
-Finding lands_where_the_map_says(const Subject&) {
-  Table measured{{"case", ""}, {"largest miss", "m"}};
-  for (const ProjectionCase& specimen : unpinched_cases()) {
+/// A case projected by a map.
+struct Projected {
+  const ProjectionCase& specimen;
+  const DepthMap& map;
+  FoldProjection projection;
+  ProjectedCloth cloth;
+
+  PerParticle before() const { return distances(specimen, specimen.x); }
+  PerParticle after() const { return distances(specimen, cloth.x); }
+};
+
+/// A row for each unpinched case and each map.
+Table over_maps(const Column& column, const std::function<double(const Projected&)>& measure,
+                double eps = projection_by("plain").band.nearest) {
+  Table measured{{"case", ""}, column};
+  for (const ProjectionCase& specimen : unpinched_cases())
     for (const DepthMap& map : depth_maps()) {
-      const FoldProjection projection = projection_by(std::string(map.name));
+      FoldProjection projection = projection_by(std::string(map.name));
+      projection.band.nearest = eps;
       const ProjectedCloth cloth = project_specimen(specimen, projection);
-      const PerParticle before = distances(specimen, specimen.x),
-                        after = distances(specimen, cloth.x);
-      Worst worst;
-      for (Eigen::Index i = 0; i < before.size(); ++i)
-        worst.observe(std::abs(after[i] - map.at(projection.band, before[i])));
-      measured.row(with(specimen, map), worst.value());
+      measured.row(with(specimen, map), measure({specimen, map, projection, cloth}));
     }
-  }
-  return judge_worst(measured, twice, tolerance_reason);
+  return measured;
+}
+
+Finding lands_where_the_map_says() {
+  const auto largest_miss = [](const Projected& of) {
+    const PerParticle before = of.before(), after = of.after();
+    Worst worst;
+    for (Eigen::Index i = 0; i < before.size(); ++i)
+      worst.observe(std::abs(after[i] - of.map.at(of.projection.band, before[i])));
+    return worst.value();
+  };
+  return judge_worst(over_maps({"largest miss", "m"}, largest_miss), twice, tolerance_reason);
 }
 
 /// How far outside [eps, tau] the points are that began short of tau [m].
@@ -57,31 +69,17 @@ double outside_band(const PerParticle& before, const PerParticle& after, const D
   return worst.value();
 }
 
-Finding ends_in_the_band(const Subject&) {
-  Table measured{{"case", ""}, {"distance outside [eps, tau]", "m"}};
-  for (const ProjectionCase& specimen : unpinched_cases()) {
-    for (const DepthMap& map : depth_maps()) {
-      const FoldProjection projection = projection_by(std::string(map.name));
-      const ProjectedCloth cloth = project_specimen(specimen, projection);
-      measured.row(with(specimen, map),
-                   outside_band(distances(specimen, specimen.x), distances(specimen, cloth.x),
-                                projection.band));
-    }
-  }
-  return judge_worst(measured, twice, tolerance_reason);
+Finding ends_in_the_band() {
+  const auto outside = [](const Projected& of) {
+    return outside_band(of.before(), of.after(), of.projection.band);
+  };
+  return judge_worst(over_maps({"distance outside [eps, tau]", "m"}, outside), twice,
+                     tolerance_reason);
 }
 
-Finding no_point_is_left_inside(const Subject&) {
-  Table measured{{"case", ""}, {"points inside", "1"}};
-  for (const ProjectionCase& specimen : unpinched_cases()) {
-    for (const DepthMap& map : depth_maps()) {
-      FoldProjection projection = projection_by(std::string(map.name));
-      projection.band.nearest = 0;
-      const ProjectedCloth cloth = project_specimen(specimen, projection);
-      measured.row(with(specimen, map), double((distances(specimen, cloth.x).array() < 0).count()));
-    }
-  }
-  return judge_worst(measured, 0,
+Finding no_point_is_left_inside() {
+  const auto inside = [](const Projected& of) { return double((of.after().array() < 0).count()); };
+  return judge_worst(over_maps({"points inside", "1"}, inside, 0), 0,
                      "with eps = 0 too: arrived points lie on the outer side of f, so that not "
                      "even a rounding leaves one inside");
 }
@@ -95,7 +93,7 @@ ProjectionOutcome expected_fate(const DepthMap& map, const FoldProjection& proje
                                                          : ProjectionOutcome::unfinished;
 }
 
-Finding senseless_ones_are_rejected(const Subject&) {
+Finding senseless_ones_are_rejected() {
   Table measured{{"case", ""}, {"projections that mean nothing and are not refused", "1"}};
   const ProjectionCase specimen = two_balls();
   const auto observe = [&](const std::string& name,
@@ -115,7 +113,7 @@ Finding senseless_ones_are_rejected(const Subject&) {
   return judge_worst(measured, 0, "a tolerance and a cap above 0, a band and a map are needed");
 }
 
-Finding one_move_is_enough(const Subject&) {
+Finding one_move_is_enough() {
   Table measured{{"case", ""}, {"points that do not arrive", "1"}};
   const ProjectionCase specimen = two_balls();
   for (const DepthMap& map : depth_maps()) {
@@ -133,24 +131,19 @@ Finding one_move_is_enough(const Subject&) {
       "along the normal of an exact distance the first move arrives, and it is allowed");
 }
 
-Finding fates_are_true(const Subject&) {
-  Table measured{
-      {"case", ""},
-      {"points with another outcome than their distances imply, or not moved to the end", "1"}};
-  for (const ProjectionCase& specimen : unpinched_cases()) {
-    for (const DepthMap& map : depth_maps()) {
-      const FoldProjection projection = projection_by(std::string(map.name));
-      const ProjectedCloth cloth = project_specimen(specimen, projection);
-      double wrong = cloth.count(ProjectionOutcome::unfinished);
-      for (Eigen::Index i = 0; i < cloth.before.size(); ++i)
-        wrong += cloth.outcomes[size_t(i)] !=
-                 expected_fate(map, projection, cloth.before[i], cloth.after[i]);
-      measured.row(with(specimen, map), wrong);
-    }
-  }
+Finding fates_are_true() {
+  const auto wrong_outcomes = [](const Projected& of) {
+    double wrong = of.cloth.count(ProjectionOutcome::unfinished);
+    for (Eigen::Index i = 0; i < of.cloth.before.size(); ++i)
+      wrong += of.cloth.outcomes[size_t(i)] !=
+               expected_fate(of.map, of.projection, of.cloth.before[i], of.cloth.after[i]);
+    return wrong;
+  };
   return judge_worst(
-      measured, 0,
-      "where there is room every point is moved to the end, and its reported outcome is true");
+      over_maps(
+          {"points with another outcome than their distances imply, or not moved to the end", "1"},
+          wrong_outcomes),
+      0, "where there is room every point is moved to the end, and its reported outcome is true");
 }
 
 /// Pairs, neighbours in depth, that changed their order by more than the tolerance.
@@ -164,21 +157,14 @@ double disorder(const PerParticle& before, const PerParticle& after) {
   return wrong;
 }
 
-Finding order_of_depths_is_kept(const Subject&) {
-  Table measured{{"case", ""}, {"neighbours in depth out of order", "1"}};
-  for (const ProjectionCase& specimen : unpinched_cases()) {
-    for (const DepthMap& map : depth_maps()) {
-      const ProjectedCloth cloth = project_specimen(specimen, projection_by(std::string(map.name)));
-      measured.row(with(specimen, map),
-                   disorder(distances(specimen, specimen.x), distances(specimen, cloth.x)));
-    }
-  }
-  return judge_worst(measured, 0,
+Finding order_of_depths_is_kept() {
+  const auto out_of_order = [](const Projected& of) { return disorder(of.before(), of.after()); };
+  return judge_worst(over_maps({"neighbours in depth out of order", "1"}, out_of_order), 0,
                      "the deeper of two points stays the deeper, or comes to lie as far out, "
                      "within the tolerance of 1e-12 m");
 }
 
-Finding moves_along_the_normal(const Subject&) {
+Finding moves_along_the_normal() {
   Table measured{{"case", ""}, {"distance off the exact place", "m"}};
   for (const ProjectionCase& specimen : solids_with_points()) {
     if (specimen.name != "sphere" && specimen.name != "half space") continue;
@@ -199,28 +185,22 @@ Finding moves_along_the_normal(const Subject&) {
                      "a point goes straight out by f - phi, nowhere else; " + tolerance_reason);
 }
 
-Finding far_points_are_untouched(const Subject&) {
-  Table measured{{"case", ""}, {"numbers changed", "1"}};
-  for (const ProjectionCase& specimen : unpinched_cases()) {
-    for (const DepthMap& map : depth_maps()) {
-      const FoldProjection projection = projection_by(std::string(map.name));
-      const ProjectedCloth cloth = project_specimen(specimen, projection);
-      const PerParticle before = distances(specimen, specimen.x);
-      double changed = 0;
-      for (Eigen::Index i = 0; i < before.size(); ++i) {
-        if (before[i] >= projection.band.reach)
-          changed += count_differing_entries(cloth.x.col(i), specimen.x.col(i)) +
-                     (cloth.outcomes[size_t(i)] != ProjectionOutcome::untouched);
-      }
-      measured.row(with(specimen, map), changed);
-    }
-  }
+Finding far_points_are_untouched() {
+  const auto changed_far_away = [](const Projected& of) {
+    const PerParticle before = of.before();
+    double changed = 0;
+    for (Eigen::Index i = 0; i < before.size(); ++i)
+      if (before[i] >= of.projection.band.reach)
+        changed += count_differing_entries(of.cloth.x.col(i), of.specimen.x.col(i)) +
+                   (of.cloth.outcomes[size_t(i)] != ProjectionOutcome::untouched);
+    return changed;
+  };
   return judge_worst(
-      measured, 0,
+      over_maps({"numbers changed", "1"}, changed_far_away), 0,
       "no bit of a point at tau or farther out may change, and it is reported as untouched");
 }
 
-Finding pinched_points_are_left_alone(const Subject&) {
+Finding pinched_points_are_left_alone() {
   Table measured{{"case", ""}, {"numbers changed", "1"}};
   const ProjectionCase specimen = overlapping_balls();
   for (const DepthMap& map : depth_maps()) {
@@ -242,7 +222,7 @@ Finding pinched_points_are_left_alone(const Subject&) {
       "no bit of a point inside both balls may change, and exactly those are reported as pinched");
 }
 
-Finding plain_is_idempotent(const Subject&) {
+Finding plain_is_idempotent() {
   Table measured{{"case", ""}, {"numbers changed by the second projection", "1"}};
   for (ProjectionCase specimen : unpinched_cases()) {
     const FoldProjection projection = projection_by("plain");
@@ -254,7 +234,7 @@ Finding plain_is_idempotent(const Subject&) {
                      "a point at eps or beyond is where plain projection wants it: no bit changes");
 }
 
-Finding projecting_twice_compresses(const Subject&) {
+Finding projecting_twice_compresses() {
   Table measured{{"case", ""},
                  {"room between -t^/2 and 0 after two projections, over that after one", "1"}};
   ProjectionCase specimen = solids_with_points()[1];
@@ -279,7 +259,7 @@ Finding projecting_twice_compresses(const Subject&) {
                      "the first: by at least a twentieth, or the map would hardly move anything");
 }
 
-Finding gaps_without_room_are_reported(const Subject&) {
+Finding gaps_without_room_are_reported() {
   ProjectionCase specimen = two_balls();  // a gap of 0.17 m
   const Vector3 left(-0.4, 0.03, 0.02), right(0.35, -0.02, 0.05);
   const double apart = (right - left).norm(), gap = apart - 0.31 - 0.27;

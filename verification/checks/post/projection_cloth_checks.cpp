@@ -1,14 +1,9 @@
 // The projection of whole cloths: pinched ones, and subdivided ones.
-#include <algorithm>
-#include <cmath>
-#include <string>
-
 #include "reference/mesh/shapes.h"
 #include "reference/mesh/subdivision.h"
-#include "verification/checks/post/projection_checks.h"
-#include "verification/evidence.h"
 #include "verification/oracles/exact_geometry.h"
 #include "verification/seeds.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/differences.h"
 #include "verification/specimens/projection_specimens.h"
 #include "verification/specimens/random.h"
@@ -26,10 +21,8 @@ Object ball_at(const Vector3& centre) {
 
 /// A square sheet, jittered, in the plane z = 0 about the origin.
 TriangleMesh small_sheet(double side, int cells) {
-  Sheet sheet{SheetPattern::jittered, side, side, cells, cells};
-  sheet.jitter = 0.2;
-  sheet.seed = shifted_seed(29);
-  TriangleMesh mesh = make_sheet(sheet);
+  TriangleMesh mesh =
+      make_sheet({SheetPattern::jittered, side, side, cells, cells, 0.2, shifted_seed(29)});
   mesh.rest.colwise() -= Vector3(side / 2, side / 2, 0);
   return mesh;
 }
@@ -53,7 +46,7 @@ ProjectionCase pinched_cloth(const TriangleMesh& mesh, double ripple) {
   return specimen;
 }
 
-Finding pinched_points_would_tear(const Subject&) {
+Finding pinched_points_would_tear() {
   const TriangleMesh mesh = small_sheet(0.25, 20);
   const std::string finding = "stretch when left alone over stretch when projected";
   Table measured{{"case", ""},
@@ -87,14 +80,6 @@ PerParticle3 sunk(const TriangleMesh& mesh) {
   return x;
 }
 
-double longest_edge(const std::vector<Triangle>& triangles, const PerParticle3& x) {
-  double longest = 0;
-  for (const Triangle& t : triangles)
-    for (size_t k = 0; k < 3; ++k)
-      longest = std::max(longest, (x.col(t[k]) - x.col(t[(k + 1) % 3])).norm());
-  return longest;
-}
-
 /// Cloth brought out of the ball about the origin, and the eps with which [m].
 struct BroughtOut {
   PerParticle3 x;
@@ -120,7 +105,7 @@ std::size_t left_inside(const std::vector<Triangle>& triangles, const PerParticl
   return oracles::triangles_in_ball({x, triangles}, Vector3::Zero(), radius).size();
 }
 
-Finding serves_the_subdivided_cloth(const Subject&) {
+Finding serves_the_subdivided_cloth() {
   const TriangleMesh mesh = small_sheet(0.4, 12);
   const PerParticle3 x = sunk(mesh);
   Table measured{
@@ -141,7 +126,7 @@ Finding serves_the_subdivided_cloth(const Subject&) {
                      "edges of L clear of it; decided in whole numbers");
 }
 
-Finding subdividing_afterwards_spoils_it(const Subject&) {
+Finding subdividing_afterwards_spoils_it() {
   const TriangleMesh mesh = small_sheet(0.4, 12);
   const PerParticle3 x = sunk(mesh);
   Table measured{
@@ -163,7 +148,7 @@ Finding subdividing_afterwards_spoils_it(const Subject&) {
 
 /// |x fine - x| at the old particles and on the line between the ends of each edge, over epsilon
 /// and the extent.
-Finding midpoints_keep_the_surface(const Subject&) {
+Finding midpoints_keep_the_surface() {
   Table measured = roundings_of("extent");
   for (const int levels : {1, 3}) {
     const TriangleMesh mesh = small_sheet(0.4, 7);
@@ -182,7 +167,7 @@ Finding midpoints_keep_the_surface(const Subject&) {
                      "terms whose roundings mostly cancel");
 }
 
-Finding loop_is_affine(const Subject&) {
+Finding loop_is_affine() {
   Table measured = roundings_of("extent");
   const TriangleMesh mesh = make_icosphere(0.23, 1);
   Random random(83);

@@ -1,14 +1,9 @@
 // Triangles of the projected cloth against the objects, decided without rounding and without a
 // distance field.
-#include <algorithm>
-#include <cmath>
-#include <string>
-
 #include "reference/mesh/shapes.h"
-#include "verification/checks/post/projection_checks.h"
 #include "verification/oracles/exact_geometry.h"
 #include "verification/seeds.h"
-#include "verification/evidence.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/projection_specimens.h"
 
 namespace foldproof {
@@ -25,10 +20,7 @@ struct Sunk {
 };
 
 Sunk sunk_sheet(double height, unsigned seed) {
-  Sheet sheet{SheetPattern::jittered, 0.9, 0.8, 22, 22};
-  sheet.jitter = 0.3;
-  sheet.seed = shifted_seed(seed);
-  Sunk sunk{make_sheet(sheet), {}};
+  Sunk sunk{make_sheet({SheetPattern::jittered, 0.9, 0.8, 22, 22, 0.3, shifted_seed(seed)}), {}};
   sunk.x = sunk.mesh.rest;
   for (Eigen::Index i = 0; i < sunk.x.cols(); ++i) {
     Eigen::Ref<Vector3> p = sunk.x.col(i);
@@ -36,13 +28,6 @@ Sunk sunk_sheet(double height, unsigned seed) {
     p.z() += 0.02 * std::sin(31 * p.x() + 0.7 * seed) * std::cos(23 * p.y());
   }
   return sunk;
-}
-
-double longest_edge(const TriangleMesh& mesh, const PerParticle3& x) {
-  double longest = 0;
-  for (const Edge& edge : mesh.edges)
-    longest = std::max(longest, (x.col(edge.a) - x.col(edge.b)).norm());
-  return longest;
 }
 
 oracles::TriangleSoup soup_of(const TriangleMesh& mesh, const PerParticle3& x) {
@@ -84,8 +69,8 @@ PerParticle3 project_out(const Target& target, const Sunk& sunk, const std::stri
     FoldProjection projection = projection_by(map);
     projection.band = {eps, 2 * eps + 0.03, 0.04};  // the deepest points all go to eps
     x = project_specimen(specimen, projection).x;
-    if (!has_clearance || eps >= target.enough(longest_edge(sunk.mesh, x))) break;
-    eps = 1.01 * target.enough(longest_edge(sunk.mesh, x));
+    if (!has_clearance || eps >= target.enough(longest_edge(sunk.mesh.triangles, x))) break;
+    eps = 1.01 * target.enough(longest_edge(sunk.mesh.triangles, x));
   }
   return x;
 }
@@ -105,7 +90,7 @@ Table over_sheets(bool has_clearance, const std::string& counted, const Count& c
   return measured;
 }
 
-Finding no_triangle_is_left_inside(const Subject&) {
+Finding no_triangle_is_left_inside() {
   const auto inside = [](const Target& target, const Sunk& sunk, const PerParticle3& x) {
     const bool began_inside = target.inside(soup_of(sunk.mesh, sunk.x)) > 0;
     return began_inside ? double(target.inside(soup_of(sunk.mesh, x))) : NAN;
@@ -118,7 +103,7 @@ Finding no_triangle_is_left_inside(const Subject&) {
       "Integer arithmetic on the cloth's and the body's coordinates; no distance field is used.");
 }
 
-Finding no_eps_is_too_little(const Subject&) {
+Finding no_eps_is_too_little() {
   const auto is_clear = [](const Target& target, const Sunk& sunk, const PerParticle3& x) {
     return target.inside(soup_of(sunk.mesh, x)) == 0 ? 1.0 : 0.0;
   };

@@ -1,16 +1,12 @@
 // Cloth brought out of a body that is a triangle mesh, known by exact distances or by a grid;
 // whether it is out is decided without either.
-#include <algorithm>
-#include <cmath>
 #include <memory>
-#include <string>
 
 #include "reference/level_set/mesh_grid.h"
 #include "reference/mesh/shapes.h"
-#include "verification/checks/post/projection_checks.h"
 #include "verification/oracles/exact_geometry.h"
 #include "verification/seeds.h"
-#include "verification/evidence.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/projection_specimens.h"
 #include "verification/specimens/specimens.h"
 
@@ -40,10 +36,7 @@ struct Worn {
 };
 
 Worn sheet_through(const KnownStatue& statue) {
-  Sheet sheet{SheetPattern::jittered, 0.4, 0.4, 40, 40};
-  sheet.jitter = 0.25;
-  sheet.seed = shifted_seed(97);
-  Worn worn{make_sheet(sheet), {}};
+  Worn worn{make_sheet({SheetPattern::jittered, 0.4, 0.4, 40, 40, 0.25, shifted_seed(97)}), {}};
   const PerParticle3& body = small_statue().rest;
   const Vector3 low = body.rowwise().minCoeff(), high = body.rowwise().maxCoeff(),
                 middle = (low + high) / 2;
@@ -73,7 +66,7 @@ double count_inside(const PerParticle3& x) {
   return inside;
 }
 
-Finding no_particle_is_left_inside(const Subject&) {
+Finding no_particle_is_left_inside() {
   Table measured{{"case", ""},
                  {"particles left inside", "1"},
                  {"particles inside before", "1"},
@@ -92,14 +85,7 @@ Finding no_particle_is_left_inside(const Subject&) {
       "cell of the grid, by which a trilinear value next to an edge of the body may be too large");
 }
 
-double longest_edge(const TriangleMesh& mesh, const PerParticle3& x) {
-  double longest = 0;
-  for (const Edge& edge : mesh.edges)
-    longest = std::max(longest, (x.col(edge.a) - x.col(edge.b)).norm());
-  return longest;
-}
-
-Finding no_triangle_is_left_inside(const Subject&) {
+Finding no_triangle_is_left_inside() {
   Table measured{
       {"case", ""}, {"triangles left inside", "1"}, {"eps", "m"}, {"particles without room", "1"}};
   const oracles::TriangleSoup surface = statue_surface();
@@ -108,7 +94,8 @@ Finding no_triangle_is_left_inside(const Subject&) {
     ProjectedCloth cloth = out_of(worn, "plain", 0);
     double enough = 0;
     for (int k = 0; k < 6; ++k) {
-      const double needed = longest_edge(worn.mesh, cloth.x) / std::sqrt(3.0) + statue.margin;
+      const double needed =
+          longest_edge(worn.mesh.triangles, cloth.x) / std::sqrt(3.0) + statue.margin;
       if (enough >= needed) break;
       enough = 1.02 * needed;
       cloth = out_of(worn, "plain", enough);

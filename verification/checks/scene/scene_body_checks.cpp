@@ -1,17 +1,12 @@
 // Bodies of triangles in a case: sampled by an octree, and deforming.
-#include <Eigen/Geometry>
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 
 #include "reference/bodies/level_set_provider.h"
 #include "reference/level_set/mesh_distance.h"
 #include "reference/mesh/obj.h"
 #include "reference/mesh/shapes.h"
-#include "verification/checks/scene/scene_checks.h"
-#include "verification/evidence.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/random.h"
 #include "verification/specimens/scratch_folder.h"
 #include "verification/specimens/trial_cases.h"
@@ -55,7 +50,7 @@ double octree_miss(const Octree& tree) {
   return worst.value();
 }
 
-Finding octree_finding(const Subject&) {
+Finding octree_finding() {
   const ScratchFolder folder;
   const Octree coarse =
       octree_of(read_case_in(folder, ball_body(folder, "field = \"octree\"\ncells = 23")));
@@ -125,21 +120,20 @@ std::string deform(const std::string& kind, double amplitude, double period) {
          "\nperiod = " + std::to_string(period) + "\n";
 }
 
-Finding deformation_finding(const Subject&) {
+Finding deformation_finding() {
   const ScratchFolder folder;
   const std::string keys = place + "cells = 12\ninterval = 0.05\n";
-  Table differences = no_differences();
+  Differences differences;
   const auto observe = [&](const std::string& what, const std::string& parts,
                            const Shaping& shaping, double period) {
     const Scene scene = read_case_in(folder, ball_body(folder, keys + parts));
     for (const double t : {0.0, 0.05, 0.2, 0.3})
-      differences.row(what + " at " + std::to_string(t) + " s",
-                      in_roundings(surface_miss(scene, shaping, period, t), 1));
+      differences.is_near(what + " at " + std::to_string(t) + " s",
+                          surface_miss(scene, shaping, period, t));
     const PerParticle3 between =
         (surface_at(scene.objects[0], 0.1) + surface_at(scene.objects[0], 0.15)) / 2;
-    differences.row(
-        what + " between frames",
-        in_roundings((surface_at(scene.objects[0], 0.125) - between).cwiseAbs().maxCoeff(), 1));
+    differences.is_near(what + " between frames",
+                        (surface_at(scene.objects[0], 0.125) - between).cwiseAbs().maxCoeff());
   };
   observe(
       "bend", deform("bend", 70, 0.47),
@@ -166,8 +160,8 @@ Finding deformation_finding(const Subject&) {
         return share == 0 ? x : bend_point(x, -40 * degree * share, height);
       },
       0.4);
-  return judged_differences(
-      differences, 100,
+  return differences.judged(
+      100,
       "sines, cosines and products of lengths below 1 m, with a few dozen roundings in either way");
 }
 
@@ -181,7 +175,7 @@ std::string written_frames(const ScratchFolder& folder) {
   return "frames";
 }
 
-Finding frames_finding(const Subject&) {
+Finding frames_finding() {
   const ScratchFolder folder;
   const std::string body = "[[object]]\nframes = \"" + written_frames(folder) +
                            "\"\ninterval = 0.07\nfit = 0.5\ncells = 12\nmove = [0.2, -0.1, 0.3]\n";
@@ -195,26 +189,20 @@ Finding frames_finding(const Subject&) {
   const auto between = [](const Scene& scene) {
     return std::get<DeformingObject>(first_object(scene).body).body->between;
   };
-  Table differences = no_differences();
-  differences.row("first frame",
-                  in_roundings((surface_at(part, 0) - first).cwiseAbs().maxCoeff(), 1));
-  differences.row("second frame",
-                  in_roundings((surface_at(part, 0.07) - last).cwiseAbs().maxCoeff(), 1));
-  differences.row("rests after it",
-                  in_roundings((surface_at(part, 0.2) - last).cwiseAbs().maxCoeff(), 1));
-  differences.row(
-      "half way",
-      in_roundings((surface_at(part, 0.035) - (first + last) / 2).cwiseAbs().maxCoeff(), 1));
-  differences.row("carried by default",
-                  infinite_unless(between(carried) == BetweenFrames::carried));
-  differences.row("blended if written",
-                  infinite_unless(between(blended) == BetweenFrames::blended));
-  return judged_differences(differences, 32,
+  Differences differences;
+  differences.is_near("first frame", (surface_at(part, 0) - first).cwiseAbs().maxCoeff());
+  differences.is_near("second frame", (surface_at(part, 0.07) - last).cwiseAbs().maxCoeff());
+  differences.is_near("rests after it", (surface_at(part, 0.2) - last).cwiseAbs().maxCoeff());
+  differences.is_near("half way",
+                      (surface_at(part, 0.035) - (first + last) / 2).cwiseAbs().maxCoeff());
+  differences.is("carried by default", between(carried) == BetweenFrames::carried);
+  differences.is("blended if written", between(blended) == BetweenFrames::blended);
+  return differences.judged(32,
                             "scaled, moved and averaged with a few roundings of lengths below 1 m");
 }
 
 /// The drawn surface lies on the level sets that the cloth meets, at frames and between.
-Finding surface_finding(const Subject&) {
+Finding surface_finding() {
   const ScratchFolder folder;
   Table measured{{"case", ""},
                  {"largest distance of the drawn surface from the level set", "tolerances"}};
@@ -280,7 +268,7 @@ std::vector<RejectedCase> rejections(const ScratchFolder& folder) {
           {"[[object]]\nframes = \"nowhere\"\n", {"no folder with"}}};
 }
 
-Finding rejection_finding(const Subject&) {
+Finding rejection_finding() {
   const ScratchFolder folder;
   return rejected_cases(rejections(folder), folder.file("trial.toml"));
 }

@@ -1,14 +1,11 @@
 // Scenes built from case files.
-#include "verification/checks/scene/scene_checks.h"
-
-#include <Eigen/Geometry>
-#include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "reference/mesh/shapes.h"
 #include "reference/scene/scene.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/differences.h"
+#include "verification/specimens/stepper.h"
 #include "verification/specimens/trial_cases.h"
 
 namespace foldproof {
@@ -19,43 +16,37 @@ namespace {
 PerParticle3 end_of(const Scene& scene) {
   const System system = build_system(scene);
   State s = start_state(scene);
-  Work work;
-  for (int n = 0; n < 20; ++n)
-    s = integrator_named(scene.integrator).step(system, {&s, 1}, 0.003, work);
+  for (int n = 0; n < 20; ++n) s = step_once(scene.integrator, system, s, 0.003);
   return s.x;
 }
 
-Finding absent_finding(const Subject&) {
-  Table differences = no_differences();
+Finding absent_finding() {
+  Differences differences;
   const Scene nothing = trial_scene(""), falls = trial_scene("[gravity]\n");
   const Scene zeros =
       trial_scene("[gravity]\n[stretch]\nstiffness = 0\n[bending]\nstiffness = 0\n");
   const auto forces = [](const Scene& scene) { return double(build_system(scene).forces.size()); };
-  differences.row("forces of a case without any", in_roundings(forces(nothing), 1));
-  differences.row("forces of a case with gravity, less 1", in_roundings(forces(falls) - 1, 1));
-  differences.row("that force is gravity",
-                  infinite_unless(std::holds_alternative<Gravity>(build_system(falls).forces[0])));
-  differences.row("forces of a case with three, less 3", in_roundings(forces(zeros) - 3, 1));
-  differences.row(
-      "filters and led particles",
-      in_roundings(
-          double(build_system(zeros).filters.size() + build_system(zeros).prescribed.size()), 1));
-  differences.row("parts named, less 2",
-                  in_roundings(double(describe_parts(falls, build_system(falls)).size()) - 2, 1));
-  differences.row(
-      "positions with gravity alone and with zero stiffnesses",
-      in_roundings(largest_difference(end_of(falls), end_of(zeros)), extent(plain_positions())));
-  differences.row("positions without force and at rest",
-                  in_roundings(largest_difference(end_of(nothing), plain_positions()),
-                               extent(plain_positions())));
-  differences.row("default gravity",
-                  in_roundings((*falls.gravity - Vector3(0, -9.80665, 0)).norm(), 9.80665));
-  return judged_differences(
-      differences, 0,
-      "absent parts are not built; a stiffness of zero adds zeros, which change no digit");
+  differences.is_near("forces of a case without any", forces(nothing));
+  differences.is_near("forces of a case with gravity, less 1", forces(falls) - 1);
+  differences.is("that force is gravity",
+                 std::holds_alternative<Gravity>(build_system(falls).forces[0]));
+  differences.is_near("forces of a case with three, less 3", forces(zeros) - 3);
+  differences.is_near("filters and led particles", double(build_system(zeros).filters.size() +
+                                                          build_system(zeros).prescribed.size()));
+  differences.is_near("parts named, less 2",
+                      double(describe_parts(falls, build_system(falls)).size()) - 2);
+  differences.is_near("positions with gravity alone and with zero stiffnesses",
+                      largest_difference(end_of(falls), end_of(zeros)), extent(plain_positions()));
+  differences.is_near("positions without force and at rest",
+                      largest_difference(end_of(nothing), plain_positions()),
+                      extent(plain_positions()));
+  differences.is_near("default gravity", (*falls.gravity - Vector3(0, -9.80665, 0)).norm(),
+                      9.80665);
+  return differences.judged(
+      0, "absent parts are not built; a stiffness of zero adds zeros, which change no digit");
 }
 
-Finding numbers_finding(const Subject&) {
+Finding numbers_finding() {
   const Scene scene =
       read_scene_text("title = \"Trial\"\nabout = \"Words\"\n" + small_sheet +
                           "[gravity]\nacceleration = [0.3, -0.7, 1.1]\n[stretch]\nstiffness = "
@@ -67,10 +58,8 @@ Finding numbers_finding(const Subject&) {
                           "max_steps = 53\n[solver]\ntolerance = 3e-7\nmax_iterations = "
                           "17\nrelative_to = \"initial_residual\"\n",
                       "folder/trial.toml");
-  Table differences = no_differences();
-  const auto is = [&](const std::string& what, bool right) {
-    differences.row(what, infinite_unless(right));
-  };
+  Differences differences;
+  const auto is = [&](const std::string& what, bool right) { differences.is(what, right); };
   is("name, title, about",
      scene.name == "trial" && scene.title == "Trial" && scene.about == "Words");
   is("density", scene.density == 0.23);
@@ -94,26 +83,19 @@ Finding numbers_finding(const Subject&) {
   is("defaults of bending",
      trial_scene("[bending]\nstiffness = 1e-4\n").bending->weighting == Weighting::rest &&
          trial_scene("[bending]\nstiffness = 1e-4\n").bending->law == "sine");
-  return judged_differences(differences, 0, "a number is read as it is written");
+  return differences.judged(0, "a number is read as it is written");
 }
 
-Finding overrides_finding(const Subject&) {
+Finding overrides_finding() {
   const std::string tables =
       "[stretch]\nstiffness = 37.5\n[[hold]]\nparticles = [0]\n[[hold]]\nparticles = [3]\n";
   const auto with = [&](std::vector<std::string> overrides) {
     return trial_scene(tables, overrides);
   };
-  Table differences = no_differences();
-  const auto is = [&](const std::string& what, bool right) {
-    differences.row(what, infinite_unless(right));
-  };
+  Differences differences;
+  const auto is = [&](const std::string& what, bool right) { differences.is(what, right); };
   const auto rejected = [&](const std::string& assignment, const std::string& mention) {
-    try {
-      with({assignment});
-    } catch (const InputError& error) {
-      return std::string(error.what()).find(mention) != std::string::npos;
-    }
-    return false;
+    return is_rejected([&] { with({assignment}); }, mention);
   };
   is("a number", with({"stretch.stiffness=53.25"}).stretch->stiffness == 53.25);
   is("the last one counts",
@@ -135,13 +117,12 @@ Finding overrides_finding(const Subject&) {
   is("a path through a value is refused",
      rejected("stretch.stiffness.x=3", "'stiffness' is not a table"));
   is("an entry that is not there is refused", rejected("hold.2.particles=[5]", "no hold.2"));
-  return judged_differences(differences, 0,
-                            "an override acts as if it stood in the file, or is refused");
+  return differences.judged(0, "an override acts as if it stood in the file, or is refused");
 }
 
 }  // namespace
 
-std::vector<Check> scene_meaning_checks() {
+std::vector<Check> scene_checks() {
   const std::string source = "good practice";
   return {
       {"scene.absent-parts-are-not-built",

@@ -1,9 +1,5 @@
 // Objects and their contact with cloth in case files.
-#include <Eigen/Geometry>
-#include <algorithm>
-#include <cmath>
-
-#include "verification/checks/scene/scene_checks.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/trial_cases.h"
 
 namespace foldproof {
@@ -52,54 +48,50 @@ Vector3 rotate(double degrees, const Vector3& axis, const Vector3& x) {
 }
 
 /// Distances that the solids must have at a time, worked out by hand from the text.
-void see_places(const Scene& scene, Table& differences) {
+void see_places(const Scene& scene, Differences& differences) {
   const Vector3 tip = rotate(41, {1, -2, 0.5}, {0, 0, 0.35}) + Vector3(0.2, -0.3, 0.5);
   const Vector3 out = rotate(41, {1, -2, 0.5}, {0, 0, 1});
-  differences.row("capsule, off its end",
-                  in_roundings(distance_of(scene.objects[0], tip + 0.4 * out, 0) - 0.27, 1));
+  differences.is_near("capsule, off its end",
+                      distance_of(scene.objects[0], tip + 0.4 * out, 0) - 0.27);
   const double t = 0.6;
   const Vector3 rate(30, 0, -50), center(0.1, 0.7, 0.2);
   const Vector3 later =
       rotate(rate.norm() * t, rate, tip - center) + center + t * Vector3(0.4, 0.1, -0.2);
   const Vector3 later_out = rotate(rate.norm() * t, rate, out);
-  differences.row(
-      "capsule, moved",
-      in_roundings(distance_of(scene.objects[0], later + 0.4 * later_out, t) - 0.27, 1));
-  differences.row("board at rest",
-                  in_roundings(distance_of(scene.objects[1], {0.1, 0.1, 0.31}, 0.1) - 0.3, 1));
+  differences.is_near("capsule, moved",
+                      distance_of(scene.objects[0], later + 0.4 * later_out, t) - 0.27);
+  differences.is_near("board at rest", distance_of(scene.objects[1], {0.1, 0.1, 0.31}, 0.1) - 0.3);
   const Vector3 half = rotate(30, {0, 0, 1}, {0.8, 0, 0}) + 0.5 * Vector3(0.3, 0.5, -0.1);
-  differences.row("board half way",
-                  in_roundings(distance_of(scene.objects[1], half, 0.5) - 0.5, 1));
-  differences.row("ring", in_roundings(distance_of(scene.objects[2], {0.5, 0, 0.3}, 0) - 0.2, 1));
+  differences.is_near("board half way", distance_of(scene.objects[1], half, 0.5) - 0.5);
+  differences.is_near("ring", distance_of(scene.objects[2], {0.5, 0, 0.3}, 0) - 0.2);
 }
 
-Finding meaning_finding(const Subject&) {
+Finding meaning_finding() {
   const Scene scene = trial_scene(three_objects);
-  Table differences = no_differences();
-  differences.row("there are three", infinite_unless(scene.objects.size() == 3));
-  differences.row("friction", in_roundings(scene.objects.at(0).object.friction - 0.31, 1));
-  differences.row("no friction", in_roundings(scene.objects[1].object.friction, 1));
-  differences.row("names", infinite_unless(scene.objects[1].object.name == "board" &&
-                                           scene.objects[2].object.name == "torus 3"));
+  Differences differences;
+  differences.is("there are three", scene.objects.size() == 3);
+  differences.is_near("friction", scene.objects.at(0).object.friction - 0.31);
+  differences.is_near("no friction", scene.objects[1].object.friction);
+  differences.is("names", scene.objects[1].object.name == "board" &&
+                              scene.objects[2].object.name == "torus 3");
   see_places(scene, differences);
-  differences.row("forecast time", in_roundings(scene.collision.forecast_time - 0.017, 1));
+  differences.is_near("forecast time", scene.collision.forecast_time - 0.017);
   const System system = build_system(scene);
   const auto& filter = std::get<ObjectCollision>(system.filters.at(0));
-  differences.row("forecast time, built", in_roundings(filter.forecast_time - 0.017, 1));
-  differences.row("response", infinite_unless(filter.response.name == "projection"));
+  differences.is_near("forecast time, built", filter.forecast_time - 0.017);
+  differences.is("response", filter.response.name == "projection");
   const size_t points = size_t(scene.mesh.particles()) - 1 + scene.mesh.edges.size();
-  differences.row("particles but the held one, and midpoints",
-                  infinite_unless(filter.points.size() == points));
+  differences.is("particles but the held one, and midpoints", filter.points.size() == points);
   const Scene one =
       trial_scene("[[object]]\nshape = \"sphere\"\nradius = 0.3\n", {"object.radius=0.7"});
-  differences.row("the only entry needs no number",
-                  in_roundings(distance_of(one.objects.at(0), {1, 0, 0}, 0) - 0.3, 1));
-  return judged_differences(differences, 30,
+  differences.is_near("the only entry needs no number",
+                      distance_of(one.objects.at(0), {1, 0, 0}, 0) - 0.3);
+  return differences.judged(30,
                             "rotations and distances of lengths below 2 m: a dozen roundings each");
 }
 
 /// The surface that is drawn lies on the solid, but for its facets.
-Finding surface_finding(const Subject&) {
+Finding surface_finding() {
   const Scene scene = trial_scene(three_objects);
   Worst off;
   double outward = 0, triangles = 0;
@@ -149,7 +141,7 @@ std::vector<RejectedCase> rejections() {
       {"[collision]\npoints = \"edges\"\n", {"needs an [[object]]"}}};
 }
 
-Finding rejection_finding(const Subject&) { return rejected_cases(rejections()); }
+Finding rejection_finding() { return rejected_cases(rejections()); }
 
 }  // namespace
 

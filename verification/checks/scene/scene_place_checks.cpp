@@ -1,12 +1,9 @@
 // Where a case file puts the cloth, and how it starts and is held.
 #include "reference/mesh/shapes.h"
 #include "reference/scene/scene.h"
-#include "verification/checks/scene/scene_checks.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/differences.h"
 #include "verification/specimens/trial_cases.h"
-#include <Eigen/Geometry>
-#include <algorithm>
-#include <cmath>
 
 namespace foldproof {
 
@@ -21,17 +18,15 @@ std::vector<int> particles_held_by(const std::string& table) {
   return particles;
 }
 
-Finding hold_finding(const Subject&) {
+Finding hold_finding() {
   const PerParticle3 rest = plain_positions();
   std::vector<int> left, top;
   for (int i = 0; i < rest.cols(); ++i) {
     if (rest(0, i) <= 0.16) left.push_back(i);
     if (rest(1, i) >= 0.43 - 0.35 * 0.43) top.push_back(i);
   }
-  Table differences = no_differences();
-  const auto is = [&](const std::string& what, bool right) {
-    differences.row(what, infinite_unless(right));
-  };
+  Differences differences;
+  const auto is = [&](const std::string& what, bool right) { differences.is(what, right); };
   is("particles", particles_held_by("particles = [7, 2]") == std::vector<int>{7, 2});
   is("box", left.size() == 8 &&
                 particles_held_by("box = [[-0.01, -0.01, -0.01], [0.16, 1.0, 0.01]]") == left);
@@ -50,26 +45,25 @@ Finding hold_finding(const Subject&) {
                                         p.motion.center == Vector3(0.6, 0.9, 1.1));
   is("frequency", p.motion.frequency == 1.7);
   is("acts all the time", p.motion.from == 0 && std::isinf(p.motion.until));
-  differences.row("phase in degrees", in_roundings(p.motion.phase - 33 * degree, 33 * degree));
-  differences.row("angular velocity in degrees",
-                  in_roundings((p.motion.angular_velocity - degree * Vector3(10, -20, 35)).norm(),
-                               degree * Vector3(10, -20, 35).norm()));
+  differences.is_near("phase in degrees", p.motion.phase - 33 * degree, 33 * degree);
+  differences.is_near("angular velocity in degrees",
+                      (p.motion.angular_velocity - degree * Vector3(10, -20, 35)).norm(),
+                      degree * Vector3(10, -20, 35).norm());
   const Vector3 arm = Vector3(rest.col(7)) - Vector3(0.6, 0.9, 1.1),
                 spin = degree * Vector3(10, -20, 35);
-  differences.row("start position on the path",
-                  in_roundings((start_state(scene).x.col(7) - rest.col(7)).norm(),
-                               arm.norm() + Vector3(0.6, 0.9, 1.1).norm()));
+  differences.is_near("start position on the path",
+                      (start_state(scene).x.col(7) - rest.col(7)).norm(),
+                      arm.norm() + Vector3(0.6, 0.9, 1.1).norm());
   const Vector3 speed = spin.cross(arm) + Vector3(0.1, 0.2, 0.4) +
                         2 * pi * 1.7 * std::cos(33 * degree) * Vector3(0.3, 0.5, 0.7);
-  differences.row("start velocity on the path",
-                  in_roundings((start_state(scene).v.col(7) - speed).norm(),
-                               spin.norm() * arm.norm() + speed.norm()));
-  return judged_differences(differences, 32,
+  differences.is_near("start velocity on the path", (start_state(scene).v.col(7) - speed).norm(),
+                      spin.norm() * arm.norm() + speed.norm());
+  return differences.judged(32,
                             "angles are converted to radians, positions and velocities computed, "
                             "with a few roundings of each term");
 }
 
-Finding start_finding(const Subject&) {
+Finding start_finding() {
   const Scene scene =
       trial_scene("[start]\nstretch = 1.07\nvelocity = [0.3, -0.5, 0.9]\nspin = [40, -70, 110]\n");
   const PerParticle3 rest = plain_positions();
@@ -83,31 +77,25 @@ Finding start_finding(const Subject&) {
     v.observe((scene.v.col(i) - Vector3(0.3, -0.5, 0.9) - spin.cross(arm)).norm());
   }
   const PerParticle3 shaken = trial_scene("[start]\nnoise = 0.004\nseed = 5\n").x - rest;
-  Table differences = no_differences();
-  differences.row("positions", in_roundings(x.value(), size.value()));
-  differences.row("velocities", in_roundings(v.value(), speed.value()));
-  differences.row("rest shape",
-                  in_roundings(largest_difference(scene.mesh.rest, rest), size.value()));
-  differences.row("noise is within its size and fills it",
-                  infinite_unless(shaken.cwiseAbs().maxCoeff() <= 0.004 &&
-                                  shaken.cwiseAbs().maxCoeff() > 0.0036));
-  differences.row("noise has both signs",
-                  infinite_unless(shaken.minCoeff() < -0.0036 && shaken.maxCoeff() > 0.0036));
-  differences.row(
+  Differences differences;
+  differences.is_near("positions", x.value(), size.value());
+  differences.is_near("velocities", v.value(), speed.value());
+  differences.is_near("rest shape", largest_difference(scene.mesh.rest, rest), size.value());
+  differences.is("noise is within its size and fills it",
+                 shaken.cwiseAbs().maxCoeff() <= 0.004 && shaken.cwiseAbs().maxCoeff() > 0.0036);
+  differences.is("noise has both signs", shaken.minCoeff() < -0.0036 && shaken.maxCoeff() > 0.0036);
+  differences.is_near(
       "the seed fixes the noise",
-      in_roundings(
-          largest_difference(shaken, trial_scene("[start]\nnoise = 0.004\nseed = 5\n").x - rest),
-          0.004));
-  differences.row("another seed gives other noise",
-                  infinite_unless(largest_difference(
-                                      shaken, trial_scene("[start]\nnoise = 0.004\nseed = 6\n").x -
-                                                  rest) > 1e-3));
-  return judged_differences(
-      differences, 32,
-      "a few roundings of each of the terms that lengths and velocities are summed from");
+      largest_difference(shaken, trial_scene("[start]\nnoise = 0.004\nseed = 5\n").x - rest),
+      0.004);
+  differences.is("another seed gives other noise",
+                 largest_difference(
+                     shaken, trial_scene("[start]\nnoise = 0.004\nseed = 6\n").x - rest) > 1e-3);
+  return differences.judged(
+      32, "a few roundings of each of the terms that lengths and velocities are summed from");
 }
 
-Finding placed_finding(const Subject&) {
+Finding placed_finding() {
   const std::string
       line = "density = 0.23\n",
       placed = "fit = 1.3\nturn = { axis = [1, -2, 3], angle = 37 }\nmove = [0.3, -0.2, 0.7]\n";
@@ -123,16 +111,16 @@ Finding placed_finding(const Subject&) {
         along + std::cos(37 * degree) * (x - along) + std::sin(37 * degree) * axis.cross(x);
     worst.observe((scene.x.col(i) - turned - move).norm());
   }
-  Table differences = no_differences();
-  differences.row("start", in_roundings(worst.value(), 1.3 + move.norm()));
-  differences.row("rest shape is the placed one",
-                  in_roundings(largest_difference(scene.x, scene.mesh.rest), 1.3 + move.norm()));
-  return judged_differences(differences, 32,
+  Differences differences;
+  differences.is_near("start", worst.value(), 1.3 + move.norm());
+  differences.is_near("rest shape is the placed one", largest_difference(scene.x, scene.mesh.rest),
+                      1.3 + move.norm());
+  return differences.judged(32,
                             "scaled, turned and moved with some twenty roundings of the cloth's "
                             "length and of the way moved");
 }
 
-Finding rest_angle_finding(const Subject&) {
+Finding rest_angle_finding() {
   const std::string cylinder =
       "[cloth]\nshape = \"cylinder\"\nradius = 0.31\nheight = 0.5\naround = 9\nalong = 4\ndensity "
       "= 0.2\n";
@@ -146,25 +134,22 @@ Finding rest_angle_finding(const Subject&) {
   };
   const auto given = angles("rest_angle = -27.5\n"), flat = angles("rest_angle = \"flat\"\n"),
              shape = angles("rest_angle = \"rest_shape\"\n"), none = angles("");
-  Table differences = no_differences();
-  differences.row("a number, in degrees, least",
-                  in_roundings(*extremes(given).first + 27.5 * degree, 27.5 * degree));
-  differences.row("a number, in degrees, greatest",
-                  in_roundings(*extremes(given).second + 27.5 * degree, 27.5 * degree));
-  differences.row("flat",
-                  in_roundings(std::max(-*extremes(flat).first, *extremes(flat).second), 1));
+  Differences differences;
+  differences.is_near("a number, in degrees, least", *extremes(given).first + 27.5 * degree,
+                      27.5 * degree);
+  differences.is_near("a number, in degrees, greatest", *extremes(given).second + 27.5 * degree,
+                      27.5 * degree);
+  differences.is_near("flat", std::max(-*extremes(flat).first, *extremes(flat).second));
   // a cylinder of nine sides is folded by 40 degrees along its length and flat elsewhere
-  differences.row("rest shape, least", infinite_unless(std::abs(*extremes(shape).first) < 1e-9 ||
-                                                       std::abs(*extremes(shape).second) < 1e-9));
-  differences.row("rest shape, sharpest", in_roundings(std::max(std::abs(*extremes(shape).first),
-                                                                std::abs(*extremes(shape).second)) -
-                                                           40 * degree,
-                                                       1));
-  differences.row("the default is the rest shape", infinite_unless(shape == none));
-  differences.row("one angle a hinge",
-                  infinite_unless(given.size() == shape.size() && flat.size() == shape.size()));
-  return judged_differences(
-      differences, 64, "an angle is found from coordinates with some thirty roundings of 1 rad");
+  differences.is("rest shape, least", std::abs(*extremes(shape).first) < 1e-9 ||
+                                          std::abs(*extremes(shape).second) < 1e-9);
+  differences.is_near(
+      "rest shape, sharpest",
+      std::max(std::abs(*extremes(shape).first), std::abs(*extremes(shape).second)) - 40 * degree);
+  differences.is("the default is the rest shape", shape == none);
+  differences.is("one angle a hinge", given.size() == shape.size() && flat.size() == shape.size());
+  return differences.judged(
+      64, "an angle is found from coordinates with some thirty roundings of 1 rad");
 }
 
 }  // namespace

@@ -1,11 +1,9 @@
 // Sticking in case files: regions, groups of OBJ files, refusals.
-#include <algorithm>
-#include <cmath>
 #include <fstream>
 
 #include "reference/mesh/obj.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/scratch_folder.h"
-#include "verification/checks/scene/scene_checks.h"
 #include "verification/specimens/trial_cases.h"
 
 namespace foldproof {
@@ -39,54 +37,48 @@ std::vector<Triangle> chosen_triangles(const Scene& scene,
   return chosen;
 }
 
-Finding regions_finding(const Subject&) {
+Finding regions_finding() {
   const Scene sheet = trial_scene("");
   const std::vector<Triangle>& all = sheet.mesh.triangles;
-  Table differences = no_differences();
+  Differences differences;
   const StickyPatch plain = patch_of("{ of = \"cloth\" }", "{}");
-  differences.row(
-      "all of the cloth",
-      infinite_unless(plain.triangles == all && plain.particles.size() == 20 && !plain.place));
-  differences.row("values",
-                  infinite_unless(plain.stiffness == 41 && plain.forecast_time == 0.013 &&
-                                  plain.near == 0.009 && plain.far == 0.031 && plain.from == 0 &&
-                                  std::isinf(plain.until) && plain.release == 0));
+  differences.is("all of the cloth",
+                 plain.triangles == all && plain.particles.size() == 20 && !plain.place);
+  differences.is("values", plain.stiffness == 41 && plain.forecast_time == 0.013 &&
+                               plain.near == 0.009 && plain.far == 0.031 && plain.from == 0 &&
+                               std::isinf(plain.until) && plain.release == 0);
   const StickyPatch lists =
       patch_of("{ of = \"cloth\", triangles = [7, 2, 7] }", "{ particles = [11, 3, 11] }",
                "from = 0.1\nuntil = 0.2\nrelease = 0.03\nname = \"seam\"\n");
-  differences.row("lists, in order, each once",
-                  infinite_unless(lists.triangles == std::vector<Triangle>{all[2], all[7]} &&
-                                  lists.particles == std::vector<int>{3, 11}));
-  differences.row("times and name", infinite_unless(lists.from == 0.1 && lists.until == 0.2 &&
-                                                    lists.release == 0.03 && lists.name == "seam"));
+  differences.is("lists, in order, each once",
+                 lists.triangles == std::vector<Triangle>{all[2], all[7]} &&
+                     lists.particles == std::vector<int>{3, 11});
+  differences.is("times and name", lists.from == 0.1 && lists.until == 0.2 &&
+                                       lists.release == 0.03 && lists.name == "seam");
   const StickyPatch box = patch_of("{ of = \"cloth\", box = [[0, 0, -1], [0.31, 0.2, 1]] }",
                                    "{ box = [[0.29, 0.1, -1], [1, 1, 1]] }");
   const auto select_in_box = [](const Vector3& p) { return p.x() <= 0.31 && p.y() <= 0.2; };
-  differences.row("box of centres",
-                  infinite_unless(!box.triangles.empty() &&
-                                  box.triangles == chosen_triangles(sheet, select_in_box)));
+  differences.is("box of centres",
+                 !box.triangles.empty() && box.triangles == chosen_triangles(sheet, select_in_box));
   const StickyPatch round =
       patch_of("{ of = \"cloth\", sphere = { center = [0.1, 0.1, 0], radius = 0.17 } }",
                "{ sphere = { center = [0.6, 0.43, 0], radius = 0.16 } }");
   const auto in_ball = [](const Vector3& p) { return (p - Vector3(0.1, 0.1, 0)).norm() <= 0.17; };
-  differences.row("sphere of centres",
-                  infinite_unless(!round.triangles.empty() &&
-                                  round.triangles == chosen_triangles(sheet, in_ball)));
+  differences.is("sphere of centres",
+                 !round.triangles.empty() && round.triangles == chosen_triangles(sheet, in_ball));
   std::vector<int> corner;
   for (int i = 0; i < 20; ++i)
     if ((sheet.x.col(i) - Vector3(0.6, 0.43, 0)).norm() <= 0.16) corner.push_back(i);
-  differences.row("sphere of particles",
-                  infinite_unless(!corner.empty() && round.particles == corner));
-  return judged_differences(differences, 0, "numbers and choices are read as written");
+  differences.is("sphere of particles", !corner.empty() && round.particles == corner);
+  return differences.judged(0, "numbers and choices are read as written");
 }
 
-Finding carried_finding(const Subject&) {
-  Table differences = no_differences();
+Finding carried_finding() {
+  Differences differences;
   const StickyPatch cap = patch_of("{ of = \"ball\", box = [[-1, -1, -0.12], [1, 1, 1]] }", "{}");
   const size_t all = patch_of("{ of = \"ball\" }", "{}").triangles.size();
-  differences.row("some of the ball's triangles",
-                  infinite_unless(cap.triangles.size() > all / 8 &&
-                                  cap.triangles.size() < all / 2 && cap.place));
+  differences.is("some of the ball's triangles",
+                 cap.triangles.size() > all / 8 && cap.triangles.size() < all / 2 && cap.place);
   for (const double t : {0.0, 0.17}) {
     const PerParticle3 x = cap.place(t), v = cap.velocity(t);
     Worst off, above, slow;
@@ -96,12 +88,11 @@ Finding carried_finding(const Subject&) {
     }
     for (const auto& [a, b, c] : cap.triangles)
       above.observe(std::max(0.0, -0.12 - 0.2 * t - (x(2, a) + x(2, b) + x(2, c)) / 3));
-    differences.row("vertices on the ball", in_roundings(off.value(), 1));
-    differences.row("velocity", in_roundings(slow.value(), 1));
-    differences.row("centres in the box at the start", in_roundings(above.value(), 1));
+    differences.is_near("vertices on the ball", off.value());
+    differences.is_near("velocity", slow.value());
+    differences.is_near("centres in the box at the start", above.value());
   }
-  return judged_differences(differences, 8,
-                            "a rigid motion of points of size 1 takes a few roundings");
+  return differences.judged(8, "a rigid motion of points of size 1 takes a few roundings");
 }
 
 /// Three triangles: the first two of an object of two names and a group each, the last of none.
@@ -120,31 +111,28 @@ g
 f 2 5 3
 )";
 
-Finding groups_finding(const Subject&) {
+Finding groups_finding() {
   const ScratchFolder folder;
   const std::string file = folder.file("grouped.obj");
   std::ofstream(file) << grouped;
-  Table differences = no_differences();
+  Differences differences;
   const FaceGroups groups = read_obj_groups(file);
-  differences.row("groups", infinite_unless(groups == FaceGroups{{"back", {1}},
-                                                                 {"front", {0}},
-                                                                 {"left", {0, 1}},
-                                                                 {"right", {0, 1}}}));
+  differences.is(
+      "groups",
+      groups == FaceGroups{{"back", {1}}, {"front", {0}}, {"left", {0, 1}}, {"right", {0, 1}}});
   const std::string text = "[cloth]\nmesh = \"grouped.obj\"\ndensity = 0.2\n" + short_time +
                            "[[sticky]]\nsurface = { of = \"cloth\", group = \"front\" }\nparticles "
                            "= { group = \"back\" }\n" +
                            values;
   const StickyPatch patch = read_scene_text(text, folder.file("trial.toml")).sticky.at(0);
-  differences.row("triangles of a group",
-                  infinite_unless(patch.triangles == std::vector<Triangle>{{0, 1, 2}}));
-  differences.row("corners of a group",
-                  infinite_unless(patch.particles == std::vector<int>{0, 2, 3}));
-  return judged_differences(differences, 0, "names are read as written");
+  differences.is("triangles of a group", patch.triangles == std::vector<Triangle>{{0, 1, 2}});
+  differences.is("corners of a group", patch.particles == std::vector<int>{0, 2, 3});
+  return differences.judged(0, "names are read as written");
 }
 
 std::string sticky(const std::string& keys) { return ball + "[[sticky]]\n" + keys; }
 
-Finding rejections_finding(const Subject&) {
+Finding rejections_finding() {
   const std::string regions = "surface = { of = \"ball\" }\nparticles = {}\n",
                     cloth = "surface = { of = \"cloth\" }\n";
   return rejected_cases({

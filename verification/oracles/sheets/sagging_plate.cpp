@@ -3,24 +3,11 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "verification/oracles/gauss.h"
+
 namespace foldproof::oracles {
 
 namespace {
-
-/// n places in (0, 1) and their weights, exact for polynomials of degree 2 n - 1: the eigenvalues
-/// of Legendre's recurrence (Golub and Welsch 1969).
-struct Gauss {
-  Eigen::VectorXd s, weight;
-
-  explicit Gauss(int n) {
-    Eigen::MatrixXd recurrence = Eigen::MatrixXd::Zero(n, n);
-    for (int k = 1; k < n; ++k)
-      recurrence(k, k - 1) = recurrence(k - 1, k) = k / std::sqrt(4.0 * k * k - 1);
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(recurrence);
-    s = (1 + solver.eigenvalues().array()) / 2;
-    weight = solver.eigenvectors().row(0).transpose().array().square();
-  }
-};
 
 /// By polynomials of this many terms.
 double sag_by_terms(const RingPlate& plate, int terms) {

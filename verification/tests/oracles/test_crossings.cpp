@@ -4,7 +4,6 @@
 #include <catch2/catch.hpp>
 #include <limits>
 #include <random>
-#include <set>
 
 #include "verification/oracles/crossing_subdivision.h"
 #include "verification/oracles/exact_crossings.h"
@@ -175,31 +174,4 @@ TEST_CASE("neighbours are counted when one is folded onto the other, not side by
            {{1, 3, 0}, 4},   // one on the other: two edges each
            {{3, 3, 0}, 2}})  // 0 3 and 1 2 cross, neither tip is in the other triangle
     CHECK(hinge(tip) == count);
-}
-
-TEST_CASE("crossings are found as all pairs of triangles say") {
-  std::mt19937 bits(37);
-  std::uniform_int_distribution<int> coordinate(-3, 3);
-  const std::vector<std::array<int, 3>> triangles{{0, 1, 2},   {3, 4, 5},    {6, 7, 8},
-                                                  {9, 10, 11}, {12, 13, 14}, {15, 16, 17}};
-  std::size_t meetings = 0;
-  for (int k = 0; k < 300; ++k) {
-    TriangleSoup soup{PerParticle3(3, 18), triangles};
-    for (double& c : soup.x.reshaped()) c = coordinate(bits);
-    bool has_lines = false;  // not for triangles_meet
-    std::set<std::pair<int, int>> met, expected;
-    for (std::size_t s = 0; s < 6; ++s) {
-      const Corners3 one = corners(soup, s);
-      has_lines |= (one[1] - one[0]).cross(one[2] - one[0]).isZero(0);
-    }
-    if (has_lines) continue;
-    for (std::size_t s = 0; s < 6; ++s)
-      for (std::size_t t = s + 1; t < 6; ++t)
-        if (triangles_meet(corners(soup, s), corners(soup, t))) expected.insert({int(s), int(t)});
-    for (const EdgeInTriangle& found : exact_crossings(soup.x, triangles))
-      met.insert(std::minmax({found.edge[0] / 3, found.triangle}));
-    meetings += expected.size();
-    REQUIRE(met == expected);
-  }
-  CHECK(meetings > 300);
 }

@@ -8,7 +8,6 @@
 #include "verification/oracles/exact_crossings.h"
 #include "verification/oracles/exact_geometry.h"
 #include "verification/oracles/feature_distance.h"
-#include "verification/oracles/separated_triangles.h"
 #include "verification/oracles/whole_points.h"
 
 using namespace foldproof;
@@ -43,16 +42,6 @@ FourPoints points(const Vector3& a, const Vector3& b, const Vector3& c, const Ve
   FourPoints x;
   x << a, b, c, d;
   return x;
-}
-
-Corners3 small_triangle(std::mt19937& bits) {
-  std::uniform_int_distribution<int> coordinate(-2, 2);
-  Corners3 t;
-  do
-    for (Vector3& corner : t)
-      corner = Vector3(coordinate(bits), coordinate(bits), coordinate(bits));
-  while (normal_of(t).isZero(0));
-  return t;
 }
 
 }  // namespace
@@ -147,19 +136,6 @@ TEST_CASE("triangles within a body are found, though they meet no triangle of it
   cloth.x.rightCols(3) << 0.1, 0.2, 0.1, 0.1, 0.1, 0.2, 0.36, 0.3, 0.25;       // through the top
   const TriangleSoup box = box_between({0, 0, 0}, {.3, .3, .3});
   CHECK(triangles_in_body(cloth, box) == std::vector<int>{0, 2});
-}
-
-TEST_CASE("triangles meet just where no direction parts them") {
-  std::mt19937 bits(19);
-  int meetings = 0;
-  for (int k = 0; k < 20000; ++k) {
-    const Corners3 s = small_triangle(bits), t = small_triangle(bits);
-    const bool meet = triangles_meet(s, t);
-    meetings += meet;
-    REQUIRE(meet == !are_separated(s, t));
-    REQUIRE(meet == triangles_meet(t, s));
-  }
-  CHECK(meetings > 5000);
 }
 
 TEST_CASE("a last bit decides on which side of a plane a point is") {

@@ -170,32 +170,6 @@ TEST_CASE("the formulas of springs name the input that they refuse") {
   }
 }
 
-TEST_CASE(
-    "both methods give the same symmetric derivative of the elastic force, equally accurate") {
-  for (const HingeInput& hinge : hinges()) {
-    const MatrixEstimate one = bending_elastic_derivative_autodiff(hinge),
-                         other = bending_elastic_derivative_differences(hinge);
-    const double most = one.value.cwiseAbs().maxCoeff();
-    CHECK((one.value - other.value).cwiseAbs().maxCoeff() <= 2 * one_rounding(most));
-    CHECK((one.value - one.value.transpose()).cwiseAbs().maxCoeff() <= 2 * one_rounding(most));
-    CHECK(one.uncertainty == one_rounding(most));
-    CHECK(other.uncertainty == Approx(one_rounding(most)).epsilon(1e-12));
-    CHECK(most > 0);
-    // columns of translations add up to nothing
-    for (int k = 0; k < 3; ++k) {
-      Eigen::Matrix<double, 12, 1> sum = Eigen::Matrix<double, 12, 1>::Zero();
-      for (int corner = 0; corner < 4; ++corner) sum += one.value.col(3 * corner + k);
-      CHECK(sum.norm() < 12 * one_rounding(most));
-    }
-    // without damping it is the whole force's
-    HingeInput undamped = hinge;
-    undamped.kd = 0;
-    undamped.elastic_geometry = Geometry::rest;
-    CHECK((bending_force_derivative_autodiff(undamped).value - one.value).norm() <=
-          12 * one_rounding(most));
-  }
-}
-
 TEST_CASE("derivatives of the whole force are those of differences, wherever factors are taken") {
   for (const HingeInput& start : hinges())
     for (const int variant : {0, 3, 5, 6}) {

@@ -1,9 +1,8 @@
-// Golden values: names, units, ranges of the inputs, each output in the column of its name, and the
+// Golden values: ranges of the inputs, each output in the column of its name, and the
 // reference, which knows nothing of how they were made.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <sstream>
 
 #include "reference/filters/object_response.h"
 #include "reference/post/depth_map.h"
@@ -15,27 +14,6 @@ using namespace foldproof;
 using namespace foldproof::oracles;
 
 namespace {
-
-/// From lines "NAME [UNIT] in|out"; a name that ends with * stands for its three coordinates, one
-/// with # for four corners.
-std::vector<std::string> expected_columns(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream stream(text);
-  const auto add_vector = [&lines](const std::string& name, const std::string& rest) {
-    for (const char axis : {'x', 'y', 'z'}) lines.push_back(name + "_" + axis + rest);
-  };
-  for (std::string line; std::getline(stream, line, ';');) {
-    const std::size_t space = line.find(' ');
-    const std::string name = line.substr(0, space - 1), rest = line.substr(space);
-    if (line[space - 1] == '*')
-      add_vector(name, rest);
-    else if (line[space - 1] == '#')
-      for (const char corner : {'1', '2', '3', '4'}) add_vector(name + corner, rest);
-    else
-      lines.push_back(line);
-  }
-  return lines;
-}
 
 /// One row, by the names of its columns.
 struct GoldenRow {
@@ -73,45 +51,6 @@ bool fill(const std::vector<double>& values, double low, double high) {
 }
 
 }  // namespace
-
-TEST_CASE("golden tables have the columns that the formulas need, in order") {
-  CHECK(golden_names() == std::vector<std::string>{"bending", "springs", "integrator", "forecast",
-                                                   "friction", "projection", "sticking"});
-  const std::vector<std::pair<std::string, std::string>> tables{
-      {"bending",
-       "x# [m] in;v# [m/s] in;ke [J] in;kd [N s] in;theta0 [rad] in;rest# [m] in;theta [rad] "
-       "out;u# [1/m] out;elastic_rest_weighted# [N] out;elastic_current_weighted# [N] out;damping# "
-       "[N] out;energy_rest_weighted [J] out"},
-      {"springs",
-       "xa* [m] in;xb* [m] in;va* [m/s] in;vb* [m/s] in;Y [N/m] in;kd [N s/m] in;A [m^2] in;L0 [m] "
-       "in;elastic_a* [N] out;damping_a* [N] out;energy [J] out"},
-      {"integrator",
-       "k [1/s^2] in;c [1/s] in;x [m] in;v [m/s] in;h [s] in;x_A [m] out;v_A [m/s] out;x_B [m] "
-       "out;v_B [m/s] out;x_C [m] out;v_C [m/s] out;x_exact [m] out;v_exact [m/s] out"},
-      {"forecast",
-       "phi [m] in;N* [1] in;v_object* [m/s] in;v* [m/s] in;tau [s] in;phi_new [m] out;v_new* "
-       "[m/s] out"},
-      {"friction",
-       "phi [m] in;N* [1] in;v_object* [m/s] in;v* [m/s] in;tau [s] in;mu [1] in;phi_new [m] "
-       "out;v_new* [m/s] out"},
-      {"projection",
-       "eps [m] in;tau [m] in;deepest [m] in;phi [m] in;phi_plain [m] out;phi_power [m] "
-       "out;phi_blend [m] out"},
-      {"sticking",
-       "x* [m] in;a* [m] in;b* [m] in;c* [m] in;weight_b [1] in;weight_c [1] in;height [m] in;k0 "
-       "[N/m] in;far [m] in;target* [m] out;k [N/m] out;energy [J] out;force* [N] out;force_a* [N] "
-       "out;force_b* [N] out;force_c* [N] out"}};
-  for (const auto& [name, columns] : tables) {
-    const GoldenTable table = golden_values(name, 4, 3);
-    std::vector<std::string> described;
-    for (const GoldenColumn& column : table.columns)
-      described.push_back(column.name + " [" + column.unit + "] " +
-                          (column.is_input ? "in" : "out"));
-    CHECK(described == expected_columns(columns));
-    CHECK(table.rows.size() == 4);
-    for (const std::vector<double>& row : table.rows) CHECK(row.size() == table.columns.size());
-  }
-}
 
 TEST_CASE("golden oscillators cover their ranges, and hold the schemes' answers") {
   std::vector<double> omega, zeta, v, h;  // in logarithms, and in units of omega

@@ -36,28 +36,9 @@ void check_agreement(const StripShape& one, const StripShape& other) {
   CHECK(std::abs(one.force_up - other.force_up) < 1e-6);
 }
 
-/// H/L and W/L by shooting from the clamp with the curvature there as the unknown: the
-/// equation as printed.
-std::array<double, 2> cantilever_from_clamp(double gamma) {
-  const auto integrate = [gamma](double curvature) {
-    const RightHandSide rhs = [gamma](double s, std::span<const double> y, std::span<double> dy) {
-      dy[0] = y[1];
-      dy[1] = -gamma * (1 - s) * std::cos(y[0]);
-      dy[2] = std::sin(y[0]);
-      dy[3] = std::cos(y[0]);
-    };
-    const std::array<double, 4> clamp{0, curvature, 0, 0};
-    return reference_solution(rhs, clamp, 0, std::array<double, 1>{1}, 1e-13).values[0];
-  };
-  const Estimate curvature =
-      bracketed_root([&](double k) { return integrate(k)[1]; }, 0, gamma / 2 + .01, 1e-14);
-  const std::vector<double> tip = integrate(curvature.value);
-  return {tip[2], tip[3]};
-}
-
 }  // namespace
 
-TEST_CASE("the heavy cantilever's tip is the table's, and that of shooting from the clamp") {
+TEST_CASE("the heavy cantilever's tip is the table's") {
   const std::array<std::array<double, 3>, 5> table{{{1, .1234714020, .9912463953},
                                                     {5, .4959050446, .8466571800},
                                                     {10, .7001997155, .6563537612},
@@ -68,10 +49,6 @@ TEST_CASE("the heavy cantilever's tip is the table's, and that of shooting from 
     CHECK(std::abs(tip.drop.value - drop) <= 5e-11 + tip.drop.uncertainty);
     CHECK(std::abs(tip.reach.value - reach) <= 5e-11 + tip.reach.uncertainty);
     CHECK(std::max(tip.drop.uncertainty, tip.reach.uncertainty) < 5e-11);  // the table's last digit
-    if (gamma > 10) continue;
-    const auto [other_drop, other_reach] = cantilever_from_clamp(gamma);
-    CHECK(std::abs(tip.drop.value - other_drop) <= tip.drop.uncertainty + 1e-12);
-    CHECK(std::abs(tip.reach.value - other_reach) <= tip.reach.uncertainty + 1e-12);
   }
   const auto slope = [](double gamma) {
     return heavy_cantilever(gamma).drop.value / heavy_cantilever(gamma).reach.value;
@@ -182,15 +159,6 @@ TEST_CASE("the lifted part of a strip is its rest, in its own length") {
 
 TEST_CASE("a free fold comes down without a moment, and keeps its first integral") {
   const FreeFold one = free_fold_by_collocation(), other = free_fold_by_shooting();
-  for (const auto& [p, q] : {std::pair{one.push, other.push}, std::pair{one.lifted, other.lifted},
-                             std::pair{one.height, other.height}}) {
-    CHECK(std::abs(p.value - q.value) <= p.uncertainty + q.uncertainty);
-    CHECK(p.uncertainty >= 1e-11);
-    CHECK(p.uncertainty < 1e-9);
-    CHECK(q.uncertainty == other.push.uncertainty);
-    CHECK(q.uncertainty > 1e-14);
-    CHECK(q.uncertainty < 1e-9);
-  }
   for (const FreeFold& fold : {one, other}) {
     REQUIRE(fold.points.size() == 2001);
     const double V = fold.push.value, step = fold.lifted.value / 2000;

@@ -14,10 +14,7 @@ TEST_CASE("two runs of one system at once have the bits of a run alone") {
     System system = build_system(of.scene);
     set_team(system, 2);
     const auto run = [&] {
-      Followed followed;
-      followed.result = simulate(system, integrator_named(of.integrator), start_state(of.scene),
-                                 of.scene.schedule, follower(followed));
-      return numbers_after(followed, 0, 0, 0);
+      return numbers_after(followed_run(of, system, integrator_named(of.integrator)), 0, 0, 0);
     };
     const Numbers alone = run();
     Numbers first, second;

@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "reference/scene/field_recipe.h"
-#include "verification/specimens/rejection.h"
+#include "verification/specimens/check.h"
 #include "verification/specimens/scratch_folder.h"
 #include "verification/tests/reference/scene/scene_texts.h"
 

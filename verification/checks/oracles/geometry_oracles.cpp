@@ -1,15 +1,11 @@
-#include <Eigen/Geometry>
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <random>
-
-#include "verification/checks/oracles/oracle_checks.h"
-#include "verification/evidence.h"
+#include "verification/checks/oracles/agreement.h"
 #include "verification/oracles/crossing_subdivision.h"
+#include "verification/oracles/dense_algebra.h"
+#include "verification/oracles/depth_maps.h"
 #include "verification/oracles/exact_crossings.h"
 #include "verification/oracles/exact_geometry.h"
 #include "verification/oracles/feature_distance.h"
+#include "verification/oracles/gsl.h"
 #include "verification/oracles/separated_triangles.h"
 #include "verification/oracles/solid_prisms.h"
 #include "verification/oracles/triangle_distance.h"
@@ -114,10 +110,125 @@ Estimate edge_distance(const FourPoints& x) {
   return {double(least), 4 * epsilon * double(least) + 1e-9 * epsilon};
 }
 
-}  // namespace
+/// The slope of the map that climbs from eps at -t^ to tau at tau, integrated: y = f, or f and f'.
+double integrate(const oracles::RightHandSide& rhs, const std::vector<double>& start, double from,
+                 double to, double& uncertainty) {
+  const auto solution =
+      oracles::reference_solution(rhs, start, from, std::array<double, 1>{to}, 1e-13);
+  uncertainty = solution.uncertainty[0];
+  return solution.values[0][0];
+}
 
-Table crossing_times_agree() {
-  Table answers = no_answers();
+/// f' = p (f - eps)/(phi + t^): the power law as a differential equation, solved back
+/// from f(tau) = tau.
+Estimate power_map_by_equation(const oracles::Band& band, double phi) {
+  const double whole = band.reach + band.deepest, climb = band.reach - band.nearest,
+               p = whole / climb;
+  // backwards from f(tau) = tau, with s = tau - phi growing
+  const oracles::RightHandSide rhs = [&](double s, std::span<const double> y,
+                                         std::span<double> dy) {
+    dy[0] = -p * (y[0] - band.nearest / whole) / (1 - s);
+  };
+  double off = 0;
+  const double f = integrate(rhs, {band.reach / whole}, 0, (band.reach - phi) / whole, off);
+  return {f * whole, off * whole};
+}
+
+/// f'' is 0 and then (1 - m)/w; m such that f climbs from eps to tau, by bracketing.
+Estimate blend_map_by_equation(const oracles::Band& band, double phi) {
+  const double whole = band.reach + band.deepest, w = (band.reach - band.nearest) / 2 / whole,
+               bend = 1 - w;
+  double off = 0;
+  const auto climbed = [&](double m, double to) {
+    // in two parts, since the slope's slope jumps between them
+    const auto straight = std::min(to, bend);
+    const double there = band.nearest / whole + m * straight;
+    if (to <= bend) return there;
+    const oracles::RightHandSide rhs = [&](double, std::span<const double> y,
+                                           std::span<double> dy) {
+      dy[0] = y[1];
+      dy[1] = (1 - m) / w;
+    };
+    return integrate(rhs, {there, m}, bend, to, off);
+  };
+  const Estimate m = oracles::bracketed_root(
+      [&](double slope) { return climbed(slope, 1) - band.reach / whole; }, -3, 3, 0);
+  const double f = climbed(m.value, (phi + band.deepest) / whole);
+  return {f * whole, (off + m.uncertainty + 1e-14) * whole};
+}
+
+void depth_maps_agree(Answers& answers) {
+  for (const oracles::Band& band : {oracles::Band{.001, .02, .05}, oracles::Band{.003, .011, .004}})
+    for (const double part : {.12, .55, .93}) {
+      const double phi = -band.deepest + part * (band.reach + band.deepest);
+      const std::string name =
+          "t^ " + std::to_string(band.deepest) + ", phi " + std::to_string(phi);
+      answers.compare("power, " + name, oracles::power_map(band, phi),
+                      power_map_by_equation(band, phi));
+      answers.compare("blend, " + name, oracles::blend_map(band, phi),
+                      blend_map_by_equation(band, phi));
+    }
+}
+
+// The matrix of second differences, whose eigenvalues are 2 - 2 cos(k pi/(n + 1)); a companion
+// matrix, whose are the roots chosen; a system whose solution is chosen; a matrix made of two turns
+// and chosen singular values.
+void dense_algebra_agrees(Answers& answers) {
+  Random random(839);
+  for (const int n : {5, 9}) {
+    Eigen::MatrixXd K = 2 * Eigen::MatrixXd::Identity(n, n);
+    K.diagonal(1).setConstant(-1);
+    K.diagonal(-1).setConstant(-1);
+    const Eigen::VectorXd values = oracles::symmetric_eigenvalues(K);
+    Pairs pairs;
+    for (int k = 1; k <= n; ++k)
+      pairs.push_back(
+          {{values[k - 1], 20 * n * epsilon}, {2 - 2 * std::cos(k * pi / (n + 1)), 4 * epsilon}});
+    answers.compare_worst("second differences of " + std::to_string(n), pairs);
+    const Eigen::MatrixXd A = K + .1 * Eigen::MatrixXd::Ones(n, n);
+    const Eigen::VectorXd x = random.vectors(n, 1).row(0).transpose();
+    const Eigen::VectorXd found = oracles::solve_linear(A, A * x),
+                          again = oracles::solve_symmetric(A, A * x);
+    pairs.clear();  // the condition of these is below 50
+    for (int k = 0; k < n; ++k) {
+      pairs.push_back({{found[k], 200 * n * epsilon}, {x[k], 0}});
+      pairs.push_back({{again[k], 200 * n * epsilon}, {x[k], 0}});
+    }
+    answers.compare_worst("chosen solution of " + std::to_string(n), pairs);
+  }
+  for (const std::array<double, 3>& roots :
+       {std::array<double, 3>{-.7, .4, 1.9}, std::array<double, 3>{-3.1, -1.2, .6}}) {
+    Eigen::Matrix3d companion;
+    companion << roots[0] + roots[1] + roots[2],
+        -(roots[0] * roots[1] + roots[1] * roots[2] + roots[2] * roots[0]),
+        roots[0] * roots[1] * roots[2], 1, 0, 0, 0, 1, 0;
+    Eigen::VectorXd found = oracles::eigenvalues(companion).real();
+    std::sort(found.begin(), found.end());
+    Pairs pairs;
+    for (int k = 0; k < 3; ++k)
+      pairs.push_back({{found[k], 300 * epsilon}, {roots[std::size_t(k)], 0}});
+    answers.compare_worst("companion of root " + std::to_string(roots[0]), pairs);
+  }
+  for (const Vector3& values : {Vector3(3.7, 1.1, .2), Vector3(41, 6, 5)}) {
+    const Vector3 from = random.vectors(1, 1).col(0), to = random.vectors(1, 1).col(0);
+    const Eigen::Matrix3d U = oracles::rotation_between(from, to).toRotationMatrix();
+    // the axis of a turn by nearly half a circle is known as well as its half angle's
+    // cosine is large
+    const double half = std::sqrt((1 + from.normalized().dot(to.normalized())) / 2);
+    const Eigen::Matrix3d V = Eigen::AngleAxisd(1.1, from.normalized()).toRotationMatrix();
+    const oracles::SingularParts parts =
+        oracles::singular_parts(U * values.asDiagonal() * V.transpose());
+    Pairs pairs;
+    for (int k = 0; k < 3; ++k) {
+      pairs.push_back({{parts.values[k], 30 * epsilon * values[0]}, {values[k], 0}});
+      pairs.push_back(
+          {{(U * from.normalized())[k], 10 * epsilon / half}, {to.normalized()[k], 10 * epsilon}});
+    }
+    answers.compare_worst("singular value " + std::to_string(values[0]), pairs);
+  }
+}
+
+void crossing_times_agree(Answers& answers) {
   for (const auto& [kind, name] : features)
     for (const int largest : {3, 9}) {
       Random random(unsigned(841 + largest));
@@ -133,15 +244,13 @@ Table crossing_times_agree() {
         contradictions += ever != (seen == oracles::MeetDecision::meet);
       }
       const std::string point = std::string(name) + ", moved by up to " + std::to_string(largest);
-      compare_exact(answers, point + ": meetings", by_roots, by_halving);
-      compare_exact(answers, point + ": contradictions, and none", contradictions, 0);
+      answers.compare_exact(point + ": meetings", by_roots, by_halving);
+      answers.compare_exact(point + ": contradictions, and none", contradictions, 0);
     }
-  return answers;
 }
 
 // Products of factors whose roots are known, of one without a real root, and of one squared.
-Table polynomial_roots_agree() {
-  Table answers = no_answers();
+void polynomial_roots_agree(Answers& answers) {
   Random random(853);
   for (int k = 0; k < 12; ++k) {
     std::vector<Rational> roots;
@@ -158,8 +267,8 @@ Table polynomial_roots_agree() {
     within.erase(std::unique(within.begin(), within.end()), within.end());
     const std::vector<oracles::Root> found = oracles::roots_within(product);
     const std::string name = "product " + std::to_string(k + 1);
-    compare_exact(answers, name + ": roots between 0 and 1", double(found.size()),
-                  double(within.size()));
+    answers.compare_exact(name + ": roots between 0 and 1", double(found.size()),
+                          double(within.size()));
     int signs = 0, expected = 0;  // of all factors at all roots
     for (std::size_t i = 0; i < std::min(found.size(), within.size()); ++i)
       for (std::size_t j = 0; j < roots.size(); ++j) {
@@ -167,13 +276,11 @@ Table polynomial_roots_agree() {
         signs += int(weight) * oracles::sign_at(roots[j].factor(), found[i]);
         expected += int(weight) * ((apart > 0) - (apart < 0));
       }
-    compare_exact(answers, name + ": signs of its factors there", signs, expected);
+    answers.compare_exact(name + ": signs of its factors there", signs, expected);
   }
-  return answers;
 }
 
-Table crossings_agree() {
-  Table answers = no_answers();
+void crossings_agree(Answers& answers) {
   for (const unsigned seed : {857U, 859U}) {
     Random random(seed);
     int by_sweep = 0, by_pairs = 0, by_parting = 0, contradictions = 0;
@@ -196,15 +303,13 @@ Table crossings_agree() {
         }
     }
     const std::string name = "seed " + std::to_string(seed);
-    compare_exact(answers, name + ": by a sweep and pair by pair", by_sweep, by_pairs);
-    compare_exact(answers, name + ": pair by pair and by parting directions", by_pairs, by_parting);
-    compare_exact(answers, name + ": contradictions, and none", contradictions, 0);
+    answers.compare_exact(name + ": by a sweep and pair by pair", by_sweep, by_pairs);
+    answers.compare_exact(name + ": pair by pair and by parting directions", by_pairs, by_parting);
+    answers.compare_exact(name + ": contradictions, and none", contradictions, 0);
   }
-  return answers;
 }
 
-Table sides_agree() {
-  Table answers = no_answers();
+void sides_agree(Answers& answers) {
   for (const oracles::WholePrism& prism :
        {oracles::WholePrism{{{0, 0}, {12, 0}, {12, 8}, {6, 2}, {0, 8}}, -3, 2},
         oracles::WholePrism{{{-2, 1}, {7, 0}, {9, 9}, {3, 3}, {-1, 7}}, 1, 5}}) {
@@ -226,30 +331,63 @@ Table sides_agree() {
         }
     const std::string name =
         "prism from " + std::to_string(prism.low) + " to " + std::to_string(prism.high);
-    compare_exact(answers, name + ": points inside", by_segments[2], by_turns[2]);
-    compare_exact(answers, name + ": points on the surface", by_segments[1], by_turns[1]);
-    compare_exact(answers, name + ": contradictions, and none", contradictions, 0);
+    answers.compare_exact(name + ": points inside", by_segments[2], by_turns[2]);
+    answers.compare_exact(name + ": points on the surface", by_segments[1], by_turns[1]);
+    answers.compare_exact(name + ": contradictions, and none", contradictions, 0);
   }
-  return answers;
 }
 
 // A vertex and a triangle in 50 digits and in extended precision; two edges in 50 digits and by
 // cutting in thirds.
-Table distances_agree() {
-  Table answers = no_answers();
+void distances_agree(Answers& answers) {
   Random random(863);
   for (int k = 0; k < 12; ++k) {
     FourPoints x = random.vectors(4, random.log_uniform(1e-3, 10));
     if (k % 3 == 1) x.col(3) = x.col(2) + 1e-6 * (x.col(3) - x.col(2));          // thin
     if (k % 3 == 2) x.col(0) = .3 * x.col(1) + .7 * x.col(2) + 1e-5 * x.col(0);  // close to an edge
     const std::string name = " " + std::to_string(k + 1);
-    compare(answers, "vertex and triangle" + name,
-            oracles::feature_distance(Features::vertex_and_triangle, x),
-            oracles::distance_to_triangles(x.rightCols(3), {{0, 1, 2}}, x.col(0)));
-    compare(answers, "edge and edge" + name, oracles::feature_distance(Features::edge_and_edge, x),
-            edge_distance(x));
+    answers.compare("vertex and triangle" + name,
+                    oracles::feature_distance(Features::vertex_and_triangle, x),
+                    oracles::distance_to_triangles(x.rightCols(3), {{0, 1, 2}}, x.col(0)));
+    answers.compare("edge and edge" + name, oracles::feature_distance(Features::edge_and_edge, x),
+                    edge_distance(x));
   }
-  return answers;
+}
+
+}  // namespace
+
+std::vector<Comparison> geometry_comparisons() {
+  return {
+      {"oracle.depth-maps-agree",
+       "The oracle's depth maps in closed form are solutions of the differential equations that "
+       "define them.",
+       depth_maps_agree},
+      {"oracle.dense-algebra-agrees",
+       "The oracle's eigenvalues, solutions, singular values and rotations are those that the "
+       "matrices were built from.",
+       dense_algebra_agrees},
+      {"oracle.crossing-times-agree",
+       "The oracle's exact crossings of moving features by roots agree with bisection in time, "
+       "wherever bisection decides.",
+       crossing_times_agree},
+      {"oracle.polynomial-roots-agree",
+       "The oracle's roots of integer polynomials, and the signs of others there, are those that "
+       "the "
+       "polynomials were built from.",
+       polynomial_roots_agree},
+      {"oracle.crossings-agree",
+       "The oracle's crossings by a sweep are those of all pairs, which are the pairs that no "
+       "direction separates.",
+       crossings_agree},
+      {"oracle.inside-tests-agree",
+       "The oracle's inside test by segments agrees with the test of a prism by angles, even at "
+       "points on the surface.",
+       sides_agree},
+      {"oracle.distances-agree",
+       "The oracle's distances of features in 50 digits agree with those by foot points in "
+       "extended "
+       "precision and by ternary search.",
+       distances_agree}};
 }
 
 }  // namespace foldproof

@@ -1,9 +1,4 @@
-#include <Eigen/Geometry>
-#include <cmath>
-#include <functional>
-
-#include "verification/checks/oracles/oracle_checks.h"
-#include "verification/evidence.h"
+#include "verification/checks/oracles/agreement.h"
 #include "verification/oracles/definitions.h"
 #include "verification/oracles/exact_solutions.h"
 #include "verification/oracles/force_derivatives.h"
@@ -18,7 +13,6 @@ namespace {
 
 using oracles::Estimate;
 using oracles::HingeInput;
-using Pairs = std::vector<std::pair<Estimate, Estimate>>;
 
 /// Hinges of sizes from a millimetre to a metre, folded by angles of both signs, every
 /// constant another.
@@ -49,21 +43,22 @@ std::string numbered(const std::string& what, std::size_t number) {
 
 /// Corresponding components of vectors, each with its answer's uncertainty; `sign`
 /// turns the second.
-template <std::size_t N>
-Pairs pair_up(const std::array<Vector3, N>& one, double one_off,
-              const std::array<Vector3, N>& other, double other_off, double sign) {
+template <int N>
+Pairs pair_up(const oracles::VectorsEstimate<N>& one, const oracles::VectorsEstimate<N>& other,
+              double sign) {
   Pairs pairs;
-  for (std::size_t k = 0; k < N; ++k)
+  for (std::size_t k = 0; k < std::size_t(N); ++k)
     for (int axis = 0; axis < 3; ++axis)
-      pairs.push_back({{one[k][axis], one_off}, {sign * other[k][axis], other_off}});
+      pairs.push_back({{one.value[k][axis], one.uncertainty},
+                       {sign * other.value[k][axis], other.uncertainty}});
   return pairs;
 }
 
-template <class Matrix>
-Pairs pair_up(const Matrix& one, double one_off, const Matrix& other, double other_off) {
+Pairs pair_up(const oracles::MatrixEstimate& one, const oracles::MatrixEstimate& other) {
   Pairs pairs;
-  for (Eigen::Index i = 0; i < one.size(); ++i)
-    pairs.push_back({{one.reshaped()[i], one_off}, {other.reshaped()[i], other_off}});
+  for (Eigen::Index i = 0; i < one.value.size(); ++i)
+    pairs.push_back({{one.value.reshaped()[i], one.uncertainty},
+                     {other.value.reshaped()[i], other.uncertainty}});
   return pairs;
 }
 
@@ -160,81 +155,61 @@ Estimate modulus(double young, double side, const Eigen::Vector2d& strain) {
   return {(4 * narrow - wide) / 3, std::abs(narrow - wide) + 16 * epsilon / 1e-6 * young};
 }
 
-}  // namespace
-
-Table hinge_angles_agree() {
-  Table answers = no_answers();
+void hinge_angles_agree(Answers& answers) {
   const std::vector<HingeInput> hinges = random_hinge_inputs();
   for (std::size_t i = 0; i < hinges.size(); ++i) {
     const Estimate theta = oracles::hinge_angle_50(hinges[i].x);
     const double sine = std::sin(theta.value / 2);
-    compare(answers, numbered("hinge", i), oracles::sin_half_angle_50(hinges[i].x),
-            {sine, theta.uncertainty / 2 + 2 * oracles::one_rounding(sine)});
+    answers.compare(numbered("hinge", i), oracles::sin_half_angle_50(hinges[i].x),
+                    {sine, theta.uncertainty / 2 + 2 * oracles::one_rounding(sine)});
   }
-  return answers;
 }
 
-Table bending_modes_agree() {
-  Table answers = no_answers();
+void bending_modes_agree(Answers& answers) {
   const std::vector<HingeInput> hinges = random_hinge_inputs();
   for (std::size_t i = 0; i < hinges.size(); ++i) {
     const auto u = oracles::bending_mode_50(hinges[i].x);
     const auto autodiff = oracles::theta_gradient_autodiff(hinges[i].x);
     const auto differences = oracles::theta_gradient_differences(hinges[i].x);
-    compare_worst(answers, numbered("as printed and by autodiff, hinge", i),
-                  pair_up(u.value, u.uncertainty, autodiff.value, autodiff.uncertainty, -1));
-    compare_worst(answers, numbered("by autodiff and by differences, hinge", i),
-                  pair_up(autodiff.value, autodiff.uncertainty, differences.value,
-                          differences.uncertainty, 1));
+    answers.compare_worst(numbered("as printed and by autodiff, hinge", i),
+                          pair_up(u, autodiff, -1));
+    answers.compare_worst(numbered("by autodiff and by differences, hinge", i),
+                          pair_up(autodiff, differences, 1));
   }
-  return answers;
 }
 
-Table bending_forces_agree() {
-  Table answers = no_answers();
+void bending_forces_agree(Answers& answers) {
   const std::vector<HingeInput> hinges = random_hinge_inputs();
   for (std::size_t i = 0; i < hinges.size(); ++i) {
     const auto force = oracles::bending_elastic_50(hinges[i]),
                gradient = oracles::energy_gradient_autodiff(hinges[i]);
     const auto damping = oracles::bending_damping_50(hinges[i]),
                from_power = damping_from_power(hinges[i]);
-    compare_worst(
-        answers, numbered("elastic, hinge", i),
-        pair_up(force.value, force.uncertainty, gradient.value, gradient.uncertainty, -1));
-    compare_worst(
-        answers, numbered("damping, hinge", i),
-        pair_up(damping.value, damping.uncertainty, from_power.value, from_power.uncertainty, 1));
+    answers.compare_worst(numbered("elastic, hinge", i), pair_up(force, gradient, -1));
+    answers.compare_worst(numbered("damping, hinge", i), pair_up(damping, from_power, 1));
   }
-  return answers;
 }
 
-Table bending_derivatives_agree() {
-  Table answers = no_answers();
+void bending_derivatives_agree(Answers& answers) {
   const std::vector<HingeInput> hinges = random_hinge_inputs();
   for (std::size_t i = 0; i < hinges.size(); ++i) {
     const auto elastic = oracles::bending_elastic_derivative_autodiff(hinges[i]),
                by_differences = oracles::bending_elastic_derivative_differences(hinges[i]);
     const auto all = oracles::bending_force_derivative_autodiff(hinges[i]),
                all_by_differences = oracles::bending_force_derivative_differences(hinges[i]);
-    compare_worst(answers, numbered("elastic, hinge", i),
-                  pair_up(elastic.value, elastic.uncertainty, by_differences.value,
-                          by_differences.uncertainty));
-    compare_worst(answers, numbered("elastic and damping, hinge", i),
-                  pair_up(all.value, all.uncertainty, all_by_differences.value,
-                          all_by_differences.uncertainty));
+    answers.compare_worst(numbered("elastic, hinge", i), pair_up(elastic, by_differences));
+    answers.compare_worst(numbered("elastic and damping, hinge", i),
+                          pair_up(all, all_by_differences));
   }
-  return answers;
 }
 
-Table spring_forces_agree() {
-  Table answers = no_answers();
+void spring_forces_agree(Answers& answers) {
   const std::vector<oracles::SpringInput> list = springs();
   for (std::size_t i = 0; i < list.size(); ++i) {
     const auto force = oracles::spring_elastic_50(list[i]),
                gradient = oracles::spring_energy_gradient_autodiff(list[i]);
-    compare_worst(
-        answers, numbered("force and gradient of the energy, spring", i),
-        pair_up(force.value, force.uncertainty, gradient.value, gradient.uncertainty, -1));
+    answers.compare_worst(numbered("force and gradient of the energy, spring", i),
+                          pair_up(force, gradient, -1));
     const auto derivative = oracles::spring_force_derivative_autodiff(list[i]);
     Pairs pairs;
     for (Eigen::Index row = 0; row < 6; ++row)
@@ -250,13 +225,11 @@ Table spring_forces_agree() {
         pairs.push_back({{derivative.value(row, column), derivative.uncertainty},
                          slope(component, 1e-3 * length, derivative.value.norm() * length)});
       }
-    compare_worst(answers, numbered("derivative by autodiff and by differences, spring", i), pairs);
+    answers.compare_worst(numbered("derivative by autodiff and by differences, spring", i), pairs);
   }
-  return answers;
 }
 
-Table sticking_forces_agree() {
-  Table answers = no_answers();
+void sticking_forces_agree(Answers& answers) {
   const std::vector<oracles::StuckParticle> list = stuck_particles();
   for (std::size_t i = 0; i < list.size(); ++i) {
     const oracles::StickingAnswer answer = oracles::sticking_answer(list[i]);
@@ -268,24 +241,57 @@ Table sticking_forces_agree() {
       pairs.push_back({{answer.force[k], oracles::one_rounding(answer.force.norm())},
                        slope(energy, 1e-3 * list[i].far, answer.energy)});
     }
-    compare_worst(answers, numbered("force and energy, particle", i), pairs);
+    answers.compare_worst(numbered("force and energy, particle", i), pairs);
   }
-  return answers;
 }
 
-Table sheet_moduli_agree() {
-  Table answers = no_answers();
+void sheet_moduli_agree(Answers& answers) {
   for (const auto& [young, side] : {std::pair{7.9, .31}, std::pair{430., 1.7}}) {
     const oracles::SheetModuli moduli = oracles::equilateral_sheet_moduli(young);
     const double nu = moduli.poisson.value;
     const std::string name = "Y " + std::to_string(young);
-    compare(answers, name + ", pulled one way", moduli.young, modulus(young, side, {1, -nu}));
+    answers.compare(name + ", pulled one way", moduli.young, modulus(young, side, {1, -nu}));
     // equal strains both ways store E/(1 - nu) e^2
     const Estimate both = modulus(young, side, {1, 1});
-    compare(answers, name + ", pulled both ways", moduli.young,
-            {both.value * (1 - nu) / 2, both.uncertainty});
+    answers.compare(name + ", pulled both ways", moduli.young,
+                    {both.value * (1 - nu) / 2, both.uncertainty});
   }
-  return answers;
+}
+
+}  // namespace
+
+std::vector<Comparison> force_comparisons() {
+  return {
+      {"oracle.hinge-angles-agree",
+       "The oracle's angle by atan2 and its printed sin(theta/2) agree, both in 50 digits.",
+       hinge_angles_agree},
+      {"oracle.bending-modes-agree",
+       "The oracle's bending mode as printed is minus the gradient of theta by automatic "
+       "differentiation, which is that by differences.",
+       bending_modes_agree},
+      {"oracle.bending-forces-agree",
+       "The oracle's elastic force as printed is minus the gradient of the energy, its damping "
+       "force "
+       "follows from the power that it takes.",
+       bending_forces_agree},
+      {"oracle.bending-derivatives-agree",
+       "The oracle's derivatives of bending forces by automatic differentiation are those by "
+       "differences in 50 digits.",
+       bending_derivatives_agree},
+      {"oracle.spring-forces-agree",
+       "The oracle's spring force is minus the gradient of its energy, and its derivative is that "
+       "by "
+       "differences.",
+       spring_forces_agree},
+      {"oracle.sticking-forces-agree",
+       "The oracle's sticking force, by automatic differentiation, is minus the slope of its "
+       "energy "
+       "by differences.",
+       sticking_forces_agree},
+      {"oracle.sheet-moduli-agree",
+       "The oracle's closed-form moduli of a sheet of springs follow from the energy of one cell's "
+       "springs.",
+       sheet_moduli_agree}};
 }
 
 }  // namespace foldproof

@@ -1,11 +1,7 @@
-#include <Eigen/Geometry>
-#include <array>
-#include <cmath>
 #include <complex>
 #include <numbers>
 
-#include "verification/checks/oracles/oracle_checks.h"
-#include "verification/evidence.h"
+#include "verification/checks/oracles/agreement.h"
 #include "verification/oracles/amplification.h"
 #include "verification/oracles/dense_algebra.h"
 #include "verification/oracles/exact_solutions.h"
@@ -24,7 +20,6 @@ using oracles::Estimate;
 using oracles::Oscillator;
 using oracles::Scheme;
 using Complex = std::complex<double>;
-using Pairs = std::vector<std::pair<Estimate, Estimate>>;
 
 constexpr std::array<std::pair<Scheme, const char*>, 3> schemes{
     {{Scheme::mixed, "A"}, {Scheme::central_newmark, "B"}, {Scheme::variable_step_newmark, "C"}}};
@@ -146,10 +141,7 @@ double length_error(const oracles::LimitedSpringInput& s, double impulse) {
   return (d + s.step * (v_b - v_a)).norm() - (before > s.longest ? s.longest : s.shortest);
 }
 
-}  // namespace
-
-Table oscillators_agree() {
-  Table answers = no_answers();
+void oscillators_agree(Answers& answers) {
   const std::array<double, 2> times{.37, 2.9};
   for (const auto& [name, o] : oscillators()) {
     const oracles::RightHandSide rhs = [&o = o](double, std::span<const double> y,
@@ -162,46 +154,39 @@ Table oscillators_agree() {
         oracles::reference_solution(rhs, start, 0, times, 1e-13);
     for (const std::size_t i : {0, 1}) {
       const oracles::OscillatorEstimate exact = oracles::oscillator_at(o, times[i]);
-      compare_worst(answers, name,
-                    {{exact.x, {solution.values[i][0], solution.uncertainty[i]}},
-                     {exact.v, {solution.values[i][1], solution.uncertainty[i]}}});
+      answers.compare_worst(name, {{exact.x, {solution.values[i][0], solution.uncertainty[i]}},
+                                   {exact.v, {solution.values[i][1], solution.uncertainty[i]}}});
     }
   }
-  return answers;
 }
 
-Table verlet_oscillators_agree() {
-  Table answers = no_answers();
+void verlet_oscillators_agree(Answers& answers) {
   for (const auto& [o, h] : {std::pair{Oscillator{29, 0, .7, -1.3}, .041},
                              std::pair{Oscillator{3.1, 0, -2.3, .6}, .93}}) {
     const oracles::OscillatorEstimate closed = oracles::verlet_oscillator(o, h, 1000);
     for (const auto& [scheme, name] : schemes) {
       std::array<oracles::Digits50, 2> state{o.x0, o.v0};
       for (int i = 0; i < 1000; ++i) state = step_by_lines(scheme, o, h, state);
-      compare_worst(
-          answers, std::string(name) + ", thousand steps of " + std::to_string(h) + " s",
+      answers.compare_worst(
+          std::string(name) + ", thousand steps of " + std::to_string(h) + " s",
           {{closed.x, oracles::rounded(state[0])}, {closed.v, oracles::rounded(state[1])}});
     }
   }
-  return answers;
 }
 
-Table step_matrices_agree() {
-  Table answers = no_answers();
+void step_matrices_agree(Answers& answers) {
   for (const auto& [o, h] : {std::pair{Oscillator{37.3, 2.9, .7, -1.9}, .11},
                              std::pair{Oscillator{.83, 7.1, 2.3, .4}, 1.7}})
     for (const auto& [scheme, name] : schemes) {
       const oracles::OscillatorEstimate stepped = oracles::stepped_oscillator(scheme, o, h);
       const auto lines = step_by_lines<oracles::Digits50>(scheme, o, h, {o.x0, o.v0});
-      compare_worst(
-          answers, std::string(name) + ", h " + std::to_string(h),
+      answers.compare_worst(
+          std::string(name) + ", h " + std::to_string(h),
           {{stepped.x, oracles::rounded(lines[0])}, {stepped.v, oracles::rounded(lines[1])}});
     }
-  return answers;
 }
 
-Table stable_steps_agree() {
-  Table answers = no_answers();
+void stable_steps_agree(Answers& answers) {
   for (const Oscillator& o : {Oscillator{37.3, 2.9, 0, 0}, Oscillator{2.1, 1.7, 0, 0}}) {
     const Eigen::MatrixXd K = Eigen::MatrixXd::Constant(1, 1, o.stiffness),
                           C = Eigen::MatrixXd::Constant(1, 1, o.damping);
@@ -215,17 +200,16 @@ Table stable_steps_agree() {
           oracles::bracketed_root(determinant, .7 * closed.value, 1.4 * closed.value, 0);
       root.uncertainty += 32 * epsilon * root.value;
       const std::string point = std::string(name) + ", k " + std::to_string(o.stiffness);
-      compare(answers, point + ", closed form and lines of the scheme", closed, root);
-      compare(answers, point + ", closed form and eigenvalues", closed,
-              scheme == Scheme::variable_step_newmark ? oracles::largest_variable_newmark_step(K, C)
-                                                      : oracles::largest_leapfrog_step(K));
+      answers.compare(point + ", closed form and lines of the scheme", closed, root);
+      answers.compare(point + ", closed form and eigenvalues", closed,
+                      scheme == Scheme::variable_step_newmark
+                          ? oracles::largest_variable_newmark_step(K, C)
+                          : oracles::largest_leapfrog_step(K));
     }
   }
-  return answers;
 }
 
-Table falls_agree() {
-  Table answers = no_answers();
+void falls_agree(Answers& answers) {
   for (const double t : {.41, 1.3}) {
     const oracles::Launch launch{{.3, -2, 5}, {1.1, .4, -.7}, {.2, .5, -9.80665}};
     const oracles::FallEstimate fall = oracles::free_fall(launch, t);
@@ -246,13 +230,11 @@ Table falls_agree() {
       pairs.push_back({{fall.v[k], fall.v_uncertainty},
                        {solution.values[0][std::size_t(k + 3)], solution.uncertainty[0] + 1e-14}});
     }
-    compare_worst(answers, "t " + std::to_string(t), pairs);
+    answers.compare_worst("t " + std::to_string(t), pairs);
   }
-  return answers;
 }
 
-Table rotation_lengths_agree() {
-  Table answers = no_answers();
+void rotation_lengths_agree(Answers& answers) {
   for (const auto& [pair, omega] : {std::pair{oracles::SpringPair{41, .13, .7, .05, .09}, 7.3},
                                     std::pair{oracles::SpringPair{9, 2.1, 1.6, .4, .23}, 1.9}}) {
     const double mass = pair.mass_a * pair.mass_b / (pair.mass_a + pair.mass_b);
@@ -263,16 +245,14 @@ Table rotation_lengths_agree() {
     };
     Estimate root = oracles::bracketed_root(surplus, pair.rest_length, 50 * pair.rest_length, 0);
     root.uncertainty += 32 * epsilon * root.value;
-    compare(answers, "omega " + std::to_string(omega), oracles::steady_rotation_length(pair, omega),
-            root);
+    answers.compare("omega " + std::to_string(omega), oracles::steady_rotation_length(pair, omega),
+                    root);
   }
-  return answers;
 }
 
 // The product of the two factors is exp(-c h), and their sum is the trace of the step
 // from two starts.
-Table amplification_factors_agree() {
-  Table answers = no_answers();
+void amplification_factors_agree(Answers& answers) {
   for (const auto& [name, o] : oscillators()) {
     const double h = .3 / std::sqrt(o.stiffness);
     const oracles::Factors exact = oracles::exact_factors(o, h);
@@ -280,10 +260,10 @@ Table amplification_factors_agree() {
     const double trace = oracles::oscillator_at({o.stiffness, o.damping, 1, 0}, h).x.value +
                          oracles::oscillator_at({o.stiffness, o.damping, 0, 1}, h).v.value;
     const double off = 20 * epsilon;
-    compare_worst(answers, name + ", exact",
-                  {{{sum.real(), off}, {trace, off}},
-                   {{product.real(), off}, {std::exp(-o.damping * h), off}},
-                   {{sum.imag(), off}, {0, off}}});
+    answers.compare_worst(name + ", exact",
+                          {{{sum.real(), off}, {trace, off}},
+                           {{product.real(), off}, {std::exp(-o.damping * h), off}},
+                           {{sum.imag(), off}, {0, off}}});
     for (const auto& [method, order] :
          {std::pair{"forward-euler", 1}, {"RK2", 2}, {"SSP-RK3", 3}, {"RK4", 4}}) {
       const oracles::Factors factors = oracles::step_factors(method, o, h);
@@ -291,14 +271,12 @@ Table amplification_factors_agree() {
       for (const std::size_t i : {0, 1})
         pairs.push_back(
             {{std::abs(factors[i]), off}, {growth_by_stages(order, std::log(exact[i])), off}});
-      compare_worst(answers, name + ", " + method, pairs);
+      answers.compare_worst(name + ", " + method, pairs);
     }
   }
-  return answers;
 }
 
-Table runge_kutta_limits_agree() {
-  Table answers = no_answers();
+void runge_kutta_limits_agree(Answers& answers) {
   for (const double zeta : {.31, .74, 2.3})
     for (const int order : {1, 2, 3, 4}) {
       const double omega = 5.3;
@@ -316,14 +294,12 @@ Table runge_kutta_limits_agree() {
       };
       Estimate root = oracles::bracketed_root(excess, .6 * limit.value, 1.3 * limit.value, 0);
       root.uncertainty += 1e3 * epsilon * root.value;
-      compare(answers, "order " + std::to_string(order) + ", zeta " + std::to_string(zeta), limit,
-              root);
+      answers.compare("order " + std::to_string(order) + ", zeta " + std::to_string(zeta), limit,
+                      root);
     }
-  return answers;
 }
 
-Table forecasts_agree() {
-  Table answers = no_answers();
+void forecasts_agree(Answers& answers) {
   const std::vector<oracles::ForecastInput> inputs = forecast_inputs();
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     const oracles::ForecastAnswer answer = oracles::forecast_answer(inputs[i]);
@@ -334,15 +310,12 @@ Table forecasts_agree() {
     for (int k = 0; k < 3; ++k)
       pairs.push_back(
           {{answer.v[k], oracles::one_rounding(answer.v[k])}, {other[k], 32 * epsilon * speeds}});
-    compare_worst(
-        answers, "particle " + std::to_string(i + 1) + ", mu " + std::to_string(inputs[i].friction),
-        pairs);
+    answers.compare_worst(
+        "particle " + std::to_string(i + 1) + ", mu " + std::to_string(inputs[i].friction), pairs);
   }
-  return answers;
 }
 
-Table limited_springs_agree() {
-  Table answers = no_answers();
+void limited_springs_agree(Answers& answers) {
   const std::vector<oracles::LimitedSpringInput> inputs = limited_spring_inputs();
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     const oracles::LimitedSpringInput& s = inputs[i];
@@ -365,9 +338,56 @@ Table limited_springs_agree() {
       pairs.push_back({{answer.v_a[k], oracles::one_rounding(answer.v_a[k])}, {v_a[k], off}});
       pairs.push_back({{answer.v_b[k], oracles::one_rounding(answer.v_b[k])}, {v_b[k], off}});
     }
-    compare_worst(answers, "spring " + std::to_string(i + 1), pairs);
+    answers.compare_worst("spring " + std::to_string(i + 1), pairs);
   }
-  return answers;
+}
+
+}  // namespace
+
+std::vector<Comparison> motion_comparisons() {
+  return {
+      {"oracle.oscillators-agree",
+       "The oracle's closed form of the damped oscillator is what GSL's Runge-Kutta methods find, "
+       "weakly, critically and strongly damped.",
+       oscillators_agree},
+      {"oracle.verlet-oscillators-agree",
+       "The oracle's closed form of velocity Verlet gives what a thousand undamped steps of "
+       "schemes "
+       "A, B and C give in 50 digits.",
+       verlet_oscillators_agree},
+      {"oracle.step-matrices-agree",
+       "The oracle's step matrices are the printed lines of schemes A, B and C in 50 digits.",
+       step_matrices_agree},
+      {"oracle.stable-steps-agree",
+       "At the oracle's closed-form stability limits the printed step has an eigenvalue -1, and "
+       "the "
+       "stiffness's eigenvalues give the same limits.",
+       stable_steps_agree},
+      {"oracle.free-falls-agree",
+       "The oracle's free fall in closed form is what GSL's Runge-Kutta methods find.",
+       falls_agree},
+      {"oracle.turning-pair-lengths-agree",
+       "At the oracle's closed-form length of a turning pair the spring's force is the centripetal "
+       "force.",
+       rotation_lengths_agree},
+      {"oracle.amplification-factors-agree",
+       "The oracle's factors of one step multiply and add up as the oscillator's, and agree with "
+       "the "
+       "methods' stages.",
+       amplification_factors_agree},
+      {"oracle.runge-kutta-limits-agree",
+       "The oracle's stability limits of Runge-Kutta methods by polynomials and closed-form rates "
+       "are those by stages and eigenvalues.",
+       runge_kutta_limits_agree},
+      {"oracle.forecasts-agree",
+       "The oracle's forecast with Coulomb friction uses the impulse within the cone that leaves "
+       "the "
+       "least sliding speed.",
+       forecasts_agree},
+      {"oracle.strain-limiting-impulses-agree",
+       "The oracle's strain-limiting impulse by Pythagoras is the root of the equation for the "
+       "length after it.",
+       limited_springs_agree}};
 }
 
 }  // namespace foldproof
