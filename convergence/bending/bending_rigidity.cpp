@@ -7,7 +7,7 @@
 #include "convergence/order.h"
 #include "convergence/ranges.h"
 #include "convergence/tables.h"
-#include "convergence/bending/studies.h"
+#include "convergence/study.h"
 #include "verification/subject.h"
 
 namespace foldproof {
@@ -257,6 +257,8 @@ Study bending_rigidity_study() {
           "For a given ke the flexural rigidity inside a sheet does not depend on the size of its "
           "triangles, but it does depend on their pattern and on the direction, and refinement "
           "does not remove that.",
+          {"does-not-depend-on-cell-size", "depends-on-direction", "depends-on-pattern",
+           "irregular.excess-persists-under-refinement"},
           "BMF03 section 4: |E|^2/(|N1| + |N2|) makes the cloth's look independent of remeshing",
           "Flat sheets of many meshes are laid on cylinders, and the bending energy per area gives "
           "the flexural rigidity D. The oracle knows only how a hinge is defined: it adds up the "

@@ -1,7 +1,7 @@
 // buckling: the load at which a compressed strip leaves its plane, and how fast it does so beyond.
 #include <cmath>
 
-#include "convergence/bending/studies.h"
+#include "convergence/study.h"
 #include "reference/mesh/shapes.h"
 #include "verification/oracles/dense_algebra.h"
 #include "verification/subject.h"
@@ -236,6 +236,7 @@ Study buckling_study() {
           "A compressed strip buckles out of its plane at Euler's load, with a rigidity between "
           "those of its mesh with free edges and bent to a cylinder; beyond that load the buckle "
           "grows at the rate of the linearised forces.",
+          {"load-matches-euler", "grows-at-the-linearised-rate"},
           "our test of BMF03 section 4",
           "A strip of equilateral triangles is shortened between two clamps; motion in its plane "
           "dies out, and none leaves it. Central differences of the forces normal to the plane "

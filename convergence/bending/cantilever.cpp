@@ -3,7 +3,7 @@
 
 #include "convergence/order.h"
 #include "convergence/bending/row_strip.h"
-#include "convergence/bending/studies.h"
+#include "convergence/study.h"
 #include "verification/oracles/heavy_cantilever.h"
 #include "verification/oracles/tip_load.h"
 
@@ -229,6 +229,7 @@ Study cantilever_study() {
       "cantilever",
       "The tip of a clamped strip, under its own weight or a load, comes to where that of the "
       "elastica with the mesh's own rigidity is, to second order.",
+      {"is-second-order", "matches-the-elastica"},
       "BMF03 section 4; Bisshopp and Drucker 1945 for the tip load",
       "The first two rows of vertices of a strip are held level. The strip is held cylindrical: "
       "each row moves as one, driven by the sum of the solver's forces on it, so that the rigidity "

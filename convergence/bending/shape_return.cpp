@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "convergence/bending/studies.h"
+#include "convergence/study.h"
 #include "reference/forces/bending.h"
 #include "reference/mesh/shapes.h"
 #include "reference/scene/scene.h"
@@ -175,6 +175,7 @@ Study shape_return_study() {
   return {"shape-recovery",
           "A sculpted shell that is pulled out of shape by about a tenth returns to it if its own "
           "angles are its rest angles, and does not if they are flat.",
+          {"shell-returns-to-its-shape", "flat-rest-angles-do-not-restore-it"},
           "BMF03 section 4: non-zero rest angles",
           "A closed shell with bumps is squeezed, sheared and dented by about a tenth of its size, "
           "released and damped. Its distance from the rest shape falls until it is invisible, on "

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "convergence/bending/row_strip.h"
-#include "convergence/bending/studies.h"
+#include "convergence/study.h"
 #include "convergence/order.h"
 #include "convergence/tables.h"
 #include "reference/dynamics/integrator.h"
@@ -241,6 +241,7 @@ Study strip_vibration_study() {
   return {"strip-vibration",
           "The two lowest frequencies of a clamped strip are those of the clamped-free beam with "
           "the mesh's own rigidity, to second order.",
+          {"is-second-order", "matches-the-beam"},
           "BMF03 section 4",
           "The stiffness across a strip held cylindrical is taken from differences of the solver's "
           "forces, its masses from the area; the two lowest frequencies are compared with beta^2 "

@@ -7,7 +7,7 @@
 
 #include "convergence/conjugate_gradients/cg_cost.h"
 #include "convergence/order.h"
-#include "convergence/conjugate_gradients/studies.h"
+#include "convergence/study.h"
 #include "verification/subject.h"
 
 namespace foldproof {
@@ -237,6 +237,7 @@ Study cg_iterations_study() {
       "At a damping ratio of a tenth and half the elastic limit a solve for the implicit velocity "
       "takes fewer than ten iterations of conjugate gradients, at every tolerance tried; at a "
       "fixed damping ratio a finer mesh needs no more.",
+      {"fewer-than-ten-in-the-typical-setting", "do-not-grow-with-the-mesh"},
       "BMF03 section 3",
       "A hanging sheet moves with waves and noise. Solves are counted under schemes A and B, which "
       "solve once a step; C solves twice. Tolerance, damping, step and mesh size are varied one at "

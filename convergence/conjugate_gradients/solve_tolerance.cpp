@@ -5,7 +5,7 @@
 
 #include "convergence/order.h"
 #include "convergence/work_precision/precision_problem.h"
-#include "convergence/conjugate_gradients/studies.h"
+#include "convergence/study.h"
 #include "reference/dynamics/integrator.h"
 
 namespace foldproof {
@@ -196,6 +196,7 @@ Study solve_tolerance_study() {
   return {"solve-tolerance",
           "On a damped sheet, in steps of a half to an eighth of the elastic limit, the default "
           "tolerance of the solves leaves the observed order of A, B and C as exact solves do.",
+          {"default-tolerance-preserves-the-order"},
           "BMF03 section 3",
           "How loose may a solve be? A damped sheet, whose fastest mode is damped several times "
           "critically, is run with A, B and C at half, a quarter and an eighth of the elastic "

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "convergence/contact/studies.h"
+#include "convergence/study.h"
 #include "reference/dynamics/system.h"
 #include "verification/specimens/layered_cloth.h"
 #include "verification/specimens/stepper.h"
@@ -98,6 +98,7 @@ Study contact_answers_study() {
   return {"contact-answers",
           "Where cloth moves by less than its thickness in a step, repulsion answers more than "
           "nine of ten contacts; where it moves by more, impulses may answer most.",
+          {"repulsion-answers-calm-contact", "impulses-answer-fast-contact"},
           "Bridson, Fedkiw and Anderson (2002)",
           "Two small free sheets meet at a tenth of a metre per second or at two. Counted are "
           "pairs that repulsion parts, pairs that an impulse keeps from meeting, and particles in "

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "convergence/contact/crossing_families.h"
-#include "convergence/contact/studies.h"
+#include "convergence/study.h"
 #include "convergence/tables.h"
 #include "verification/oracles/feature_distance.h"
 #include "verification/processor_time.h"
@@ -278,6 +278,7 @@ Study crossing_queries_study() {
   return {"crossing-queries",
           "The test for crossings misses no meeting among random, degenerate and far-away motions, "
           "each decided exactly.",
+          {"no-meeting-is-missed"},
           "Bridson, Fedkiw and Anderson (2002), section 6",
           "A vertex and a triangle, or two edges, move in straight lines between points of small "
           "whole coordinates. Whether they ever meet is decided in whole numbers by the signs of "

@@ -6,7 +6,7 @@
 
 #include "convergence/ranges.h"
 #include "convergence/order.h"
-#include "convergence/contact/studies.h"
+#include "convergence/study.h"
 #include "reference/mesh/shapes.h"
 #include "reference/post/fold_projection.h"
 #include "verification/oracles/exact_geometry.h"
@@ -193,6 +193,7 @@ Study eps_needed_study() {
   return {"required-eps",
           "The eps that keeps triangles out of a ball grows as the square of their edge length "
           "over its radius, and along an edge of a box in proportion to their edge length.",
+          {"order-is-as-derived", "derived-eps-suffices", "balls-need-the-derived-eps"},
           "BMF03 section 5.3",
           "Sheets of equilateral triangles are sunk into a body and projected plainly, their "
           "particles to eps outside. The least eps is sought with which no triangle has a point in "

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "convergence/contact/contact_runs.h"
-#include "convergence/contact/studies.h"
+#include "convergence/study.h"
 #include "convergence/order.h"
 #include "convergence/ranges.h"
 #include "convergence/tables.h"
@@ -163,6 +163,8 @@ Study filtered_order_study() {
   return {"filtered-order",
           "No scheme of the paper is of second order on a sheet that meets a ball, or on one that "
           "strain limits hold; without ball and limits each is, in the same motions.",
+          {"contact-leaves-no-second-order", "strain-limits-leave-no-second-order",
+           "second-order-without"},
           "BMF03 section 3",
           "A sheet falls on a ball and slides on it; another hangs on springs that reach their "
           "limits. A contact begins somewhere within a step, but acts from the step's start or "

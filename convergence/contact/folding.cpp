@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "convergence/contact/section_profile.h"
-#include "convergence/contact/studies.h"
+#include "convergence/study.h"
 #include "convergence/contact/wrinkle_measure.h"
 #include "reference/mesh/shapes.h"
 #include "reference/scene/scene.h"
@@ -263,6 +263,8 @@ Study folding_study() {
   return {"folding",
           "Cloth that may not be compressed folds and loses no area; without the limit it is "
           "compressed where its hinges are stiffer than its springs.",
+          {"limit-preserves-area", "arc-height-matches-its-length", "wrinkle-length-matches-theory",
+           "area-is-lost-without-the-limit"},
           "BMF03 section 3, after Provot 1995",
           "The clamped ends of a strip are moved together by a fifth of its length within half a "
           "second. With stiff hinges Euler's strain 4 pi^2 D/(Y L^2) is a quarter: the strip "

@@ -4,7 +4,7 @@
 
 #include "convergence/tables.h"
 #include "convergence/contact/contact_runs.h"
-#include "convergence/contact/studies.h"
+#include "convergence/study.h"
 #include "reference/mesh/shapes.h"
 #include "reference/post/fold_projection.h"
 #include "verification/oracles/dense_algebra.h"
@@ -176,6 +176,7 @@ Study folds_inside_study() {
   return {"folding-inside-objects",
           "A tube that starts partly inside a drum folds more if it may stay there; a sheet that "
           "falls on a ball from outside folds as much either way.",
+          {"more-folds-when-allowed-inside", "same-folds-over-a-ball"},
           "BMF03 section 5.3",
           "A tube that starts inside a drum is pushed together, and a sheet falls on a ball: how "
           "many folds do they form with forecast times from one step to far longer than the run?",

@@ -7,7 +7,7 @@
 
 #include "convergence/contact/contact_runs.h"
 #include "convergence/order.h"
-#include "convergence/contact/studies.h"
+#include "convergence/study.h"
 #include "reference/mesh/shapes.h"
 #include "verification/oracles/dense_algebra.h"
 
@@ -223,6 +223,8 @@ StudyResult run_forecast_time(const Subject& subject, Tier tier, const Progress&
 Study forecast_time_study() {
   return {"forecast-time",
           "A forecast is exact on planes at rest, and of second order on balls and on what turns.",
+          {"exact-on-a-plane", "second-order-on-a-resting-ball", "second-order-on-a-moving-ball",
+           "second-order-on-a-turning-ball", "second-order-on-a-turning-plane"},
           "BMF03 section 5.2",
           "The response makes a point's forecast exact: phi + tau (v_p - v).N = 0. The point's "
           "true place after that time may differ: the surface curves away under a sliding point, "

@@ -5,7 +5,7 @@
 #include "convergence/contact/contact_runs.h"
 #include "convergence/order.h"
 #include "convergence/tables.h"
-#include "convergence/contact/studies.h"
+#include "convergence/study.h"
 #include "verification/oracles/dense_algebra.h"
 
 namespace foldproof {
@@ -139,6 +139,8 @@ Study pointwise_contact_study() {
   return {"pointwise-contact",
           "Edges between particles cut into a ball by the square of their length, no deeper than "
           "chords; a pin thinner than an edge passes through.",
+          {"edge-penetration-is-second-order", "edge-penetration-is-within-the-chord",
+           "a-thin-pin-passes-through"},
           "BMF03 section 5.2",
           "The response holds points out of objects. What lies between the points is held out only "
           "as far as the object is flat from one point to the next.",

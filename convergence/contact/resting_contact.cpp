@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "convergence/contact/contact_runs.h"
-#include "convergence/contact/studies.h"
+#include "convergence/study.h"
 
 namespace foldproof {
 
@@ -117,6 +117,7 @@ Study resting_contact_study() {
       "resting-contact",
       "Cloth that lies on a ball shakes less than half as much under forecasting as when it is "
       "pushed out, and as much as when it is projected after each step.",
+      {"quieter-than-push-out", "projection-is-as-quiet"},
       "BMF03 section 5.2",
       "A sheet falls on a ball and hangs over it. The paper's response corrects velocities before "
       "the cloth moves; the two responses compared with it act on positions after the move.",

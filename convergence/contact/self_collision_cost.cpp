@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "convergence/tables.h"
-#include "convergence/contact/studies.h"
+#include "convergence/study.h"
 #include "reference/filters/pair_search.h"
 #include "reference/mesh/shapes.h"
 #include "verification/processor_time.h"
@@ -181,6 +181,7 @@ Study self_collision_cost_study() {
   return {"self-collision-cost",
           "With two layers the search for close pairs compares boxes nearly in proportion to the "
           "particles; layers come to rest between half and the whole of the thickness apart.",
+          {"search-work-is-nearly-linear", "sheet-rests-within-the-thickness"},
           "BMF03 section 5; Bridson, Fedkiw, Anderson 2002",
           "Sheets in layers: the cost of the search for close pairs by particles and layers, how "
           "much rounds of impulses leave to rigid zones, and the distance at which layers come to "

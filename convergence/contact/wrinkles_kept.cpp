@@ -4,7 +4,7 @@
 #include <string>
 
 #include "convergence/tables.h"
-#include "convergence/contact/studies.h"
+#include "convergence/study.h"
 #include "convergence/contact/wrinkle_measure.h"
 #include "reference/mesh/shapes.h"
 #include "reference/post/fold_projection.h"
@@ -285,6 +285,8 @@ Study wrinkles_kept_study() {
           "Plain projection flattens wrinkles; maps of depth keep their wavelength. The blend "
           "keeps at least a derived share of their depths; the power law crushes the deepest if "
           "tau is small compared with them.",
+          {"plain-flattens-wrinkles", "wavelength-is-preserved", "blend-keeps-a-share-of-depths",
+           "power-crushes-deep-wrinkles"},
           "BMF03 section 5.3, figure 2",
           "Wrinkled strips lie half inside a half space, a ball and a torus, and are projected by "
           "each map over a range of tau. Of the particles that were inside, the standard deviation "

@@ -5,7 +5,7 @@
 
 #include "convergence/damping/damped_motion.h"
 #include "convergence/damping/monotonicity.h"
-#include "convergence/damping/studies.h"
+#include "convergence/study.h"
 #include "reference/dynamics/integrator.h"
 
 namespace foldproof {
@@ -249,6 +249,9 @@ Study monotonicity_study() {
           "though they oscillate; backward Euler is monotone. On a folding hinge B and C overshoot "
           "too; so does fully implicit backward Euler, in steps of one to three damping times, and "
           "linearised backward Euler does not.",
+          {"distance-is-as-derived", "overshoots.A", "overshoot-is-bounded", "velocity-alternates",
+           "monotone", "overshoot-exceeds-the-bound-on-a-hinge.C", "overshoots-on-a-hinge.B",
+           "overshoots-on-a-hinge.backward-euler", "monotone-on-a-hinge.linear-backward-euler"},
           "BMF03 section 3",
           "Three motions that damping alone brings to rest: a triangle that expands (linear, known "
           "exactly), a hinge that folds (nonlinear, known by an oracle), a sheet whose modes all "

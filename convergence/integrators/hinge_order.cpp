@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "convergence/integrators/oracle_problem.h"
-#include "convergence/integrators/studies.h"
+#include "convergence/study.h"
 #include "convergence/integrators/time_order.h"
 #include "reference/mesh/shapes.h"
 #include "verification/oracles/driven_hinge.h"
@@ -95,6 +95,7 @@ Study hinge_time_order_study() {
       "time-order.hinge",
       "Schemes A, B and C are second order in x and v on a nonlinear, damped, driven hinge, with "
       "constant, alternating and random steps.",
+      {"A", "B", "C", "B-is-second-order-with-variable-steps"},
       "BMF03 section 3",
       "Two triangles share a fixed edge; one opposite corner follows a periodic path, the other is "
       "free. Springs and bending are both damped, gravity pulls, and the angle covers a large part "

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "convergence/integrators/studies.h"
+#include "convergence/study.h"
 #include "convergence/order.h"
 #include "convergence/ranges.h"
 #include "convergence/tables.h"
@@ -280,6 +280,8 @@ Study momentum_drift_study() {
       "keeps it without damping, and with damping lets it drift by second order in the step. The "
       "implicit midpoint rule keeps it to the tolerance of its solves; all methods keep the linear "
       "momentum.",
+      {"undamped-angular-is-conserved", "damped-angular-is-conserved", "damped-drift-order.C",
+       "damped-drift-exceeds-rounding.C", "linear-is-conserved"},
       "BMF03 section 3; Hairer, Lubich, Wanner, section IV.2",
       "An irregular sheet, bent, stretched and spinning, flies without any force from outside. The "
       "forces keep angular momentum whenever they are evaluated; a method keeps it only if the "

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "convergence/integrators/oracle_problem.h"
-#include "convergence/integrators/studies.h"
+#include "convergence/study.h"
 #include "convergence/integrators/time_order.h"
 #include "reference/mesh/shapes.h"
 
@@ -65,6 +65,7 @@ Study sheet_time_order_study() {
   return {"time-order.sheet",
           "Schemes A, B and C are second order in x and v on a damped hanging sheet, with "
           "constant, alternating and random steps.",
+          {"A", "B", "C", "B-is-second-order-with-variable-steps"},
           "BMF03 section 3",
           "A sheet of squares, rows split along alternating diagonals, hangs by its two upper "
           "corners, which are moved to and fro. It is released from a wavy shape with a wavy "

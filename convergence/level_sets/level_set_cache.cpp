@@ -8,7 +8,7 @@
 #include <memory>
 
 #include "convergence/level_sets/cached_level_sets.h"
-#include "convergence/level_sets/studies.h"
+#include "convergence/study.h"
 #include "reference/bodies/deforming_content.h"
 #include "reference/level_set/mesh_distance.h"
 #include "reference/mesh/shapes.h"
@@ -281,6 +281,8 @@ Study level_set_cache_study() {
   return {"level-set-cache",
           "Level sets loaded from a file answer as computed ones do, bit for bit; loading reads a "
           "tenth of the numbers that computing reads, or less; invalid files are rejected.",
+          {"loaded-fields-are-bitwise-equal", "runs-are-bitwise-equal", "loading-is-cheap",
+           "invalid-files-are-rejected", "invalid-grids-are-rejected"},
           "BMF03 section 5.1",
           "A whole animation's level sets are stored in a file with the key of what they were "
           "computed from. How much does a second run still cost, and can it be fooled?",

@@ -4,7 +4,7 @@
 
 #include "convergence/level_sets/level_set_resolution.h"
 #include "convergence/order.h"
-#include "convergence/level_sets/studies.h"
+#include "convergence/study.h"
 
 namespace foldproof {
 
@@ -267,6 +267,8 @@ Study level_set_resolution_study() {
       "From exact values next to the surface of a ball or torus second-order marching errs by "
       "O(h^2) in the mean, away from kinks (on the torus to a fifth of an order); from the paper's "
       "crude start about a ball it errs by O(h), and the normals at the surface stay wrong.",
+      {"second-order-marching-converges", "crude-start.distance-is-first-order",
+       "crude-start.normals-stay-wrong"},
       "BMF03 section 5.1",
       "How fine must a grid be, and how much accuracy does a crude start lose? Bodies with a "
       "closed-form distance are sampled on grids whose spacing is halved. Measured are the "

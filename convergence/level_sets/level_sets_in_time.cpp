@@ -5,7 +5,7 @@
 #include <random>
 
 #include "convergence/order.h"
-#include "convergence/level_sets/studies.h"
+#include "convergence/study.h"
 #include "reference/level_set/deforming.h"
 #include "reference/level_set/mesh_distance.h"
 #include "reference/mesh/shapes.h"
@@ -210,6 +210,7 @@ Study level_sets_in_time_study() {
   return {"level-sets-in-time",
           "Stored level sets of a deforming body, interpolated in time, converge to the body "
           "faster than with first order, until the error nears what the octrees themselves miss.",
+          {"blended-order-is-nearer-two-than-one", "carried-order-is-nearer-two-than-one"},
           "BMF03 section 5.1",
           "How many frames must be stored? A body deforms smoothly; two frames of it lie about one "
           "time, ever closer, and phi between them is compared with the exact distance to the mesh "

@@ -4,7 +4,7 @@
 #include <memory>
 #include <random>
 
-#include "convergence/level_sets/studies.h"
+#include "convergence/study.h"
 #include "reference/level_set/mesh_distance.h"
 #include "reference/level_set/octree.h"
 #include "reference/level_set/octree_nodes.h"
@@ -284,6 +284,7 @@ Study octree_memory_study() {
       "octree-memory",
       "An octree takes less memory than a regular grid of the same error on a box and on a bumpy "
       "body; on a sphere and on a torus more at 64 cells along each axis, and less from 128 on.",
+      {"saves-on-boxes-and-bumpy-bodies", "even-bodies-save-from-128-cells-on"},
       "BMF03 section 5.1",
       "How much does adaptive sampling save? For bodies with even curvature, sharp edges and "
       "bumps, a regular grid and the coarsest octree with no larger error, both in double "

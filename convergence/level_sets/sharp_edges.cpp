@@ -5,7 +5,7 @@
 #include <random>
 
 #include "convergence/order.h"
-#include "convergence/level_sets/studies.h"
+#include "convergence/study.h"
 #include "reference/level_set/grid.h"
 #include "reference/level_set/octree.h"
 #include "verification/seeds.h"
@@ -195,7 +195,10 @@ StudyResult run_sharp_edges(const Subject&, Tier tier, const Progress& progress)
 }  // namespace
 
 Study sharp_edges_study() {
-  return {"sharp-edges", "Sampled distances round off edges and blend the normals next to them.",
+  return {"sharp-edges",
+          "Sampled distances round off edges and blend the normals next to them.",
+          {"phi-is-first-order", "normals-blend-near-edges-only",
+           "normal-error-persists-under-refinement"},
           "BMF03 section 5.1",
           "How far from an edge does N differ from the face's normal, and how much does refinement "
           "help? A box at an angle to the grid, with exact values at the nodes.",

@@ -4,7 +4,7 @@
 
 #include "convergence/order.h"
 #include "convergence/stability/stable_step.h"
-#include "convergence/stability/studies.h"
+#include "convergence/study.h"
 #include "convergence/tables.h"
 #include "reference/dynamics/integrator.h"
 #include "verification/subject.h"
@@ -161,6 +161,7 @@ Study elastic_limit_study() {
           "On an undamped flat sheet the largest stable step is 2/omega for schemes A, B and C; it "
           "is proportional to the cells' width where springs dominate, and to its square where "
           "bending does.",
+          {"is-two-over-omega", "exponent", "both.is-the-smaller-of-the-two"},
           "BMF03 section 3",
           "A flat, free, undamped sheet is disturbed a little. Its fastest mode is found by power "
           "iteration on the elastic forces, the largest stable step of each scheme by bisection on "

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "convergence/order.h"
-#include "convergence/stability/studies.h"
+#include "convergence/study.h"
 #include "reference/mesh/shapes.h"
 #include "verification/specimens/probe.h"
 #include "verification/specimens/random.h"
@@ -238,6 +238,8 @@ Study frame_long_steps_study() {
           "In steps of a frame one linear solve keeps backward Euler bounded, though it may add "
           "energy and errs more than twice as much as Newton's method; the cost grows faster than "
           "the number of particles.",
+          {"one-solve-stays-bounded", "one-solve-adds-energy", "one-solve-is-less-accurate",
+           "work-grows-with-the-power-of-three-halves"},
           "Baraff and Witkin (1998); Choi and Ko (2002)",
           "A sheet held at two corners falls and swings. Steps are a thirtieth of a second, up to "
           "more than a thousand times the elastic limit.",

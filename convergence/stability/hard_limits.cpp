@@ -7,7 +7,7 @@
 #include "convergence/stability/hard_limits.h"
 #include "convergence/stability/stable_step.h"
 #include "convergence/stability/step_matrix.h"
-#include "convergence/stability/studies.h"
+#include "convergence/study.h"
 #include "convergence/tables.h"
 #include "reference/dynamics/integrator.h"
 #include "reference/mesh/shapes.h"
@@ -240,6 +240,7 @@ Study hard_limits_study() {
       "Stiffness ratios, slivers and graded meshes leave the largest stable step at 2/omega; "
       "damping leaves it there for A and B and widens it for C; a jump of the step changes "
       "energies by a bounded factor.",
+      {"is-two-over-omega", "damped-limit-is-as-derived", "energy-is-bounded-across-a-step-jump"},
       "BMF03 section 3",
       "Flat, free sheets at the limit of the method are disturbed a little. The fastest mode is "
       "found by power iteration on the elastic forces, the largest stable step of each scheme by "

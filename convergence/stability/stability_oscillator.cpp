@@ -6,7 +6,7 @@
 
 #include "convergence/ranges.h"
 #include "convergence/stability/step_matrix.h"
-#include "convergence/stability/studies.h"
+#include "convergence/study.h"
 #include "convergence/tables.h"
 #include "reference/dynamics/integrator.h"
 #include "verification/oracles/exact_solutions.h"
@@ -218,6 +218,8 @@ Study stability_oscillator_study() {
           "On the damped oscillator schemes A and B are stable up to 2/omega whatever the damping, "
           "and C up to longer steps the stronger the damping; heavy damping shortens the stable "
           "step of explicit methods in proportion, and fully implicit ones have no limit.",
+          {"limit-is-as-derived", "undamped-motion-grows", "heavy-damping-shortens-explicit-steps",
+           "has-no-limit"},
           "BMF03 section 3",
           "One corner of a hinge moves across its plane, three are held: an oscillator whose "
           "frequency and damping can be worked out by hand. Two unit disturbances, stepped once, "

@@ -6,7 +6,7 @@
 #include "convergence/stability/stability_sheet.h"
 #include "convergence/ranges.h"
 #include "convergence/stability/step_matrix.h"
-#include "convergence/stability/studies.h"
+#include "convergence/study.h"
 #include "convergence/tables.h"
 #include "reference/dynamics/integrator.h"
 #include "verification/oracles/stability.h"
@@ -171,18 +171,21 @@ StudyResult run_stability_sheet(const Subject& subject, Tier tier, const Progres
 }  // namespace
 
 Study stability_sheet_study() {
-  return {"stability-sheet",
-          "On a sheet the largest stable step of A and B does not depend on the damping, and "
-          "damping never shortens that of C; where damping decides, that of explicit methods is "
-          "inversely proportional to it, and proportional to dx^2 with damped springs, to dx^3 "
-          "with damped bending.",
-          "BMF03 section 3",
-          "A small clamped sheet of springs and hinges is stepped from each unit disturbance, "
-          "which gives the matrix of the whole step. The step at which its spectral radius exceeds "
-          "1 is found by bisection while the damping rises by a factor of 1e4. Under refinement "
-          "the largest rate of the damping is found by power iteration. The paper's example, cells "
-          "of a tenth, is computed and confirmed by runs.",
-          run_stability_sheet};
+  return {
+      "stability-sheet",
+      "On a sheet the largest stable step of A and B does not depend on the damping, and "
+      "damping never shortens that of C; where damping decides, that of explicit methods is "
+      "inversely proportional to it, and proportional to dx^2 with damped springs, to dx^3 "
+      "with damped bending.",
+      {"limit-does-not-depend-on-damping", "damping-never-lowers-the-limit",
+       "heavy-damping-shortens-explicit-steps", "damping-limit-exponent", "limit-is-as-derived"},
+      "BMF03 section 3",
+      "A small clamped sheet of springs and hinges is stepped from each unit disturbance, "
+      "which gives the matrix of the whole step. The step at which its spectral radius exceeds "
+      "1 is found by bisection while the damping rises by a factor of 1e4. Under refinement "
+      "the largest rate of the damping is found by power iteration. The paper's example, cells "
+      "of a tenth, is computed and confirmed by runs.",
+      run_stability_sheet};
 }
 
 }  // namespace foldproof

@@ -5,7 +5,7 @@
 #include "convergence/order.h"
 #include "convergence/ranges.h"
 #include "convergence/stability/step_matrix.h"
-#include "convergence/stability/studies.h"
+#include "convergence/study.h"
 #include "convergence/tables.h"
 #include "verification/oracles/exact_solutions.h"
 #include "verification/oracles/stability.h"
@@ -240,6 +240,8 @@ Study transient_growth_study() {
           "Under high damping scheme A, though stable, amplifies disturbances of an oscillator in "
           "proportion to the damping; on it and on a sheet B and C never amplify them more than "
           "undamped motion does.",
+          {"A.grows-with-damping", "A.growth-is-proportional-to-damping",
+           "A.sheet-growth-exceeds-tenfold", "growth-is-bounded", "sheet-growth-is-bounded"},
           "BMF03 section 3",
           "A step whose spectral radius is at most 1 may still amplify a disturbance on the way, "
           "if its eigenvectors are not orthogonal. Measured is the largest norm of the first "

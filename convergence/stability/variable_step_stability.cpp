@@ -5,7 +5,7 @@
 #include "convergence/ranges.h"
 #include "convergence/stability/stable_step.h"
 #include "convergence/stability/step_matrix.h"
-#include "convergence/stability/studies.h"
+#include "convergence/study.h"
 #include "reference/dynamics/integrator.h"
 #include "reference/mesh/shapes.h"
 #include "verification/oracles/exact_solutions.h"
@@ -227,6 +227,8 @@ Study variable_step_stability_study() {
           "Steps that are stable alone can resonate when they alternate: undamped, a disturbance "
           "under A, B or C more than doubles in each pair of steps of 0.69/omega and 1.99/omega; a "
           "damping ratio of a half prevents this.",
+          {"alternating-steps-resonate", "damping-removes-resonance", "undamped-sheet-grows",
+           "damped-sheet-does-not-grow"},
           "BMF03 section 3",
           "The paper asks for a scheme whose step may vary. The matrix of two steps in turn is the "
           "product of their two matrices, which are found by stepping a hinge whose corner is an "

@@ -10,7 +10,7 @@
 #include "convergence/sticking/sticking_scenes.h"
 #include "convergence/stability/step_matrix.h"
 #include "convergence/tables.h"
-#include "convergence/sticking/studies.h"
+#include "convergence/study.h"
 #include "reference/dynamics/integrator.h"
 
 namespace foldproof {
@@ -315,6 +315,8 @@ Study sticking_lag_study() {
           "What sticks lags by m a/k, and in scheme C by more the longer the step; forecasts stop "
           "its swinging and, in scheme C, keep steps of up to twice the forecast time stable "
           "however stiff the bond.",
+          {"lag-is-m-a-over-k", "lag-grows-with-the-step-in-C", "forecasts-damp-the-swing",
+           "plain-spring-swings-forever", "limit-is-as-derived.C", "stiff-layers-are-stable"},
           "BMF03 section 6",
           "A bond is a spring of zero rest length between the forecast positions of a particle and "
           "its target. Forecasting both adds damping of their relative velocity, which the schemes "

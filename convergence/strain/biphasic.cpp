@@ -4,7 +4,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "convergence/strain/studies.h"
+#include "convergence/study.h"
 #include "convergence/tables.h"
 #include "reference/mesh/shapes.h"
 #include "reference/scene/scene.h"
@@ -248,6 +248,7 @@ Study biphasic_study() {
   return {"biphasic",
           "Weak springs with limits give way to a load at first and then at most an eighth as "
           "much; springs without limits that stretch as little take twice as many steps.",
+          {"gives-way-then-holds", "limits-allow-larger-steps"},
           "BMF03 section 3, after Provot 1995",
           "A weightless strip is pulled by one end with an acceleration that grows from zero; the "
           "load at its clamp is its mass times the acceleration. The largest load is four times "

@@ -6,7 +6,7 @@
 
 #include "convergence/order.h"
 #include "convergence/ranges.h"
-#include "convergence/strain/studies.h"
+#include "convergence/study.h"
 #include "reference/dynamics/integrator.h"
 #include "reference/dynamics/system.h"
 #include "reference/mesh/shapes.h"
@@ -138,6 +138,7 @@ Study strain_momentum_study() {
   return {"strain-momentum",
           "While strain limits act, scheme B keeps the angular momentum of a free, undamped sheet "
           "to rounding; A and C let it drift, by first order in the step.",
+          {"is-conserved.B", "drift-is-first-order"},
           "BMF03 section 3",
           "An undamped sheet spins and flaps at its strain limits. Each correction keeps angular "
           "momentum. But A and C move positions with the corrected velocity and keep the "

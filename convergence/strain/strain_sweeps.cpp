@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "convergence/order.h"
-#include "convergence/strain/studies.h"
+#include "convergence/study.h"
 #include "convergence/tables.h"
 #include "reference/dynamics/system.h"
 #include "reference/mesh/shapes.h"
@@ -269,6 +269,8 @@ Study strain_sweeps_study() {
           "The number of strain-limiting sweeps grows nearly as the square of the number of cells "
           "along a side, in every order; only sweeps that correct all springs at once keep mirror "
           "symmetry, and more than three times as many of them are needed.",
+          {"grow-quadratically", "jacobi-is-mirror-symmetric",
+           "sequential-sweeps-break-mirror-symmetry", "jacobi-needs-more-than-three-times-as-many"},
           "BMF03 section 3, after Provot 1995",
           "A square sheet at rest is held along its upper edge. All particles below it get the "
           "velocity that lowers them by 8 % of the sheet's height in a step. Limits of 10 % allow "

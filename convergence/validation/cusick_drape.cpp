@@ -8,7 +8,7 @@
 
 #include "convergence/validation/comparison.h"
 #include "convergence/validation/drape_test.h"
-#include "convergence/validation/studies.h"
+#include "convergence/study.h"
 
 namespace foldproof {
 
@@ -313,6 +313,8 @@ Study cusick_drape_study() {
   return {"cusick-drape",
           "In the drape test the coefficient grows with the bending length. One fabric rests with "
           "several numbers of folds, depending on its start, and they change the coefficient.",
+          {"coefficient-grows-with-bending-length", "fold-number-follows-the-start",
+           "folds-change-the-coefficient"},
           "Cusick 1965; BS 5058; ISO 9073-9",
           "A disc of 30 cm is held between two plates of 18 cm, and its ring hangs. The drape "
           "coefficient is the area of the ring's shadow over that of the level ring. S is for the "

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "convergence/validation/comparison.h"
-#include "convergence/validation/studies.h"
+#include "convergence/study.h"
 #include "reference/mesh/shapes.h"
 #include "reference/scene/fabrics.h"
 #include "verification/oracles/gsl.h"
@@ -142,6 +142,7 @@ Study fabric_strip_study() {
   return {"fabric-strip",
           "A strip cut from a simulated sheet of alternating diagonals measures in the "
           "laboratory's bending test what its fabric measured; on another pattern it may not.",
+          {"measures-as-asked", "other-patterns-differ"},
           "ASTM D1388; Peirce 1930",
           "The program gives a sheet of a measured fabric the ke for which narrow strips of that "
           "mesh have the measured rigidity. A strip of four cells' width is cut from it, clamped, "

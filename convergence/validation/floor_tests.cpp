@@ -6,7 +6,7 @@
 
 #include "convergence/validation/comparison.h"
 #include "convergence/validation/strip_ladder.h"
-#include "convergence/validation/studies.h"
+#include "convergence/study.h"
 #include "verification/oracles/folds.h"
 
 namespace foldproof {
@@ -212,6 +212,7 @@ Study fold_tests_study() {
   return {"fold-tests",
           "A strip folded over on a smooth floor stands as high as the elastica with the mesh's "
           "own rigidity.",
+          {"height-agrees"},
           "Plaut 2015",
           "Both ends are held flat on the floor at one place, one on the other. The strip lies on "
           "the floor until it lifts off without a moment. On a mesh whole panels lie flat; how "
@@ -225,6 +226,7 @@ Study fold_tests_study() {
 Study pressed_strip_study() {
   return {"pressed-strip",
           "A strip pressed on a floor slips at the friction at which the elastica does.",
+          {"threshold-agrees"},
           "Romero et al. 2021 for the test",
           "A weightless strip hangs from a clamp and is pressed on a floor, so that it buckles. "
           "Its tip sticks as long as Coulomb's coefficient is above the ratio of the forces on it "

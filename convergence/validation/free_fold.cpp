@@ -6,7 +6,7 @@
 #include "convergence/validation/comparison.h"
 #include "convergence/order.h"
 #include "convergence/bending/row_strip.h"
-#include "convergence/validation/studies.h"
+#include "convergence/study.h"
 #include "verification/oracles/folds.h"
 
 namespace foldproof {
@@ -222,6 +222,7 @@ Study free_fold_study() {
   return {"free-fold",
           "A strip that is folded back over itself and held by nothing is as high as the elastica "
           "with the mesh's own rigidity, to second order.",
+          {"height-agrees", "is-second-order", "floor-only-pushes"},
           "Plaut 2015",
           "The strip lies on a smooth floor, lifts off without a moment, bends back, and comes "
           "down on its own lower half without one. It is long enough to lie flat on both sides; "

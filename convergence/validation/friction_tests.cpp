@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "convergence/validation/comparison.h"
-#include "convergence/validation/studies.h"
+#include "convergence/study.h"
 #include "reference/mesh/shapes.h"
 #include "verification/specimens/contact_scenes.h"
 #include "verification/specimens/stepper.h"
@@ -208,6 +208,7 @@ StudyResult run_friction_tests(const Subject& subject, Tier tier, const Progress
 Study friction_tests_study() {
   return {"friction-tests",
           "Cloth slips on an incline, slides down it, and drags on a drum as Coulomb's law says.",
+          {"threshold-agrees", "slide-agrees", "belt-agrees"},
           "Coulomb; Euler and Eytelwein for the belt; Romero et al. 2021 for such tests",
           "A cloth lies on a plane whose slope is bisected until it slips, and slides down a "
           "steeper one; the error bar is that of a ladder of steps. A belt is held at both ends "

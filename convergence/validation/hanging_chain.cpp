@@ -7,7 +7,7 @@
 
 #include "convergence/order.h"
 #include "convergence/validation/comparison.h"
-#include "convergence/validation/studies.h"
+#include "convergence/study.h"
 #include "reference/mesh/shapes.h"
 #include "verification/oracles/chains_and_ribbons.h"
 #include "verification/oracles/dense_algebra.h"
@@ -260,6 +260,7 @@ Study hanging_chain_study() {
       "hanging-chain",
       "A strip without bending sags and pulls between two points as a catenary does, and swings "
       "from one point as often as a chain.",
+      {"sag-and-pull-agree", "frequency-agrees"},
       "our test of springs and gravity: catenary, and Bernoulli's hanging chain",
       "A strip two cells wide is held by its end rows and brought to rest by backward Euler. Its "
       "springs give by a ten-thousandth of its length per weight. S is the sag, the pull on a held "

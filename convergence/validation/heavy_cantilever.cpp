@@ -6,7 +6,7 @@
 
 #include "convergence/validation/comparison.h"
 #include "convergence/validation/strip_ladder.h"
-#include "convergence/validation/studies.h"
+#include "convergence/study.h"
 #include "verification/oracles/heavy_cantilever.h"
 
 namespace foldproof {
@@ -121,6 +121,7 @@ Study heavy_cantilever_study() {
       "heavy-cantilever",
       "A clamped strip, from nearly weightless to nearly limp, hangs as the elastica with the "
       "mesh's own rigidity.",
+      {"tip-agrees", "shape-agrees"},
       "BMF03 section 4; Romero et al. 2021 for the test",
       "The strip is that of the study cantilever: rows move as one, so that its rigidity is the "
       "homogenised cell's. gamma is weight per area times L^3 over that rigidity. S is what is "

@@ -7,7 +7,7 @@
 
 #include "convergence/validation/comparison.h"
 #include "convergence/validation/disc_of_sectors.h"
-#include "convergence/validation/studies.h"
+#include "convergence/study.h"
 #include "verification/oracles/sheets/hung_cone.h"
 
 namespace foldproof {
@@ -183,6 +183,7 @@ Study hung_disc_study() {
   return {"hung-disc",
           "A heavy disc that hangs from its centre is a cone with two folds, with the energy and "
           "the depth of an elastica on a sphere. Three folds fall to two.",
+          {"energy-agrees", "depth-agrees", "three-folds-fall-to-two"},
           "Cerda, Mahadevan and Pasini, PNAS 101 (2004) 1806 (read: the abstract)",
           "The disc's sectors are flat, so that it can be a cone without stretching; up to a fifth "
           "of the radius each is one triangle. The weight is the moment of the disc's weight about "

@@ -8,7 +8,7 @@
 #include "convergence/validation/clamped_findings.h"
 #include "convergence/validation/comparison.h"
 #include "convergence/validation/deep_wrinkle_findings.h"
-#include "convergence/validation/studies.h"
+#include "convergence/study.h"
 #include "convergence/validation/wrinkled_sheet.h"
 #include "verification/oracles/sheets/stretched_wrinkles.h"
 
@@ -330,6 +330,8 @@ Study stretched_wrinkles_study() {
       "(D/T)^(1/4) L^(1/2) of Cerda and Mahadevan, with the mesh's own rigidity D, where edges are "
       "shorter than (D/T)^(1/2). On longer edges the tension stiffens the mesh. Beyond the onset "
       "its waves are as high as a plate's.",
+      {"wavelength-agrees", "exponent-agrees", "prefactor-agrees", "tension-stiffens-coarse-meshes",
+       "amplitude-agrees"},
       "Cerda and Mahadevan, Phys. Rev. Lett. 90 (2003) 074302",
       "A sheet is clamped at both ends, stretched, and compressed across by a force b per length; "
       "across it is endless. The wavelength is the one that leaves the plane under the least b. S "

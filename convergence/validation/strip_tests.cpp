@@ -5,7 +5,7 @@
 
 #include "convergence/validation/comparison.h"
 #include "convergence/validation/strip_ladder.h"
-#include "convergence/validation/studies.h"
+#include "convergence/study.h"
 
 namespace foldproof {
 
@@ -116,6 +116,7 @@ Study strip_tests_study() {
       "strip-tests",
       "Strips that are bent as in a textile laboratory take the shape of the elastica with the "
       "mesh's own rigidity, to second order.",
+      {"height-agrees", "shape-agrees", "is-second-order"},
       "Peirce 1930; Plaut 2015",
       "Each strip is clamped at both ends, half a cell inside its held rows; a ring is a strip "
       "whose ends are clamped level at one place. Rows across move as one, so that the rigidity is "
