@@ -195,12 +195,10 @@ Table rigidity_table(const std::vector<Table>& all) {
 Figure direction_figure(const std::vector<Table>& all) {
   Figure figure{"direction",
                 "Flexural rigidity by the direction of the curvature",
-                {"direction of the curvature, from x", "degree", Scale::linear},
+                {"direction of the curvature, from x", "degree"},
                 {"D/ke", "1", Scale::log},
-                nan,
                 "Vertices within a cell are free to settle. A property of the material would be "
-                "one horizontal line.",
-                {}};
+                "one horizontal line."};
   for (size_t p = 0; p < all.size(); ++p)
     figure.curves.push_back(curve_of(regular_patterns()[p].words, all[p],
                                      "direction of the curvature", "D/ke, relaxed"));
@@ -217,8 +215,7 @@ StudyResult run_bending_rigidity(const Subject& subject, Tier tier, const Progre
                  {"|D/D of the homogenised cell - 1|", "1", Scale::log},
                  2,
                  "Curvature 17 1/m along 25 degrees, inner cells; each pattern against its own "
-                 "limit. The whole sheet has first order.",
-                 {}};
+                 "limit. The whole sheet has first order."};
   std::vector<double> at_zero;
   for (const RegularPattern& pattern : regular_patterns()) {
     all.push_back(measure(subject, pattern));

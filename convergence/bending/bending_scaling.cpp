@@ -91,8 +91,7 @@ StudyResult run_bending_scaling(const Subject& subject, Tier tier, const Progres
                 {"width of a cell", "m", Scale::log},
                 {"dissipation per area and squared rate", "N m s", Scale::log},
                 1,
-                "A material property would be level. The slope is that of the factor as printed.",
-                {}};
+                "A material property would be level. The slope is that of the factor as printed."};
   double done = 0;
   for (const Factor& factor : factors()) {
     const Table measured = refined(subject, factor, finest);

@@ -197,13 +197,12 @@ NamedFinding growth_finding(const Growth& growth) {
 Figure growth_figure(const Growth& growth) {
   Figure figure{"growth",
                 "A strip leaves its plane at 1.4 times the critical strain",
-                {"time", "s", Scale::linear},
+                {"time", "s"},
                 {"amplitude of the buckling mode", "m", Scale::log},
-                nan,
                 "A straight line is exponential growth; the expected one follows from the forces' "
                 "eigenvalue.",
                 {curve_of("simulated", growth.history, "time", "amplitude")}};
-  Curve expected{"expected", {}, {}, nan, {}};
+  Curve expected{"expected"};
   const double start = growth.history.numbers("amplitude").front();
   for (const double t : growth.history.numbers("time"))
     expected.point(t, start * std::exp(growth.expected * t));

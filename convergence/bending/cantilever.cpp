@@ -186,8 +186,7 @@ Figure error_figure(const std::string& name, const std::string& title) {
           {"distance from the elastica's tip over L", "1", Scale::log},
           2,
           "Against the elastica with D = ke/4; the length counts from half a cell before the first "
-          "hinges.",
-          {}};
+          "hinges."};
 }
 
 void show(const Refined& refined, Figure& figure) {

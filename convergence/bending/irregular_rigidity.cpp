@@ -173,11 +173,9 @@ void show(const std::vector<Row>& rows, StudyResult& result) {
   Figure figure{"irregular",
                 "Flexural rigidity of irregular meshes",
                 {"width of a cell", "m", Scale::log},
-                {"D/ke", "1", Scale::linear},
-                nan,
+                {"D/ke", "1"},
                 "Means over meshes and directions. Forced: all vertices on the cylinder; settled: "
-                "those inside leave it. Equilateral triangles have 0.25.",
-                {}};
+                "those inside leave it. Equilateral triangles have 0.25."};
   for (const Row& row : rows)
     for (const char* kind : {"forced", "settled"})
       figure.curves.push_back(

@@ -149,11 +149,9 @@ StudyResult run_shape_return(const Subject& subject, Tier tier, const Progress& 
   StudyResult result;
   Figure figure{"distance",
                 "Return of a shell to its shape",
-                {"time", "s", Scale::linear},
+                {"time", "s"},
                 {"distance from the rest shape", "m", Scale::log},
-                nan,
-                "Root mean square over the particles, after the best rigid motion.",
-                {}};
+                "Root mean square over the particles, after the best rigid motion."};
   std::vector<Return> returns;
   for (const Shell& shell : shells) {
     returns.push_back(let_go(subject, shell, RestAngles::own));

@@ -222,8 +222,7 @@ StudyResult run_strip_vibration(const Subject& subject, Tier tier, const Progres
                 {"relative error of omega", "1", Scale::log},
                 2,
                 "Against the clamped-free beam with D = ke/4; the length counts from half a cell "
-                "before the first hinges.",
-                {}};
+                "before the first hinges."};
   for (const size_t mode : {0, 1}) {
     result.findings.push_back(order_of(int(mode) + 1, modes[mode]));
     figure.curves.push_back(curve_of("mode " + std::to_string(mode + 1),

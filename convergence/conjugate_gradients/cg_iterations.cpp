@@ -187,11 +187,9 @@ std::vector<Figure> figures_of(const std::vector<Sweep>& measured) {
       figures.push_back({sweep.name,
                          sweep.title,
                          {sweep.label, sweep.unit, Scale::log},
-                         {"iterations a solve", "1", Scale::linear},
-                         nan,
+                         {"iterations a solve", "1"},
                          "Each curve names what its residual is compared with. Everything else is "
-                         "as in the table.",
-                         {}});
+                         "as in the table."});
       figure = figures.end() - 1;
     }
     Curve mean{words_of(sweep.settings.front().scale) + ", mean", sweep.values, {}, nan, {}};

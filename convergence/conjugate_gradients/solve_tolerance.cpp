@@ -150,10 +150,8 @@ Figure figure_of(const std::vector<SchemeRuns>& schemes) {
                 "Error against the tolerance of the solves",
                 {"tolerance", "1", Scale::log},
                 {"position error over the motion", "%", Scale::log},
-                nan,
                 "Largest position error at the end, with the coarsest and with the finest step. "
-                "Where a curve is level the step decides the error; where it rises the solves do.",
-                {}};
+                "Where a curve is level the step decides the error; where it rises the solves do."};
   const size_t finest = schemes.front().front().runs.rows() - 1;
   const std::array<std::pair<size_t, const char*>, 2> levels = {
       {{0, "coarsest"}, {finest, "finest"}}};

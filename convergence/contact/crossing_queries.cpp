@@ -233,10 +233,9 @@ Figure alarms_figure(const std::vector<Alarms>& all) {
                 {"share of the pairs that do not meet", "1", Scale::log},
                 1,
                 "Coordinates up to 10 m. Features that come near are to be reported: a share "
-                "proportional to the distance.",
-                {}};
+                "proportional to the distance."};
   for (const Alarms& alarms : all) {
-    Curve curve{name_of(alarms.kind), {}, {}, nan, {}};
+    Curve curve{name_of(alarms.kind)};
     const std::vector<double>&keep = alarms.told.numbers("distance to be kept"),
           &reported = alarms.told.numbers("told");
     for (std::size_t k = 0; k < keep.size(); ++k)

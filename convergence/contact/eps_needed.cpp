@@ -166,10 +166,8 @@ StudyResult run_eps_needed(const Subject&, Tier tier, const Progress& progress) 
                 "The least eps that leaves no triangle inside",
                 {"longest edge of the projected cloth", "m", Scale::log},
                 {"eps needed", "m", Scale::log},
-                nan,
                 "Decided exactly, triangle by triangle. Smooth bodies need L^2/(6 R); along an "
-                "edge of the body eps has to grow with the cloth's edges.",
-                {}};
+                "edge of the body eps has to grow with the cloth's edges."};
   const std::vector<Body> bodies = {ball("ball", 0.13), ball("large-ball", 0.41), box_edge()};
   std::vector<std::pair<std::string, Table>> balls;
   for (const Body& body : bodies) {

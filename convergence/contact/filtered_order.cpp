@@ -142,8 +142,7 @@ StudyResult run_filtered_order(const Subject& subject, Tier tier, const Progress
                   {"root mean square difference at the end", "m", Scale::log},
                   1,
                   "Geometric mean over several starts. Without filters each halving takes three "
-                  "quarters of the difference away.",
-                  {}};
+                  "quarters of the difference away."};
     for (const Integrator& method : paper_schemes()) {
       const std::string scheme(method.name);
       const Table differences = differences_of(subject, scenes, scheme, motion.end, levels);

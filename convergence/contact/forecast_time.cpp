@@ -175,8 +175,7 @@ StudyResult run_forecast_time(const Subject& subject, Tier tier, const Progress&
                 {"distance", "m", Scale::log},
                 2,
                 "After the step for which the forecast was made. Points slide on a frictionless "
-                "ball of radius 0.3 m, or on a frictionless plane.",
-                {}};
+                "ball of radius 0.3 m, or on a frictionless plane."};
   for (const Setting& setting : bent_settings()) {
     const Table of = misses(subject, setting, steps);
     result.findings.push_back(order_finding(setting, of));
@@ -190,13 +189,11 @@ StudyResult run_forecast_time(const Subject& subject, Tier tier, const Progress&
   Figure approach{
       "approach",
       "A point comes down on a floor",
-      {"time", "s", Scale::linear},
-      {"height", "m", Scale::linear},
-      nan,
+      {"time", "s"},
+      {"height", "m"},
       "At 0.9 m/s, steps of 4 ms. The height is multiplied by 1 - h/tau in every step: a longer "
       "forecast time is a softer landing. A forecast time shorter than the step overshoots: the "
-      "point is inside after the step, and the push outwards throws it off.",
-      {}};
+      "point is inside after the step, and the push outwards throws it off."};
   Table decays{{"forecast time over the step", "1"}, {"off", "1"}};
   const Decay thrown = decay_of(subject, 0.7);
   approach.curves.push_back(curve_of("tau = 0.7 h", thrown.heights, "time", "phi"));

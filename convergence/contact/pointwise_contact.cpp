@@ -119,7 +119,7 @@ StudyResult run_pointwise_contact(const Subject& subject, Tier tier, const Progr
   StudyResult result;
   result.findings = {order_finding(particles), bound_finding(particles),
                      held_finding(particles, faces), spike_finding(subject)};
-  Curve chord{"chord", {}, {}, nan, {}};
+  Curve chord{"chord"};
   for (const double L : particles.numbers("edge")) chord.point(L, L * L / (8 * radius));
   result.figures.push_back(
       {"depth",

@@ -94,11 +94,9 @@ StudyResult run_resting_contact(const Subject& subject, Tier, const Progress& pr
   std::vector<Rest> rests;
   Figure figure{"speed",
                 "Cloth comes to rest on a ball",
-                {"time", "s", Scale::linear},
+                {"time", "s"},
                 {"speed", "m/s", Scale::log},
-                nan,
-                "Root mean square over the particles.",
-                {}};
+                "Root mean square over the particles."};
   for (const char* response : {"forecast", "projection", "push_out"}) {
     rests.push_back(rest_of(subject, response));
     figure.curves.push_back(curve_of(response, rests.back().speeds, "time", "speed"));

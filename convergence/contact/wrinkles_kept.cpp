@@ -161,7 +161,7 @@ NamedFinding wavelength_stays(const std::string& map, const AllKept& kept) {
 
 /// The middle row seen from the side [m].
 Curve profile(const std::string& label, const PerParticle3& x) {
-  Curve curve{label, {}, {}, nan, {}};
+  Curve curve{label};
   const Eigen::Index first = (rows / 2) * (columns + 1);
   for (int k = 60; k <= 180; ++k) {
     curve.point(x(0, first + k), x(2, first + k));
@@ -170,7 +170,7 @@ Curve profile(const std::string& label, const PerParticle3& x) {
 }
 
 Curve outline() {
-  Curve curve{"the ball", {}, {}, nan, {}};
+  Curve curve{"the ball"};
   for (int k = -50; k <= 50; ++k) {
     const double a = 0.34 * k / 50;
     curve.point(ball_radius * std::sin(a), ball_radius * std::cos(a));
@@ -183,9 +183,8 @@ Figure before_and_after(const SunkCloth& cloth, const DepthMap& map, double reac
   const std::string words(map.title);
   return {"profile-" + std::string(map.name),
           "Before and after: " + words,
-          {"x", "m", Scale::linear},
-          {"z", "m", Scale::linear},
-          nan,
+          {"x", "m"},
+          {"z", "m"},
           "A strip half inside a ball, seen from the side; tau = 6 mm, eps = 0 (BMF03 figure 2).",
           {outline(), profile("before", cloth.x),
            profile("after", project(cloth, std::string(map.name), reach).x)}};
@@ -196,10 +195,8 @@ Figure shares(const std::vector<std::pair<std::string, AllKept>>& by_map) {
       "share",
       "What is left of the wrinkles that were inside",
       {"tau over t^", "1", Scale::log},
-      {"deviation of their depths, after over before", "1", Scale::linear},
-      nan,
-      "Half inside a ball. t^, the deepest penetration that the map still resolves, is 14 mm.",
-      {}};
+      {"deviation of their depths, after over before", "1"},
+      "Half inside a ball. t^, the deepest penetration that the map still resolves, is 14 mm."};
   for (const auto& [map, all] : by_map) {
     Curve curve{
         std::string(depth_map_named(map).title), {}, all[1].second.numbers(share_column), nan, {}};
@@ -211,7 +208,7 @@ Figure shares(const std::vector<std::pair<std::string, AllKept>>& by_map) {
 
 /// A circle in the plane y = 0 about (x, 0) [m].
 Curve circle(const std::string& label, double x, double radius) {
-  Curve curve{label, {}, {}, nan, {}};
+  Curve curve{label};
   for (int k = 0; k <= 96; ++k) {
     curve.point(x + radius * std::cos(2 * pi * k / 96), radius * std::sin(2 * pi * k / 96));
   }
@@ -230,8 +227,8 @@ Map slice_of_union() {
   const std::vector<Object> balls = {ball(-0.15, 0.24), ball(0.17, 0.2)};
   Map map{"slice-of-phi",
           "Signed distance to two balls that overlap",
-          {"x", "m", Scale::linear},
-          {"z", "m", Scale::linear},
+          {"x", "m"},
+          {"z", "m"},
           {},
           {},
           {},

@@ -135,8 +135,7 @@ Curve loss_curve(const VibratingSheet& sheet, const Response& response) {
     if (std::abs(loss) > least) grows.observe(-loss);
   }
   std::ranges::sort(points, {}, &std::pair<double, double>::first);
-  Curve curve{
-      std::string(response.method.name) + (grows.value() > 0 ? ", grows" : ""), {}, {}, nan, {}};
+  Curve curve{std::string(response.method.name) + (grows.value() > 0 ? ", grows" : "")};
   for (const auto& [omega_h, loss] : points) curve.point(omega_h, loss);
   return curve;
 }
@@ -146,11 +145,9 @@ Figure loss_figure(const VibratingSheet& sheet, const std::vector<Response>& res
                 "What undamped vibrations lose",
                 {"omega h", "1", Scale::log},
                 {"|change of amplitude| per period", "1", Scale::log},
-                nan,
                 "Each marker is one mode of the sheet, at a step of a quarter of the elastic "
                 "limit. A, B, C and the implicit midpoint rule change no amplitude beyond what "
-                "their solves leave, and are not drawn.",
-                {}};
+                "their solves leave, and are not drawn."};
   for (const Response& response : responses)
     for (const LossLaw& law : loss_laws())
       if (law.name == response.method.name) figure.curves.push_back(loss_curve(sheet, response));
@@ -163,12 +160,10 @@ Figure decay_figure(const VibratingSheet& sheet, const std::vector<Response>& re
                 "Decay of damped vibrations",
                 {"omega h", "1", Scale::log},
                 {"|rate of decay over the exact one - 1|", "1", Scale::log},
-                nan,
                 "Bending modes of the sheet, at a step of an eighth of the elastic limit, damped "
-                "in proportion to their stiffness: the damping ratio is 1.2 omega h.",
-                {}};
+                "in proportion to their stiffness: the damping ratio is 1.2 omega h."};
   for (const Response& response : responses) {
-    Curve curve{std::string(response.method.name), {}, {}, nan, {}};
+    Curve curve{std::string(response.method.name)};
     const double h = response.steps[1];
     for (size_t i = 0; i < sheet.modes.size(); ++i) {
       if (sheet.modes[i].kind != ModeKind::bending) continue;

@@ -217,11 +217,9 @@ Figure energy_figure(const std::string& name, const std::string& title, const st
                      const std::vector<Run>& runs) {
   Figure figure{name,
                 title,
-                {"time", "periods of the slowest mode", Scale::linear},
+                {"time", "periods of the slowest mode"},
                 {"energy over that of the start", "1", Scale::log},
-                nan,
-                caption,
-                {}};
+                caption};
   for (const Run& run : runs) figure.curves.push_back(readable_curve(run));
   return figure;
 }

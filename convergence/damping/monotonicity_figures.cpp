@@ -17,20 +17,18 @@ Figure first_step_figure(const Subject& subject, const DampedMotions& motions) {
       "First step of a damped motion",
       {"h c/2", "1", Scale::log},
       {"|first step| over the whole way", "1", Scale::log},
-      nan,
       "The exact motion covers 1 - exp(-h c) of its displacement. Above h c/2 = 1 the steps of A "
-      "and RK2 go backwards. BDF2 is left out: its first step is another method's.",
-      {}};
+      "and RK2 go backwards. BDF2 is left out: its first step is another method's."};
   const std::vector<double> as = geometric_range(0.05, 40, 16);
   for (const Integrator& method : integrators()) {
     if (method.history > 1) continue;
-    Curve curve{std::string(method.name), {}, {}, nan, {}};
+    Curve curve{std::string(method.name)};
     for (const double a : as)
       curve.point(
           a, std::abs(run_damped(subject, motions.triangle, method.name, a, 1).progress[1][0]));
     figure.curves.push_back(std::move(curve));
   }
-  Curve exact{"exact", {}, {}, nan, {}};
+  Curve exact{"exact"};
   for (const double a : as) exact.point(a, 1 - std::exp(-2 * a));
   figure.curves.push_back(std::move(exact));
   return figure;
@@ -41,14 +39,12 @@ constexpr double shown_a = 10;
 Figure distance_figure(const Subject& subject, const DampedMotions& motions) {
   Figure figure{"distance",
                 "A damped motion at h c/2 = 10",
-                {"step", "1", Scale::linear},
+                {"step", "1"},
                 {"distance from the exact place of rest, over the displacement", "1", Scale::log},
-                nan,
                 "The exact motion is over before the first step ends. Explicit methods are "
-                "unstable here; A comes to rest a hundred displacements away.",
-                {}};
+                "unstable here; A comes to rest a hundred displacements away."};
   for (const Integrator& method : integrators()) {
-    Curve curve{std::string(method.name), {}, {}, nan, {}};
+    Curve curve{std::string(method.name)};
     const DampedRun run = run_damped(subject, motions.triangle, method.name, shown_a, 24);
     for (size_t n = 0; n < run.progress.size(); ++n) {
       const double distance = std::abs(run.progress[n][0] - 1);
@@ -80,13 +76,11 @@ Shown shown_of_hinge() {
 Figure history_figure(const Subject& subject, const DampedMotion& motion, const Shown& shown) {
   Figure figure{"history-" + motion.name,
                 "Coming to rest at h c/2 = 10: " + motion.words,
-                {"step", "1", Scale::linear},
-                {"displacement over the exact one", "1", Scale::linear},
-                nan,
-                shown.caption,
-                {}};
+                {"step", "1"},
+                {"displacement over the exact one", "1"},
+                shown.caption};
   for (const std::string& method : shown.methods) {
-    Curve curve{method, {}, {}, nan, {}};
+    Curve curve{method};
     const DampedRun run = run_damped(subject, motion, method, shown_a, 16);
     for (size_t n = 0; n < run.progress.size(); ++n) {
       curve.point(double(n), run.progress[n][0]);
@@ -101,14 +95,12 @@ Figure sheet_figure(const Subject& subject, const DampedMotions& motions, Tier t
                 "Overshoot on a damped sheet",
                 {"h c/2 of the fastest mode", "1", Scale::log},
                 {"largest overshoot or way back of a mode, over its way", "1", Scale::log},
-                nan,
                 "All modes in the plane of the sheet move at first, and damping stops them. "
                 "Backward Euler neither overshoots nor turns back at any step, A, B, C and the "
-                "implicit midpoint rule neither below 1. BDF2 is started exactly.",
-                {}};
+                "implicit midpoint rule neither below 1. BDF2 is started exactly."};
   const std::vector<double> as = geometric_range(0.1, 100, tier == Tier::quick ? 10 : 25);
   for (const std::string method : {"A", "B", "C", "BDF2", "implicit-midpoint"}) {
-    Curve curve{method, {}, {}, nan, {}};
+    Curve curve{method};
     for (const double a : as) {
       const double wrong =
           worst_overshoot_or_reversal(run_damped(subject, motions.sheet, method, a, 20));

@@ -137,11 +137,9 @@ Figure sheet_figure(const std::string& name, const std::string& of) {
       "Overshoot on an overdamped sheet with stiffness: " + of,
       {"h c/2 of the fastest mode", "1", Scale::log},
       {"largest overshoot or way back of a mode, over its start", "1", Scale::log},
-      nan,
       "Every mode starts displaced and moving towards rest. All modes have at least four times the "
       "critical damping. Curves of methods that are monotone everywhere are empty and left out. A "
-      "step beyond a method's limit ends its curve, or sends it up. BDF2 is started exactly.",
-      {}};
+      "step beyond a method's limit ends its curve, or sends it up. BDF2 is started exactly."};
 }
 
 /// The values worth a marker, if there is any.

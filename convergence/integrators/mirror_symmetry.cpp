@@ -135,9 +135,8 @@ StudyResult run_mirror_symmetry(const Subject& subject, Tier tier, const Progres
   result.figures.push_back(
       {"asymmetry",
        "Asymmetry of a symmetric sheet that falls, scheme C",
-       {"time", "s", Scale::linear},
+       {"time", "s"},
        {"largest distance from the mirror image", "m", Scale::log},
-       nan,
        "From rounding alone, and from a random disturbance of 1e-10 m.",
        {curve_of("from rounding", rounding, "time", "asymmetry"),
         curve_of("from a disturbance of 1e-10 m", seeded, "time", "asymmetry")}});

@@ -223,8 +223,7 @@ Figure figure_of(const std::string& name, const std::string& material,
                 {"relative drift of angular momentum", "1", Scale::log},
                 2,
                 "Change of the angular momentum from the start to the end of the run, over its "
-                "size. Level curves are rounding, or the tolerance of solves.",
-                {}};
+                "size. Level curves are rounding, or the tolerance of solves."};
   for (const Drift* drift : drifts) {
     Curve curve = curve_of(drift->scheme, relative_drift(*drift));
     if (!(curve.y.front() > 1e-7)) curve.pair_orders.clear();

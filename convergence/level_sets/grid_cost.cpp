@@ -53,11 +53,9 @@ void add_grid_costs(const std::vector<int>& cells, StudyResult& result) {
                 "Error of a grid about a statue against its memory",
                 {"memory", "MB", Scale::log},
                 {"largest error of phi", "m", Scale::log},
-                nan,
                 "At random points within three cells of the surface, against the exact distance to "
                 "the mesh. Edges of the mesh are kinks of phi, where trilinear values err by O(h), "
-                "and memory grows with h^-3.",
-                {}};
+                "and memory grows with h^-3."};
   figure.curves = {
       curve_of("regular grid, exact band", costs, "grid", "largest error within three cells")};
   result.figures.push_back(std::move(figure));

@@ -61,7 +61,7 @@ std::vector<NodeErrors> march_all(const KnownBody& body, const std::vector<int>&
 
 Figure empty_figure(const std::string& name, const std::string& title, const Axis& y,
                     const std::string& caption) {
-  return {name, title, {"spacing of the grid", "m", Scale::log}, y, nan, caption, {}};
+  return {name, title, {"spacing of the grid", "m", Scale::log}, y, caption};
 }
 
 NamedFinding unit_gradient(const KnownBody& body, const std::vector<NodeErrors>& levels) {

@@ -215,13 +215,10 @@ Figure figure_of(const std::vector<Balance>& all) {
                 "Memory against error",
                 {"largest miss within three cells", "m", Scale::log},
                 {"memory", "MB", Scale::log},
-                nan,
                 "The cube is 1 m wide. A grid of n cells along each axis has (n + 1)^3 values; "
-                "each octree's error is at most that of the grid beside it.",
-                {}};
+                "each octree's error is at most that of the grid beside it."};
   for (const char* const body : {"sphere", "torus", "box", "statue"}) {
-    Curve grid{std::string(body) + ", grid", {}, {}, nan, {}},
-        tree{std::string(body) + ", octree", {}, {}, nan, {}};
+    Curve grid{std::string(body) + ", grid"}, tree{std::string(body) + ", octree"};
     for (const Balance& b : all) {
       if (b.body != body) continue;
       grid.point(b.grid_miss, b.grid_bytes / 1e6);
@@ -239,8 +236,8 @@ Map slice_of(const Body& body) {
                                                     0.25, 0, HangingNodes::constrained});
   Map map{"leaves",
           "Leaves of an octree, cut by a plane",
-          {"x", "m", Scale::linear},
-          {"y", "m", Scale::linear},
+          {"x", "m"},
+          {"y", "m"},
           {},
           {},
           {},

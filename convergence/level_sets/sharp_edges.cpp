@@ -154,12 +154,11 @@ Figure figure_of(const std::vector<Sampling>& samplings) {
                 {"distance from the edge", "m", Scale::log},
                 1,
                 "A box at an angle to the grid: the points of its faces farthest from an edge at "
-                "which N is off by more than a degree.",
-                {}};
+                "which N is off by more than a degree."};
   for (const Sampling& sampling : samplings) {
     const std::vector<double>&spacings = sampling.errors.numbers("spacing"),
           &reaches = sampling.errors.numbers("reach");
-    Curve curve{sampling.words, {}, {}, nan, {}};
+    Curve curve{sampling.words};
     for (size_t k = 0; k < spacings.size(); ++k) curve.point(spacings[k], reaches[k] * spacings[k]);
     figure.curves.push_back(std::move(curve));
   }

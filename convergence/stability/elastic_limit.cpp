@@ -124,9 +124,7 @@ StudyResult run_elastic_limit(const Subject& subject, Tier tier, const Progress&
                 "Largest stable step of undamped motion",
                 {"width of a cell", "m", Scale::log},
                 {"2/omega", "s", Scale::log},
-                nan,
-                "The springs' limit falls with the width, the hinges' with its square.",
-                {}};
+                "The springs' limit falls with the width, the hinges' with its square."};
   double done = 0;
   const double parts = 1 + double(regimes().size() * (1 + paper_schemes().size()));
   std::vector<Table> alone;

@@ -59,10 +59,8 @@ void add_refinement(const Subject& subject, Tier tier, StudyResult& result) {
                 "What limits a step as the cells become small",
                 {"width of a cell", "m", Scale::log},
                 {"largest stable step", "s", Scale::log},
-                nan,
                 "2/omega limits schemes A and B, and C where nothing is damped; 2/rate of damping "
-                "limits forward Euler and explicit midpoint.",
-                {}};
+                "limits forward Euler and explicit midpoint."};
   Curve elastic{"2/omega, springs", {}, {}, nan, {}, 1};
   for (const int cells : meshes)
     elastic.point(flat_side / cells,

@@ -194,14 +194,12 @@ Figure damping_figure(const Table& limits) {
                 "Largest stable step of a sheet damped in proportion to its stiffness",
                 {"damping ratio of the fastest mode", "1", Scale::log},
                 {"largest stable step over 2/omega", "1", Scale::log},
-                nan,
-                "Damping leaves the limit of schemes A and B where it is, and widens that of C.",
-                {}};
+                "Damping leaves the limit of schemes A and B where it is, and widens that of C."};
   for (const char* scheme : {"A", "B", "C"})
     figure.curves.push_back(curve_of(scheme, group_of(limits, "scheme", scheme),
                                      "damping ratio of the fastest mode",
                                      "largest stable step over 2/omega"));
-  Curve derived{"derived for C: zeta + sqrt(1 + zeta^2)", {}, {}, nan, {}};
+  Curve derived{"derived for C: zeta + sqrt(1 + zeta^2)"};
   for (const double zeta : geometric_range(0.5, 100, 81))
     derived.point(zeta, zeta + std::sqrt(1 + zeta * zeta));
   figure.curves.push_back(std::move(derived));

@@ -128,7 +128,7 @@ std::vector<Curve> level_curves(const Integrator& method, const MappedSheet& she
   if (method.name == "A" || method.name == "B") return curves;
   for (const auto& [level, words] : {std::pair(0.01, "1/100"), std::pair(0.1, "1/10"),
                                      std::pair(10., "10"), std::pair(100., "100")}) {
-    Curve curve{std::string("derived: ") + words, {}, {}, nan, {}};
+    Curve curve{std::string("derived: ") + words};
     for (const MeshMode& one : sheet.modes) {
       const double zeta = ratio_at_level(method, level, sheet.faster(one),
                                          {sheet.materials.front(), sheet.materials.back()});

@@ -134,7 +134,7 @@ NamedFinding unlimited_finding(const Subject& subject, const Integrator& integra
 }
 
 Curve known_curve(const Integrator& integrator) {
-  Curve curve{"limit as known", {}, {}, nan, {}};
+  Curve curve{"limit as known"};
   for (const double zeta : geometric_range(0.01, 10, 61)) {
     curve.point(known_limit(integrator, zeta), zeta);
   }
@@ -177,10 +177,8 @@ StudyResult run_stability_oscillator(const Subject& subject, Tier tier, const Pr
                 "Largest stable step of the damped oscillator",
                 {"damping ratio", "1", Scale::log},
                 {"largest stable omega h", "1", Scale::log},
-                nan,
                 "Measured from step matrices. Methods that are implicit in the elastic forces have "
-                "no limit and no curve; A and B share one.",
-                {}};
+                "no limit and no curve; A and B share one."};
   Table heavy{{"method", "1"},
               {"largest stable omega h", "1"},
               {"exponent in the damping ratio", "1"},
@@ -194,7 +192,7 @@ StudyResult run_stability_oscillator(const Subject& subject, Tier tier, const Pr
       const Table row = limit_row(subject, integrator, ratios);
       result.findings.push_back(limit_finding(integrator, row));
       if (integrator.family == Family::fully_explicit) add_heavy(integrator, row, heavy);
-      Curve curve{std::string(integrator.name), {}, {}, nan, {}};
+      Curve curve{std::string(integrator.name)};
       for (size_t i = 0; i < row.rows(); ++i)
         if (row.numbers("damping ratio")[i] > 0)
           curve.point(row.numbers("damping ratio")[i], row.numbers("largest stable omega h")[i]);

@@ -127,12 +127,10 @@ void add_clamped_sheet(const Subject& subject, Tier tier, const Progress& progre
         "Largest stable step of a clamped sheet, " + damping.words,
         {"multiple of the damping constants", "1", Scale::log},
         {"largest stable step", "s", Scale::log},
-        nan,
         "The constants are 0.3 N s/m of springs, 0.01 N s of bending. From the spectral radius of "
         "the whole sheet's step. A and B keep the undamped limit, that of C is never shorter, and "
         "heavy damping shortens that of explicit methods in proportion. Forward Euler and explicit "
-        "midpoint have no stable step at all where some modes are undamped.",
-        {}};
+        "midpoint have no stable step at all where some modes are undamped."};
     Table heavy{{"method", "1"},
                 {"largest stable step", "s"},
                 {"exponent in the damping", "1"},

@@ -116,7 +116,7 @@ NamedFinding bounded_finding(const std::string& scheme, Table table) {
 Map growth_map(const Subject& subject, const std::string& scheme, int fineness) {
   Map map{"growth-" + scheme,
           "Largest transient growth, scheme " + scheme,
-          {"step times frequency, omega h", "1", Scale::linear},
+          {"step times frequency, omega h", "1"},
           {"damping over a step, h c/2", "1", Scale::log},
           {},
           geometric_range(0.01, 100, 8 * fineness + 1),
@@ -188,9 +188,7 @@ void add_sheet(const Subject& subject, int points, StudyResult& result) {
                 "Largest transient growth on a clamped sheet",
                 {"damping constants over (0.3 N s/m, 0.01 N s)", "1", Scale::log},
                 {"largest norm of a power of the step", "1", Scale::log},
-                nan,
-                "Norm of the energy; the step is 0.9 of the largest stable one.",
-                {}};
+                "Norm of the energy; the step is 0.9 of the largest stable one."};
   for (const std::string& scheme : schemes()) {
     figure.curves.push_back(curve_of("scheme " + scheme, found, "damping", scheme));
     if (scheme != "A") result.findings.push_back(sheet_bound(found, scheme));
@@ -207,9 +205,7 @@ StudyResult run_transient_growth(const Subject& subject, Tier tier, const Progre
       "Largest transient growth of the damped oscillator at omega h = 1",
       {"damping over a step, h c/2", "1", Scale::log},
       {"largest norm of a power of the step", "1", Scale::log},
-      nan,
-      "Norm of the energy. Scheme A overshoots in proportion to the damping, B and C do not.",
-      {}};
+      "Norm of the energy. Scheme A overshoots in proportion to the damping, B and C do not."};
   double done = 0;
   for (const std::string& scheme : schemes()) {
     const Table table = growth_table(subject, scheme);
@@ -218,7 +214,7 @@ StudyResult run_transient_growth(const Subject& subject, Tier tier, const Progre
       result.findings.push_back(grows_with_damping(table));
     else
       result.findings.push_back(bounded_finding(scheme, table));
-    Curve curve{"scheme " + scheme, {}, {}, nan, {}};
+    Curve curve{"scheme " + scheme};
     for (size_t i = 0; i < table.rows(); ++i)
       if (table.numbers("omega h")[i] == 1)
         curve.point(table.numbers("h c/2")[i], table.numbers("growth")[i]);

@@ -81,8 +81,8 @@ double curing_ratio(const std::string& scheme, double first, double second) {
 Map ratio_map(const Subject& subject, const std::string& method, int fineness) {
   Map map{"pair-" + method,
           "Steps of 1.99/omega and shorter ones in turn, method " + method,
-          {"shorter step over longer one", "1", Scale::linear},
-          {"damping ratio", "1", Scale::linear},
+          {"shorter step over longer one", "1"},
+          {"damping ratio", "1"},
           linear_range(0.02, 1, 14 * fineness),
           linear_range(0, 0.6, 8 * fineness),
           {},
@@ -100,7 +100,7 @@ Map ratio_map(const Subject& subject, const std::string& method, int fineness) {
 }
 
 void add_border(const std::string& scheme, Map& map) {
-  Curve curve{"spectral radius 1, derived", {}, {}, nan, {}};
+  Curve curve{"spectral radius 1, derived"};
   for (const double ratio : linear_range(0.02, 1, 197)) {
     const double zeta = curing_ratio(scheme, ratio * long_step, long_step);
     curve.point(ratio, zeta > 0 ? zeta : nan);
@@ -130,8 +130,8 @@ NamedFinding map_finding(const std::string& scheme, const Map& map) {
 Map both_steps_map(const Subject& subject, int fineness) {
   Map map{"undamped-steps",
           "Two steps in turn without damping",
-          {"first step, omega h", "1", Scale::linear},
-          {"second step, omega h", "1", Scale::linear},
+          {"first step, omega h", "1"},
+          {"second step, omega h", "1"},
           linear_range(0.05, 2, 12 * fineness + 1),
           linear_range(0.05, 2, 12 * fineness + 1),
           {},

@@ -204,10 +204,8 @@ void add_limits(const Subject& subject, Tier tier, StudyResult& result) {
                 "Largest stable step of a stuck particle",
                 {"forecast time times frequency", "1", Scale::log},
                 {"largest stable step times frequency", "1", Scale::log},
-                nan,
                 "Forecasts do not widen the limit of A and B; C is stable for steps up to twice "
-                "the forecast time, however stiff the bond. Points are measured, lines derived.",
-                {}};
+                "the forecast time, however stiff the bond. Points are measured, lines derived."};
   for (const Integrator& integrator : paper_schemes()) {
     const std::string name(integrator.name);
     Table limits{{"omega tau_s", "1"}, {"omega h, measured", "1"}, {"derived", "1"}};
@@ -284,11 +282,9 @@ void add_cost(const Subject& subject, Tier tier, StudyResult& result) {
   Figure figure{"iterations",
                 "Iterations of a solve where a sheet sticks",
                 {number, "1", Scale::log},
-                {"iterations of a solve", "1", Scale::linear},
-                nan,
+                {"iterations of a solve", "1"},
                 "A damped sheet all of whose particles stick, to a surface or to a second sheet. "
-                "Scheme C, tolerance 1e-10.",
-                {}};
+                "Scheme C, tolerance 1e-10."};
   for (const char* to : {"nothing sticks", "to a surface", "to cloth"})
     figure.curves.push_back(curve_of(to, iterations, number, to));
   result.figures.push_back(figure);

@@ -201,12 +201,10 @@ NamedFinding steps_finding(const PulledStrip& limited, const PulledStrip& stiff)
 Figure figure_of(const std::vector<PulledStrip>& runs) {
   Figure figure{"curve",
                 "Extension of a strip under a growing load",
-                {"load at the clamp", "N/m", Scale::linear},
-                {"mean extension", "1", Scale::linear},
-                nan,
+                {"load at the clamp", "N/m"},
+                {"mean extension", "1"},
                 "A strip pulled by one end, ever faster. The bar: its strain is proportional to "
-                "the load beyond each point, up to the limit.",
-                {}};
+                "the load beyond each point, up to the limit."};
   for (const PulledStrip& run : runs)
     figure.curves.push_back(curve_of(run.springs.name, run.pulled, "load", "extension"));
   figure.curves.push_back(curve_of("bar with a limit", runs.front().pulled, "load", "of the bar"));

@@ -118,8 +118,7 @@ StudyResult run_strain_momentum(const Subject& subject, Tier tier, const Progres
       {"relative drift of angular momentum", "1", Scale::log},
       1,
       "Change of the angular momentum from the start to the end of the run, over its size. The "
-      "sheet is not damped, so that A and C are the same scheme; B's drift is rounding.",
-      {}};
+      "sheet is not damped, so that A and C are the same scheme; B's drift is rounding."};
   double done = 0;
   for (const Integrator& method : paper_schemes()) {
     const std::string scheme(method.name);

@@ -198,7 +198,7 @@ NamedFinding jacobi_is_dearer(const std::vector<Row>& rows) {
 
 Curve residuals(const NamedOrder& order, int cells) {
   const JerkedSheet sheet = jerked_sheet(cells);
-  Curve curve{order.name, {}, {}, nan, {}};
+  Curve curve{order.name};
   for (int sweeps = 1;; sweeps *= 2) {
     const StrainSweeps done = swept(sheet, order.order, sweeps).done;
     curve.point(done.sweeps, done.remaining_violation);
@@ -241,10 +241,8 @@ StudyResult run_strain_sweeps(const Subject&, Tier tier, const Progress& progres
                 "Largest violation of a limit against sweeps",
                 {"sweeps", "1", Scale::log},
                 {"violation left, over the rest length", "1", Scale::log},
-                nan,
                 "A sheet of 12 x 12 cells, held along its upper edge, falls by 8 % of its height "
-                "in a step; limits are +10 % and 0 %.",
-                {}};
+                "in a step; limits are +10 % and 0 %."};
   std::vector<Row> rows;
   for (const NamedOrder& order : sweep_orders()) {
     rows.push_back({order.name, refined(order, meshes)});

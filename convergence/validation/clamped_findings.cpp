@@ -194,12 +194,10 @@ NamedFinding lower(const ClampedLadder& ladder) {
 Figure stress_figure(const ClampedFlat& flat) {
   Figure figure{"clamps-stress",
                 "Stress across a flat sheet that is clamped and pulled",
-                {"place over the length", "1", Scale::linear},
-                {"stress across over the tension", "1", Scale::linear},
-                nan,
-                "On the middle line, from a clamp to halfway. Below zero it compresses.",
-                {}};
-  Curve stress{"simulated", {}, {}, nan, {}}, none{"no stress", {}, {}, nan, {}};
+                {"place over the length", "1"},
+                {"stress across over the tension", "1"},
+                "On the middle line, from a clamp to halfway. Below zero it compresses."};
+  Curve stress{"simulated"}, none{"no stress"};
   for (std::size_t i = 0; i < flat.places.size(); i += 3)
     if (flat.places[i] > 0) stress.point(flat.places[i], flat.stresses[i] / flat.tension);
   none.point(0, 0);
@@ -212,16 +210,14 @@ Figure section_figure(const ClampedLadder& ladder) {
   const ClampedWrinkles& run = ladder.wrinkles;
   Figure figure{"clamps-section",
                 "Heights halfway between the clamps",
-                {"place over the width", "1", Scale::linear},
-                {"height over the width", "1", Scale::linear},
-                nan,
+                {"place over the width", "1"},
+                {"height over the width", "1"},
                 "At four times the onset's strain, from the middle line to the free edge, beside "
-                "the law's wave for the tension, the length and the narrowing of a free sheet.",
-                {}};
+                "the law's wave for the tension, the length and the narrowing of a free sheet."};
   const ClampedSheet sheet = sheet_on(meshes.back()[0], meshes.back()[1]);
   const double wavelength = law_of_wavelength(sheet, run.tension),
                amplitude = law_of_amplitude(wavelength, run.tension);
-  Curve simulated{"simulated", {}, {}, nan, {}}, law{"law", {}, {}, nan, {}};
+  Curve simulated{"simulated"}, law{"law"};
   const double sign = run.section.heights.front() < 0 ? -1 : 1;
   for (std::size_t i = 0; i < run.section.places.size(); ++i)
     simulated.point(run.section.places[i] / width, sign * run.section.heights[i] / width);

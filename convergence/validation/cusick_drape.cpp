@@ -233,20 +233,16 @@ NamedFinding never_crosses_itself(const Table& drapes) {
 std::vector<Figure> outlines_of(const std::vector<Drape>& drapes) {
   Figure seen{"outlines",
               "Wool from above, at rest from several starts",
-              {"x", "m", Scale::linear},
-              {"y", "m", Scale::linear},
-              nan,
-              "The shadow's edge, to scale. Every one is stable.",
-              {}};
+              {"x", "m"},
+              {"y", "m"},
+              "The shadow's edge, to scale. Every one is stable."};
   Figure polar{"polar",
                "How far the shadow reaches around the plate",
-               {"direction", "degrees", Scale::linear},
-               {"distance from the axis", "m", Scale::linear},
-               nan,
-               "The plate's radius is 0.09 m, that of the level cloth 0.15 m.",
-               {}};
+               {"direction", "degrees"},
+               {"distance from the axis", "m"},
+               "The plate's radius is 0.09 m, that of the level cloth 0.15 m."};
   for (const Drape& one : drapes) {
-    Curve outline{fmt::format("{} folds", one.folds), {}, {}, nan, {}}, reach = outline;
+    Curve outline{fmt::format("{} folds", one.folds)}, reach = outline;
     const std::size_t n = one.outline.size();
     for (std::size_t k = 0; k <= n; k += 4) {
       const double angle = 2 * std::numbers::pi * double(k) / double(n), r = one.outline[k % n];
@@ -262,9 +258,8 @@ std::vector<Figure> outlines_of(const std::vector<Drape>& drapes) {
 Figure curve_over_bending_length(const Table& table) {
   return {"bending-length",
           "Drape coefficient by bending length",
-          {"bending length", "mm", Scale::linear},
-          {"drape coefficient", "1", Scale::linear},
-          nan,
+          {"bending length", "mm"},
+          {"drape coefficient", "1"},
           "One density and stretch stiffness; each start has eight waves.",
           {curve_of("simulated", table, "bending length", "drape coefficient")}};
 }

@@ -110,13 +110,11 @@ Figure depth_figure(const std::vector<DepthLadder>& ladders) {
   Figure figure{"amplitudes",
                 "Amplitude of a wrinkle by its compression",
                 {"compression over the onset's", "1", Scale::log},
-                {"amplitude over (1/pi) wavelength (Delta/W)^(1/2)", "1", Scale::linear},
-                nan,
+                {"amplitude over (1/pi) wavelength (Delta/W)^(1/2)", "1"},
                 "Halfway between the clamps. A sine along the length that folds the compression "
-                "away in the mean would be at 2^(1/2), at any compression.",
-                {}};
-  Curve simulated{"simulated", {}, {}, nan, {}}, plate{"plate under tension", {}, {}, nan, {}},
-      mean{"sine, in the mean", {}, {}, nan, {}}, each{"in each section", {}, {}, nan, {}};
+                "away in the mean would be at 2^(1/2), at any compression."};
+  Curve simulated{"simulated"}, plate{"plate under tension"}, mean{"sine, in the mean"},
+      each{"in each section"};
   for (const DepthLadder& one : ladders) {
     simulated.point(one.over_onset, one.amplitude.simulated);
     plate.point(one.over_onset, one.amplitude.should.value);
@@ -132,16 +130,14 @@ Figure depth_figure(const std::vector<DepthLadder>& ladders) {
 Figure deep_profiles(const std::vector<DepthLadder>& ladders) {
   Figure figure{"deep-profiles",
                 "Deep wrinkles along the tension",
-                {"place over the length", "1", Scale::linear},
-                {"amplitude over (1/pi) wavelength (Delta/W)^(1/2)", "1", Scale::linear},
-                nan,
-                "The finest meshes beside the plate: the farther beyond the onset, the flatter.",
-                {}};
+                {"place over the length", "1"},
+                {"amplitude over (1/pi) wavelength (Delta/W)^(1/2)", "1"},
+                "The finest meshes beside the plate: the farther beyond the onset, the flatter."};
   std::vector<double> places;
   for (int i = 0; i <= 100; ++i) places.push_back(i / 100.0);
   for (const DepthLadder* one : {&ladders.front(), &ladders.back()}) {
-    Curve simulated{fmt::format("simulated, {:g} onsets", one->over_onset), {}, {}, nan, {}},
-        plate{fmt::format("plate, {:g} onsets", one->over_onset), {}, {}, nan, {}};
+    Curve simulated{fmt::format("simulated, {:g} onsets", one->over_onset)},
+        plate{fmt::format("plate, {:g} onsets", one->over_onset)};
     const std::vector<double>& rows = one->finest.amplitudes;
     for (std::size_t i = 1; i + 1 < rows.size(); i += 2)  // row 0 is half a row before the clamp
       simulated.point((double(i) - 0.5) / double(rows.size() - 2), rows[i] / one->unit);

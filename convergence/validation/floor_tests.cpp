@@ -77,7 +77,7 @@ FoldOnMesh fold_on_mesh(const Subject& subject, const FoldTest& test, int panels
 }
 
 Curve shape_of(const FoldTest& test, double lift_off) {
-  Curve curve{std::string(test.words) + ", elastica", {}, {}, nan, {}};
+  Curve curve{std::string(test.words) + ", elastica"};
   std::vector<double> even;
   for (int i = 0; i <= 100; ++i) even.push_back(i / 100.0);
   curve.point(0, 0);
@@ -97,7 +97,7 @@ void add_fold(const Subject& subject, const FoldTest& test, StudyResult& result)
                {"flat panels", "1"},
                {"lift-off over L", "1"},
                {"height over L", "1"}};
-  Curve rows{std::string(test.words) + ", simulated", {}, {}, nan, {}};
+  Curve rows{std::string(test.words) + ", simulated"};
   for (const int count : panels) {
     const FoldOnMesh mesh = fold_on_mesh(subject, test, count);
     levels.row(mesh.spacing, mesh.flat, mesh.lift_off, mesh.height);
@@ -127,12 +127,10 @@ StudyResult run_fold_tests(const Subject& subject, Tier, const Progress& progres
   StudyResult result;
   result.figures.push_back({"folds",
                             "Strips folded over on a floor",
-                            {"across from the first end", "L", Scale::linear},
-                            {"height over the floor", "L", Scale::linear},
-                            nan,
+                            {"across from the first end", "L"},
+                            {"height over the floor", "L"},
                             "Every fourth row of the finest mesh beside the elastica, to scale; L "
-                            "is the strip's length.",
-                            {}});
+                            "is the strip's length."});
   for (const FoldTest& test : fold_tests()) {
     add_fold(subject, test, result);
     progress(double(result.findings.size()) / double(fold_tests().size()));
@@ -191,16 +189,15 @@ NamedFinding threshold_agrees(const Subject& subject, double compression, Tier t
 
 StudyResult run_pressed_strip(const Subject& subject, Tier tier, const Progress& progress) {
   StudyResult result;
-  Curve exact{"elastica", {}, {}, nan, {}}, simulated{"simulated", {}, {}, nan, {}};
+  Curve exact{"elastica"}, simulated{"simulated"};
   for (const double compression : compressions) {
     result.findings.push_back(threshold_agrees(subject, compression, tier, exact, simulated));
     progress(double(result.findings.size()) / std::size(compressions));
   }
   result.figures.push_back({"thresholds",
                             "Friction at which the tip of a pressed strip slips",
-                            {"compression over L", "1", Scale::linear},
-                            {"threshold of Coulomb's coefficient", "1", Scale::linear},
-                            nan,
+                            {"compression over L", "1"},
+                            {"threshold of Coulomb's coefficient", "1"},
                             "The ratio of the tip's forces along and across the floor.",
                             {exact, simulated}});
   return result;

@@ -172,13 +172,11 @@ NamedFinding comes_down(const Table& levels, double floor) {
 Figure shape_of(const LiftedPart& finest, const oracles::FreeFold& fold) {
   Figure figure{"fold",
                 "A strip folded back over itself, held by nothing",
-                {"across from the lift-off", "(B/(rho_A g))^(1/3)", Scale::linear},
-                {"height over the floor", "(B/(rho_A g))^(1/3)", Scale::linear},
-                nan,
+                {"across from the lift-off", "(B/(rho_A g))^(1/3)"},
+                {"height over the floor", "(B/(rho_A g))^(1/3)"},
                 "Every second row of the finest mesh beside the elastica, to scale. The strip goes "
-                "on along the floor at both ends.",
-                {}};
-  Curve elastica{"elastica", {}, {}, nan, {}}, simulated{"simulated", {}, {}, nan, {}};
+                "on along the floor at both ends."};
+  Curve elastica{"elastica"}, simulated{"simulated"};
   for (std::size_t i = 0; i < fold.points.size(); i += 20)
     elastica.point(fold.points[i].across, fold.points[i].up);
   for (std::size_t i = 0; i < finest.points.size(); i += 2)

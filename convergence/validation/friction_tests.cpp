@@ -188,16 +188,15 @@ StudyResult run_friction_tests(const Subject& subject, Tier tier, const Progress
     result.findings.push_back(slide_agrees(subject, mu));
   }
   progress(0.3);
-  Curve exact{"exp(mu beta)", {}, {}, nan, {}}, simulated{"simulated", {}, {}, nan, {}};
+  Curve exact{"exp(mu beta)"}, simulated{"simulated"};
   for (const BeltTest& test : {BeltTest{0.19, 1.3}, BeltTest{0.33, 2.4}}) {
     result.findings.push_back(belt_agrees(subject, test, tier, exact, simulated));
     progress(0.3 + 0.35 * double(simulated.x.size()));
   }
   result.figures.push_back({"belts",
                             "Pulls at the ends of a belt on a turning drum",
-                            {"friction times angle of wrap", "1", Scale::linear},
+                            {"friction times angle of wrap", "1"},
                             {"ratio of the pulls", "1", Scale::log},
-                            nan,
                             "The finest meshes beside the capstan's formula.",
                             {exact, simulated}});
   return result;

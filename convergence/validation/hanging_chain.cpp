@@ -140,8 +140,8 @@ NamedFinding shape_agrees(const Subject& subject, const HungTest& test, Tier tie
   compare("sag below the first end over L", sags, {-lowest, catenary.uncertainty + 1e-6});
   compare("pull across over the weight", across, catenary.pull_across);
   compare("pull up over the weight", up, catenary.pull_up);
-  Curve exact{std::string("catenary, ") + test.words, {}, {}, nan, {}},
-      simulated{std::string("simulated, ") + test.words, {}, {}, nan, {}};
+  Curve exact{std::string("catenary, ") + test.words},
+      simulated{std::string("simulated, ") + test.words};
   for (std::size_t i = 0; i < catenary.points.size(); i += 20)
     exact.point(catenary.points[i].across, catenary.points[i].up);
   for (Eigen::Index i = 0; i < strip.rows.cols(); i += 4)
@@ -237,11 +237,9 @@ StudyResult run_hanging_chain(const Subject& subject, Tier tier, const Progress&
   StudyResult result;
   Figure shapes{"shapes",
                 "Limp strips between two points",
-                {"across from the first point", "L", Scale::linear},
-                {"height over the first point", "L", Scale::linear},
-                nan,
-                "Every fourth row of the finest mesh beside the catenary, to scale.",
-                {}};
+                {"across from the first point", "L"},
+                {"height over the first point", "L"},
+                "Every fourth row of the finest mesh beside the catenary, to scale."};
   for (const HungTest& test : hung_tests) {
     result.findings.push_back(shape_agrees(subject, test, tier, shapes));
     progress(double(result.findings.size()) / 3);

@@ -83,10 +83,10 @@ NamedFinding shape_agrees(const Weight& weight, const StripLadder& levels) {
 }
 
 void show(const Weight& weight, const StripLadder& levels, Figure& figure) {
-  Curve elastica{fmt::format("elastica, gamma = {}", weight.gamma), {}, {}, nan, {}};
+  Curve elastica{fmt::format("elastica, gamma = {}", weight.gamma)};
   for (const oracles::StripPoint& point : levels.elastica.points)
     elastica.point(point.across, point.up);
-  Curve simulated{fmt::format("simulated, gamma = {}", weight.gamma), {}, {}, nan, {}};
+  Curve simulated{fmt::format("simulated, gamma = {}", weight.gamma)};
   for (std::size_t i = 0; i < levels.points.size(); i += 4)
     simulated.point(levels.points[i].across, levels.points[i].up);
   figure.curves.push_back(elastica);
@@ -97,11 +97,9 @@ StudyResult run_heavy_cantilever(const Subject& subject, Tier tier, const Progre
   StudyResult result;
   Figure shapes{"shapes",
                 "A clamped strip under its own weight",
-                {"reach", "L", Scale::linear},
-                {"height", "L", Scale::linear},
-                nan,
-                "Every fourth row of the finest mesh beside the elastica.",
-                {}};
+                {"reach", "L"},
+                {"height", "L"},
+                "Every fourth row of the finest mesh beside the elastica."};
   for (const Weight& weight : weights) {
     const StripTest test{weight.name, "", "", {weight.gamma, 0, {}, 0}, 1};
     const StripLadder levels = strip_ladder(subject, test, panels_for(weight, tier));

@@ -82,7 +82,7 @@ DiscLadder ladders_of(const Subject& subject, double weight, Table& levels) {
 }
 
 Curve edge_curve(const std::string& label, const DiscAtRest& rest) {
-  Curve curve{label, {}, {}, nan, {}};
+  Curve curve{label};
   for (std::size_t i = 0; i <= rest.heights.size(); ++i)
     curve.point(360 * double(i) / double(rest.heights.size()),
                 rest.heights[i % rest.heights.size()]);
@@ -136,13 +136,11 @@ NamedFinding is_at_rest(const Table& levels) {
 Figure edge_figure(const DiscLadder& one) {
   Figure figure{"edges",
                 "Height of the disc's edge",
-                {"place along the edge", "degrees", Scale::linear},
-                {"height over the radius", "1", Scale::linear},
-                nan,
-                fmt::format("Weight {:g}. The folds may lie anywhere on the disc.", one.weight),
-                {}};
+                {"place along the edge", "degrees"},
+                {"height over the radius", "1"},
+                fmt::format("Weight {:g}. The folds may lie anywhere on the disc.", one.weight)};
   figure.curves.push_back(edge_curve("simulated, from two folds", one.finest));
-  Curve cone{"cone with two folds", {}, {}, nan, {}};
+  Curve cone{"cone with two folds"};
   std::vector<double> places;
   for (int i = 0; i <= 120; ++i) places.push_back(2 * pi * i / 120);
   const oracles::HungCone exact = oracles::hung_cone_by_series(2, one.weight, places);

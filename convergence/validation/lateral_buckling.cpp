@@ -64,7 +64,7 @@ TippedRibbon tipped(const Subject& subject, int rows, int slenderness) {
   const Tipping tipping = tipping_of(subject, ribbon.scene, 2 * edge);
   TippedRibbon result{density * tipping.load * std::pow(ribbon.length, 3) / (ke / 4),
                       tipping.unfinished,
-                      {fmt::format("simulated, {} rows", rows), {}, {}, nan, {}}};
+                      {fmt::format("simulated, {} rows", rows)}};
   // twist: the difference of the upper and the lower border, which are alike where rows is even
   const PerParticle3& rest = ribbon.scene.mesh.rest;
   const double top = width_of(rows), clamp = 0.75 * edge;
@@ -149,12 +149,10 @@ NamedFinding isotropic_differs(const Comparison& widest) {
 Figure mode_figure() {
   Figure figure{"modes",
                 "How a ribbon on edge tips over",
-                {"distance from the clamp over L", "1", Scale::linear},
-                {"twist over the free end's", "1", Scale::linear},
-                nan,
-                "The mode of the longest ribbons beside the theory's, a power series.",
-                {}};
-  Curve exact{"narrow ribbon", {}, {}, nan, {}};
+                {"distance from the clamp over L", "1"},
+                {"twist over the free end's", "1"},
+                "The mode of the longest ribbons beside the theory's, a power series."};
+  Curve exact{"narrow ribbon"};
   for (int i = 0; i <= 100; ++i) exact.point(i / 100.0, oracles::tipping_twist(1 - i / 100.0));
   figure.curves.push_back(exact);
   return figure;

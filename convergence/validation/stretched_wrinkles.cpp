@@ -204,7 +204,7 @@ NamedFinding tension_stiffens(const Subject& subject, const Sheet& sheet, Tier t
   std::vector<double> edges{4, 8};
   if (tier == Tier::full) edges = {3, 4, 6, 8, 12, 16};
   Table table = no_comparisons("1");
-  Curve simulated{"simulated", {}, {}, nan, {}}, expected{"D + T edge^2/48", {}, {}, nan, {}};
+  Curve simulated{"simulated"}, expected{"D + T edge^2/48"};
   for (const double count : edges) {
     const int rows = rows_of(sheet, count);
     const WrinkledSheet found = on_mesh(subject, sheet, rows);
@@ -240,17 +240,16 @@ Figure wavelength_figure(const std::vector<SheetLadder>& ladders) {
                 {"(D/T)^(1/2) over the length", "1", Scale::log},
                 {"wavelength over the length", "1", Scale::log},
                 0.5,
-                "Sheets that differ in one number lie on one curve.",
-                {}};
+                "Sheets that differ in one number lie on one curve."};
   for (const Varied varied : {Varied::tension, Varied::length, Varied::rigidity}) {
-    Curve curve{fmt::format("simulated, other {}", name_of(varied)), {}, {}, nan, {}};
+    Curve curve{fmt::format("simulated, other {}", name_of(varied))};
     for (const SheetLadder& one : ladders)
       if (one.sheet.varied == varied || one.sheet.varied == Varied::nothing)
         curve.point(reach_of(one.sheet) / one.sheet.length,
                     one.finest.wavelength / one.sheet.length);
     figure.curves.push_back(std::move(curve));
   }
-  Curve plate{"plate under tension", {}, {}, nan, {}}, law{"law", {}, {}, nan, {}};
+  Curve plate{"plate under tension"}, law{"law"};
   for (double reach = 1e-4; reach < 0.1; reach *= 1.5) {
     plate.point(reach, oracles::wrinkles_by_functions(reach).wavelength.value);
     law.point(reach, 2 * std::sqrt(std::numbers::pi * reach));
@@ -263,12 +262,10 @@ Figure wavelength_figure(const std::vector<SheetLadder>& ladders) {
 Figure profile_figure(const SheetLadder& first) {
   Figure figure{"profile",
                 "A wrinkle along the tension",
-                {"place over the length", "1", Scale::linear},
-                {"height over the greatest", "1", Scale::linear},
-                nan,
-                "The first sheet on its finest mesh beside the plate, by functions.",
-                {}};
-  Curve simulated{"simulated", {}, {}, nan, {}}, plate{"plate under tension", {}, {}, nan, {}};
+                {"place over the length", "1"},
+                {"height over the greatest", "1"},
+                "The first sheet on its finest mesh beside the plate, by functions."};
+  Curve simulated{"simulated"}, plate{"plate under tension"};
   const std::vector<double>& rows = first.finest.profile;
   const std::size_t stride = std::max<std::size_t>(rows.size() / 40, 1);
   for (std::size_t i = 0; i < rows.size(); i += stride)
@@ -287,10 +284,8 @@ Figure coarse_figure() {
   return {"coarse-meshes",
           "Wavelength on edges longer than bending reaches",
           {"edge over (D/T)^(1/2)", "1", Scale::log},
-          {"wavelength over the law's for D", "1", Scale::linear},
-          nan,
-          "A sheet needs edges below (D/T)^(1/2), not only below the wavelength.",
-          {}};
+          {"wavelength over the law's for D", "1"},
+          "A sheet needs edges below (D/T)^(1/2), not only below the wavelength."};
 }
 
 StudyResult run_stretched_wrinkles(const Subject& subject, Tier tier, const Progress& progress) {

@@ -70,10 +70,10 @@ NamedFinding order_of(const StripTest& test, const StripLadder& levels) {
 }
 
 void show(const StripTest& test, const StripLadder& levels, Figure& figure) {
-  Curve elastica{test.words + ", elastica", {}, {}, nan, {}};
+  Curve elastica{test.words + ", elastica"};
   for (const oracles::StripPoint& point : levels.elastica.points)
     elastica.point(point.across, point.up);
-  Curve simulated{test.words + ", simulated", {}, {}, nan, {}};
+  Curve simulated{test.words + ", simulated"};
   for (std::size_t i = 0; i + 1 < levels.points.size(); i += 4)
     simulated.point(levels.points[i].across, levels.points[i].up);
   figure.curves.push_back(elastica);
@@ -81,14 +81,12 @@ void show(const StripTest& test, const StripLadder& levels, Figure& figure) {
 }
 
 Figure shapes_of(const std::string& kind) {
-  return {
-      kind,
-      "Strips as a laboratory bends them: " + kind,
-      {"across from the first clamp", "L", Scale::linear},
-      {"height over the first clamp", "L", Scale::linear},
-      nan,
-      "Every fourth row of the finest mesh beside the elastica, to scale; L is the strip's length.",
-      {}};
+  return {kind,
+          "Strips as a laboratory bends them: " + kind,
+          {"across from the first clamp", "L"},
+          {"height over the first clamp", "L"},
+          "Every fourth row of the finest mesh beside the elastica, to scale; L is the strip's "
+          "length."};
 }
 
 StudyResult run_strip_tests(const Subject& subject, Tier tier, const Progress& progress) {
