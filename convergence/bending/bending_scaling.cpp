@@ -35,7 +35,7 @@ std::vector<Factor> factors() {
 Scene rolling_sheet(int cells, DampingFactor factor) {
   Scene scene =
       scene_at_rest(make_sheet({SheetPattern::one_diagonal, width, width, cells, cells}), 0.13);
-  scene.bending = BendingMaterial{0, damping, Weighting::rest, factor, "sine"};
+  scene.bending = BendingMaterial{0, damping, Weighting::rest, factor};
   scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
   const double k = curvature;
   for (Eigen::Index i = 0; i < scene.x.cols(); ++i) {

@@ -5,6 +5,7 @@
 #include "reference/mesh/shapes.h"
 #include "verification/oracles/dense_algebra.h"
 #include "verification/subject.h"
+#include "verification/specimens/specimens.h"
 
 namespace foldproof {
 
@@ -32,8 +33,7 @@ Scene scene_of_strip(const Strip& strip) {
   Scene scene = scene_at_rest(
       make_sheet({SheetPattern::equilateral, strip.width(), 0, columns, strip.rows}), density);
   scene.stretch = StretchMaterial{young, 0.01, 1};
-  scene.bending = BendingMaterial{bending, 0, Weighting::rest, DampingFactor::edge, "sine"};
-  scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
+  add_flat_hinges(scene, bending, 0);
   scene.x.row(0) *= 1 + strip.strain / 3;
   scene.x.row(1) *= 1 - strip.strain;
   for (int i = 0; i < scene.mesh.particles(); ++i) {

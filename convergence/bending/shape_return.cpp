@@ -51,7 +51,7 @@ Scene pulled_out_of_shape(const Shell& shell, RestAngles angles) {
   Scene scene = scene_at_rest(shell.mesh, density);
   scene.stretch = StretchMaterial{young, young * delay, 1};
   scene.bending = BendingMaterial{bending, bending / 2 * delay, Weighting::rest,
-                                  DampingFactor::edge_squared_over_area, "sine"};
+                                  DampingFactor::edge_squared_over_area};
   scene.rest_angles = hinge_angles(shell.mesh, shell.mesh.rest);
   if (angles == RestAngles::flat) scene.rest_angles.assign(scene.rest_angles.size(), 0);
   for (Eigen::Index i = 0; i < scene.x.cols(); ++i) {

@@ -110,8 +110,7 @@ Scene free_strip() {
   Scene scene = scene_at_rest(
       make_sheet({SheetPattern::one_diagonal, along * cell, across * cell, along, across}),
       strip_density);
-  scene.bending = BendingMaterial{strip_ke, 0, Weighting::rest, DampingFactor::edge, "sine"};
-  scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
+  add_flat_hinges(scene, strip_ke, 0);
   for (int i = 0; i < scene.mesh.particles(); ++i) {
     if (scene.mesh.rest(0, i) < 1.5 * cell)
       scene.prescribed.push_back({i, scene.mesh.rest.col(i), {}});

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "reference/mesh/shapes.h"
+#include "verification/specimens/specimens.h"
 
 namespace foldproof {
 
@@ -22,8 +23,7 @@ Scene level_sheet(int n, double side, const Vector3& middle) {
   }
   scene.gravity = Vector3(0, -9.80665, 0);
   scene.stretch = StretchMaterial{40, 0.05, 1};
-  scene.bending = BendingMaterial{1e-4, 3e-6, Weighting::rest, DampingFactor::edge, "sine"};
-  scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
+  add_flat_hinges(scene, 1e-4, 3e-6);
   scene.solver.tolerance = 1e-8;
   return scene;
 }

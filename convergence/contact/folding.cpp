@@ -8,6 +8,7 @@
 #include "reference/mesh/shapes.h"
 #include "reference/scene/scene.h"
 #include "verification/specimens/random.h"
+#include "verification/specimens/specimens.h"
 
 namespace foldproof {
 
@@ -42,9 +43,7 @@ Scene scene_of_strip(const Strip& strip) {
   Scene scene = scene_at_rest(
       make_sheet({SheetPattern::equilateral, strip.length, 0, strip.columns, strip.rows}), 0.2);
   scene.stretch = strip.stretch;
-  scene.bending = BendingMaterial{strip.ke, strip.relaxation * strip.ke, Weighting::rest,
-                                  DampingFactor::edge, "sine"};
-  scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
+  add_flat_hinges(scene, strip.ke, strip.relaxation * strip.ke);
   if (strip.is_limited) {
     StrainLimits limits;
     limits.order = SweepOrder::alternating;

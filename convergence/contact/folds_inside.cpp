@@ -33,7 +33,7 @@ Scene tube_on_drum() {
       scene.prescribed.push_back({int(i), scene.x.col(i), Motion{}});
   }
   scene.stretch = StretchMaterial{20, 0.05, 1};
-  scene.bending = BendingMaterial{1e-4, 6e-6, Weighting::rest, DampingFactor::edge, "sine"};
+  scene.bending = BendingMaterial{1e-4, 6e-6};
   scene.rest_angles = hinge_angles(scene.mesh, scene.mesh.rest);
   SceneObject drum = solid_object("drum", Capsule{radius, 0.3}, 0.2);
   std::get<RigidObject>(drum.object.body).place.rotation =

@@ -22,7 +22,7 @@ Scene driven_scene() {
   Scene scene = scene_at_rest(make_hinge(length, rest_angle), 0.21);
   scene.gravity = Vector3(0.4, -9.1, 1.3);
   scene.stretch = StretchMaterial{17, 0.013, 1};
-  scene.bending = BendingMaterial{0.011, 0.0005, Weighting::rest, DampingFactor::edge, "sine"};
+  scene.bending = BendingMaterial{0.011, 0.0005};
   scene.rest_angles = {rest_angle};
   scene.solver.tolerance = 1e-15;
   scene.v.col(0) = Vector3(0.11, -0.17, 0.83);

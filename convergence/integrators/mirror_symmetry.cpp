@@ -11,6 +11,7 @@
 #include "reference/mesh/shapes.h"
 #include "verification/seeds.h"
 #include "verification/subject.h"
+#include "verification/specimens/specimens.h"
 
 namespace foldproof {
 
@@ -25,8 +26,7 @@ Scene falling_sheet() {
   Scene scene = scene_at_rest(make_sheet({SheetPattern::criss_cross, side, side, 8, 8}), 0.2);
   scene.gravity = Vector3(0, 0, -9.80665);
   scene.stretch = StretchMaterial{60, 0.02, 1};
-  scene.bending = BendingMaterial{2e-4, 2e-6, Weighting::rest, DampingFactor::edge, "sine"};
-  scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
+  add_flat_hinges(scene, 2e-4, 2e-6);
   scene.prescribed = {{0, scene.x.col(0), {}}, {8, scene.x.col(8), {}}};
   return scene;
 }

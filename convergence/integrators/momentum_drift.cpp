@@ -37,8 +37,7 @@ struct Drift {
 Scene flying_sheet(double spring_damping, double bending_damping) {
   Scene scene = scene_at_rest(make_sheet({SheetPattern::jittered, 0.53, 0, 5, 4, 0.23, 11}), 0.17);
   scene.stretch = StretchMaterial{13, spring_damping, 1};
-  scene.bending =
-      BendingMaterial{0.0017, bending_damping, Weighting::rest, DampingFactor::edge, "sine"};
+  scene.bending = BendingMaterial{0.0017, bending_damping};
   scene.rest_angles.assign(scene.mesh.hinges.size(), 0.07);
   scene.solver.tolerance = solver_tolerance;
   const Vector3 spin(1.9, -3.3, 2.6), flight(0.3, 0.2, -0.5);

@@ -32,7 +32,7 @@ Scene hanging_scene() {
       scene_at_rest(make_sheet({SheetPattern::alternating, width, height, cells, cells}), 0.19);
   scene.gravity = Vector3(0, -9.81, 0);
   scene.stretch = StretchMaterial{11, 0.035, 1};
-  scene.bending = BendingMaterial{3e-4, 3e-5, Weighting::rest, DampingFactor::edge, "sine"};
+  scene.bending = BendingMaterial{3e-4, 3e-5};
   scene.rest_angles.assign(scene.mesh.hinges.size(), 0.03);
   scene.solver.tolerance = 1e-13;
   set_waves(scene);

@@ -30,9 +30,7 @@ Regime both_regimes() { return {"both", "springs and bending", 29, 0.0071, nan};
 Scene undamped_sheet(const Regime& regime, int cells) {
   Scene scene = flat_sheet(cells);
   if (regime.stretch > 0) scene.stretch = StretchMaterial{regime.stretch, 0, 1};
-  if (regime.bending > 0)
-    scene.bending =
-        BendingMaterial{regime.bending, 0, Weighting::rest, DampingFactor::edge, "sine"};
+  if (regime.bending > 0) scene.bending = BendingMaterial{regime.bending, 0};
   return scene;
 }
 

@@ -16,9 +16,7 @@ namespace {
 Scene damped_sheet(int cells, const Damping& damping) {
   Scene scene = flat_sheet(cells);
   if (damping.springs > 0) scene.stretch = StretchMaterial{29, damping.springs, 1};
-  if (damping.bending > 0)
-    scene.bending =
-        BendingMaterial{0.0071, damping.bending, Weighting::rest, DampingFactor::edge, "sine"};
+  if (damping.bending > 0) scene.bending = BendingMaterial{0.0071, damping.bending};
   return scene;
 }
 

@@ -7,6 +7,7 @@
 #include "verification/specimens/probe.h"
 #include "verification/specimens/random.h"
 #include "verification/specimens/stepper.h"
+#include "verification/specimens/specimens.h"
 
 namespace foldproof {
 
@@ -28,9 +29,7 @@ Scene falling_sheet(int cells, const Cloth& cloth, double noise) {
       scene_at_rest(make_sheet({SheetPattern::alternating, side, side, cells, cells}), 0.2);
   scene.gravity = Vector3(0, 0, -9.80665);
   scene.stretch = StretchMaterial{cloth.stiffness, cloth.damping, 1};
-  scene.bending = BendingMaterial{bending_over_stretch * cloth.stiffness, 0, Weighting::rest,
-                                  DampingFactor::edge, "sine"};
-  scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
+  add_flat_hinges(scene, bending_over_stretch * cloth.stiffness, 0);
   scene.solver.tolerance = 1e-6;
   Random random(71);
   for (Eigen::Index i = 0; i < scene.x.cols(); ++i) {

@@ -37,7 +37,7 @@ Scene relaxing_sheet(const Springs& springs, int cells, double relaxation) {
   scene.stretch = StretchMaterial{springs.stiffness, relaxation * springs.stiffness, 1};
   // K = (ke/2) c u u^T and -D = kd c u u^T at a flat hinge
   scene.bending = BendingMaterial{bending, relaxation * bending / 2, Weighting::rest,
-                                  DampingFactor::edge_squared_over_area, "sine"};
+                                  DampingFactor::edge_squared_over_area};
   scene.solver.tolerance = 1e-12;
   return scene;
 }

@@ -7,6 +7,7 @@
 #include "reference/dynamics/integrator.h"
 #include "reference/mesh/shapes.h"
 #include "verification/oracles/dense_algebra.h"
+#include "verification/specimens/specimens.h"
 
 namespace foldproof {
 
@@ -69,7 +70,7 @@ SmallMotion hinge_oscillator(double zeta) {
   const double kd = 2 * zeta * omega * mass / (length * squared_mode);  // N s
 
   Scene scene = scene_at_rest(make_hinge(length, 0), density);
-  scene.bending = BendingMaterial{ke, kd, Weighting::rest, DampingFactor::edge, "sine"};
+  scene.bending = BendingMaterial{ke, kd};
   scene.rest_angles = {0};
   for (int i = 1; i < 4; ++i) scene.prescribed.push_back({i, scene.x.col(i), {}});
   Eigen::MatrixXd shape = Eigen::MatrixXd::Zero(12, 1);
@@ -80,9 +81,7 @@ SmallMotion hinge_oscillator(double zeta) {
 Scene clamped_sheet(double spring_damping, double bending_damping) {
   Scene scene = scene_at_rest(make_sheet({SheetPattern::union_jack, 0.33, 0.22, 3, 2}), 0.23);
   scene.stretch = StretchMaterial{29, spring_damping, 1};
-  scene.bending =
-      BendingMaterial{0.11, bending_damping, Weighting::rest, DampingFactor::edge, "sine"};
-  scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
+  add_flat_hinges(scene, 0.11, bending_damping);
   for (int i = 0; i < scene.mesh.particles(); ++i)
     if (scene.mesh.rest(0, i) < 0.17) scene.prescribed.push_back({i, scene.x.col(i), {}});
   return scene;

@@ -7,6 +7,7 @@
 #include "convergence/stability/stable_step.h"
 #include "convergence/stability/step_matrix.h"
 #include "verification/specimens/sticking_scenes.h"
+#include "verification/specimens/specimens.h"
 
 namespace foldproof {
 
@@ -69,8 +70,7 @@ Scene held_layers() {
   constexpr double side = 0.2;
   Scene scene = scene_at_rest(two_sheets(2, side, 0.004), 0.2);
   scene.stretch = StretchMaterial{0.3, 0, 1};
-  scene.bending = BendingMaterial{1e-4, 0, Weighting::rest, DampingFactor::edge, "sine"};
-  scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
+  add_flat_hinges(scene, 1e-4, 0);
   const Eigen::Index lower = scene.x.cols() / 2;
   Eigen::Index middle = 0;
   (scene.x.leftCols(lower).colwise() - Vector3(side / 2, side / 2, 0))

@@ -25,7 +25,7 @@ constexpr int coarsest = 60;  // steps
 Scene spinning_sheet() {
   Scene scene = scene_at_rest(make_sheet({SheetPattern::jittered, 0.53, 0, 5, 4, 0.23, 11}), 0.17);
   scene.stretch = StretchMaterial{3, 0, 1};
-  scene.bending = BendingMaterial{0.0017, 0, Weighting::rest, DampingFactor::edge, "sine"};
+  scene.bending = BendingMaterial{0.0017, 0};
   scene.rest_angles.assign(scene.mesh.hinges.size(), 0.07);
   StrainLimits limits;
   limits.extension = 0.04;

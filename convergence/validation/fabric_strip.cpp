@@ -38,8 +38,7 @@ Scene strip_of(const CutStrip& cut, const Fabric& fabric, double ke, int cells) 
   const double cell = length / (cells + 0.5);
   Scene scene = scene_at_rest(make_sheet({cut.pattern, cell * (cells + 1), 4 * cell, cells + 1, 4}),
                               fabric.density);
-  scene.bending = BendingMaterial{ke, 0, Weighting::rest, DampingFactor::edge, "sine"};
-  scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
+  add_flat_hinges(scene, ke, 0);
   const double weight = fabric.density * g * length;    // N/m
   scene.stretch = StretchMaterial{1e4 * weight, 0, 1};  // stretched by a ten-thousandth
   scene.gravity = Vector3(0, 0, -g);

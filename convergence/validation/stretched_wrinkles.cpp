@@ -5,9 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "convergence/validation/clamped_findings.h"
+#include "convergence/validation/wrinkle_findings.h"
 #include "convergence/validation/comparison.h"
-#include "convergence/validation/deep_wrinkle_findings.h"
 #include "convergence/study.h"
 #include "convergence/validation/wrinkled_sheet.h"
 #include "verification/oracles/sheets/stretched_wrinkles.h"

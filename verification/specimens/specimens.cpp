@@ -145,6 +145,11 @@ Scene hinge_scene(const Corners& rest, double rest_angle) {
   return scene;
 }
 
+void add_flat_hinges(Scene& scene, double stiffness, double damping) {
+  scene.bending = BendingMaterial{stiffness, damping};
+  scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
+}
+
 State resting_state(PerParticle3 x) {
   PerParticle3 v = PerParticle3::Zero(3, x.cols());
   return {0, std::move(x), std::move(v)};
