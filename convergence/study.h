@@ -1,5 +1,5 @@
 // A study measures a rate or a cost over a range: its findings are judged like checks, its
-// curves are evidence.
+// curves are evidence. With this header come the orders, ranges and tables that most studies use.
 #pragma once
 
 #include <functional>
@@ -7,6 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "convergence/order.h"
+#include "convergence/ranges.h"
+#include "convergence/tables.h"
 #include "verification/verdict.h"
 
 namespace foldproof {
@@ -18,10 +21,14 @@ struct NamedFinding {
 };
 
 struct StudyResult {
-  std::vector<NamedFinding> findings;
-  std::vector<Figure> figures;
-  std::vector<Map> maps;
-  std::vector<Table> tables;
+  std::vector<NamedFinding> findings = {};
+  std::vector<Figure> figures = {};
+  std::vector<Map> maps = {};
+  std::vector<Table> tables = {};
+
+  void add(std::vector<NamedFinding> more) {
+    for (NamedFinding& finding : more) findings.push_back(std::move(finding));
+  }
 };
 
 struct Study {

@@ -35,6 +35,14 @@ struct Curve {
 Curve curve_of(const std::string& label, const Table& table, std::string_view x,
                std::string_view y);
 
+/// The values of a function at these places, without a floor.
+template <class Function>
+Curve curve_over(std::string label, const std::vector<double>& places, const Function& value) {
+  Curve curve{std::move(label), places};
+  for (const double place : places) curve.y.push_back(value(place));
+  return curve;
+}
+
 enum class Scale { linear, log };
 
 struct Axis {

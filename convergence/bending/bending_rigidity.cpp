@@ -1,13 +1,9 @@
 // bending-rigidity: what a sheet resists to bending, by the pattern of its triangles, its direction
 // and their size.
 #include <cmath>
-#include <functional>
 #include <numbers>
 
 #include "convergence/bending/bending_rigidity.h"
-#include "convergence/order.h"
-#include "convergence/ranges.h"
-#include "convergence/tables.h"
 #include "reference/mesh/shapes.h"
 #include "verification/oracles/homogenised_bending.h"
 #include "verification/specimens/probe.h"
@@ -314,10 +310,10 @@ NamedFinding border_is_first_order(const Subject& subject, int levels, Figure& f
                               });
   const Convergence whole = convergence_of(sheets, "1 - D/(ke/4)");
   figure.curves.push_back(curve_of("a whole sheet with its border, " + pattern.words, whole));
-  const Estimate deviation = order_deviation(whole, 1, 2);
-  const Verdict verdict{deviation.value, 0.02, 0, "1",
-                        "n rows of cells have n - 1 lines of hinges: the missing share is 1/n "
-                        "exactly, and the curvature adds about 1e-5 of that"};
+  const Verdict verdict =
+      order_verdict(whole, 1, 2, 0.02,
+                    "n rows of cells have n - 1 lines of hinges: the missing share is 1/n "
+                    "exactly, and the curvature adds about 1e-5 of that");
   return {"bending-rigidity.border-effect-is-first-order",
           "A whole sheet lacks the hinges of its border: its energy tends to the rigidity with "
           "first order.",

@@ -2,8 +2,6 @@
 // of curvature under refinement.
 #include <cmath>
 
-#include "convergence/order.h"
-#include "convergence/ranges.h"
 #include "convergence/study.h"
 #include "reference/mesh/shapes.h"
 #include "verification/subject.h"
@@ -68,12 +66,11 @@ Table refined(const Subject& subject, const Factor& factor, int finest) {
 }
 
 NamedFinding finding_of(const Factor& factor, Table measured, const Convergence& errors) {
-  const Estimate deviation = order_deviation(errors, factor.expected, 1);
   measured.add({"order of the pair", "1", row_orders(errors)});
-  const Verdict verdict{
-      deviation.value, 0.05, 0, "1",
+  const Verdict verdict = order_verdict(
+      errors, factor.expected, 1, 0.05,
       "the border has no hinges, so about one cell of the sheet's width is missing: on the finest "
-      "meshes that share, and the order's error with it, is below a twentieth"};
+      "meshes that share, and the order's error with it, is below a twentieth");
   Finding finding{verdict, std::move(measured), "measured is |order - expected| of the last pair"};
   const std::string claim = factor.expected == 1
                                 ? "With the factor |E| as printed, the dissipation at a given rate "

@@ -1,7 +1,6 @@
 // cantilever: a clamped strip under its own weight or a load on its tip, against the elastica.
 #include <cmath>
 
-#include "convergence/order.h"
 #include "convergence/bending/row_strip.h"
 #include "convergence/study.h"
 #include "verification/oracles/heavy_cantilever.h"
@@ -93,12 +92,12 @@ Convergence distance(const Refined& refined) {
 
 NamedFinding order_of(const Refined& refined) {
   const Convergence tip = distance(refined);
-  const Estimate deviation = order_deviation(tip, 2, 1);
   Table evidence = refined.tips;
   evidence.add({"order of the distance", "1", row_orders(tip)});
-  const Verdict verdict{deviation.value, 0.1, deviation.uncertainty, "1",
-                        "another order is off by 1; the third term of the error is smaller than "
-                        "the second by the number of panels"};
+  const Verdict verdict =
+      order_verdict(tip, 2, 1, 0.1,
+                    "another order is off by 1; the third term of the error is smaller than "
+                    "the second by the number of panels");
   return {"cantilever.is-second-order." + refined.load.name,
           "The tip of a strip held cylindrical, " + refined.load.words +
               ", tends to the elastica's with second order.",
@@ -149,10 +148,10 @@ NamedFinding clamp_is_half_a_cell_before(const Refined& refined) {
   Convergence errors = convergence_of(naive, drop_error);
   errors.floor = refined.floor;
   naive.add({"order", "1", row_orders(errors)});
-  const Estimate deviation = order_deviation(errors, 1, 1);
-  const Verdict verdict{deviation.value, 0.1, deviation.uncertainty, "1",
-                        "another order is off by 1; the second term is smaller than the first by "
-                        "the number of panels"};
+  const Verdict verdict =
+      order_verdict(errors, 1, 1, 0.1,
+                    "another order is off by 1; the second term is smaller than the first by "
+                    "the number of panels");
   return {"cantilever.clamp-on-the-hinges-is-first-order",
           "With the length counted from the first line of hinges instead of half a cell before it, "
           "the same strip is first order only.",

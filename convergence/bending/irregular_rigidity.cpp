@@ -3,8 +3,6 @@
 #include <numbers>
 
 #include "convergence/bending/bending_rigidity.h"
-#include "convergence/order.h"
-#include "convergence/tables.h"
 #include "reference/mesh/shapes.h"
 #include "verification/oracles/homogenised_bending.h"
 #include "verification/seeds.h"

@@ -1,11 +1,9 @@
 // shape-recovery: a sculpted shell is pulled out of shape, let go, and damped until it rests.
 #include <cmath>
-#include <numbers>
 
 #include "convergence/study.h"
 #include "reference/forces/bending.h"
 #include "reference/mesh/shapes.h"
-#include "reference/scene/scene.h"
 #include "verification/oracles/dense_algebra.h"
 #include "verification/specimens/stepper.h"
 

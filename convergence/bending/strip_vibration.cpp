@@ -5,8 +5,6 @@
 
 #include "convergence/bending/row_strip.h"
 #include "convergence/study.h"
-#include "convergence/order.h"
-#include "convergence/tables.h"
 #include "reference/dynamics/integrator.h"
 #include "verification/oracles/dense_algebra.h"
 #include "verification/oracles/gsl.h"
@@ -74,11 +72,11 @@ Eigen::Vector2d frequencies(const RowStrip& strip) {
 
 NamedFinding order_of(int mode, Table modes) {
   const Convergence error = convergence_of(modes, "relative error");
-  const Estimate deviation = order_deviation(error, 2, 1);
   modes.add({"order", "1", row_orders(error)});
-  const Verdict verdict{deviation.value, 0.1, deviation.uncertainty, "1",
-                        "another order is off by 1; the third term of the error is smaller than "
-                        "the second by the number of panels over the mode's number"};
+  const Verdict verdict =
+      order_verdict(error, 2, 1, 0.1,
+                    "another order is off by 1; the third term of the error is smaller than "
+                    "the second by the number of panels over the mode's number");
   const std::string number = std::to_string(mode);
   return {
       "strip-vibration.is-second-order.mode-" + number,
@@ -116,17 +114,6 @@ Scene free_strip() {
       scene.prescribed.push_back({i, scene.mesh.rest.col(i), {}});
   }
   return scene;
-}
-
-/// The free particles of a scene.
-std::vector<int> free_particles(const Scene& scene) {
-  std::vector<char> is_led(size_t(scene.mesh.particles()), 0);
-  for (const PrescribedParticle& prescribed : scene.prescribed)
-    is_led[size_t(prescribed.particle)] = 1;
-  std::vector<int> free;
-  for (int i = 0; i < scene.mesh.particles(); ++i)
-    if (!is_led[size_t(i)]) free.push_back(i);
-  return free;
 }
 
 /// Modes across the sheet from the subject's forces about the flat state.

@@ -1,12 +1,9 @@
 // cg-iterations: what the implicit velocity costs, in iterations of conjugate gradients a solve.
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <random>
 
-#include "convergence/order.h"
 #include "convergence/study.h"
 #include "reference/forces/bending.h"
 #include "reference/mesh/shapes.h"

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <limits>
 
-#include "convergence/order.h"
 #include "convergence/work_precision/precision_problem.h"
 #include "convergence/study.h"
 #include "reference/dynamics/integrator.h"

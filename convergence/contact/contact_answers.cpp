@@ -1,7 +1,5 @@
 // contact-answers: which part of self-collision answers contacts: repulsion, impulses
 // or rigid zones?
-#include <fmt/format.h>
-
 #include <cmath>
 
 #include "convergence/study.h"

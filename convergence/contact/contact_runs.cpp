@@ -4,6 +4,7 @@
 
 #include "reference/mesh/shapes.h"
 #include "verification/specimens/specimens.h"
+#include "verification/specimens/stepper.h"
 
 namespace foldproof {
 
@@ -30,13 +31,11 @@ Scene level_sheet(int n, double side, const Vector3& middle) {
 
 State run_to_end(const Subject& subject, const Scene& scene, double h, double end,
                  const std::function<void(const State&)>& watch) {
-  const auto prepared = require_offered(subject.prepare, "prepare")(scene);
-  const auto& step = require_offered(subject.step, "step");
-  State s = start_state(scene);
-  Work work;
+  Stepper stepper(subject, scene, scene.integrator);
+  State s = stepper.start();
   watch(s);
   while (s.time < end - h / 2) {
-    s = step(*prepared, {&s, 1}, h, work);
+    s = stepper.step(s, h);
     watch(s);
   }
   return s;

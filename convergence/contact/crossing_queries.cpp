@@ -1,10 +1,8 @@
 // Does the test for crossings miss one? Asked of many motions whose truth is known.
-#include <cmath>
 #include <optional>
 
 #include "convergence/contact/crossing_families.h"
 #include "convergence/study.h"
-#include "convergence/tables.h"
 #include "verification/oracles/feature_distance.h"
 #include "verification/processor_time.h"
 #include "verification/specimens/cubic_crossing.h"

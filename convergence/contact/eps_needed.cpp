@@ -2,10 +2,7 @@
 // into the object?
 #include <algorithm>
 #include <cmath>
-#include <string>
 
-#include "convergence/ranges.h"
-#include "convergence/order.h"
 #include "convergence/study.h"
 #include "reference/mesh/shapes.h"
 #include "reference/post/fold_projection.h"
@@ -123,17 +120,17 @@ Table range_of(const Body& body, int levels) {
 }
 
 NamedFinding order_finding(const Body& body, const Table& range) {
-  const Estimate deviation = order_deviation(convergence_of(range, "eps needed"), body.order, 2);
   const std::string power = body.order == 2 ? "as the square of the cloth's edge length"
                                             : "in proportion to the cloth's edge length";
-  return {"required-eps.order-is-as-derived." + body.name,
-          "On the " + body.words + " the eps that is needed grows " + power + ".",
-          {{deviation.value, 0.01, 0, "1",
-            "eps is found to 5e-4 of itself, which is 0.0015 of an order; the next term of "
-            "sqrt(R^2 + L^2/3) - R is L^2/(12 R^2) of the first, below 0.003 in the last pairs; "
-            "along an edge every scale looks alike"},
-           range,
-           "measured is |order - " + std::to_string(int(body.order)) + "| over the last pairs"}};
+  return {
+      "required-eps.order-is-as-derived." + body.name,
+      "On the " + body.words + " the eps that is needed grows " + power + ".",
+      {order_verdict(
+           convergence_of(range, "eps needed"), body.order, 2, 0.01,
+           "eps is found to 5e-4 of itself, which is 0.0015 of an order; the next term of "
+           "sqrt(R^2 + L^2/3) - R is L^2/(12 R^2) of the first, below 0.003 in the last pairs; "
+           "along an edge every scale looks alike"),
+       range, "measured is |order - " + std::to_string(int(body.order)) + "| over the last pairs"}};
 }
 
 NamedFinding bound_finding(const Body& body, const Table& range) {

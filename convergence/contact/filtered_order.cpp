@@ -1,15 +1,10 @@
 // filtered-order: what is left of the order of schemes A, B and C while contact or strain limits
 // correct their velocities.
-#include <algorithm>
 #include <cmath>
 
 #include "convergence/contact/contact_runs.h"
 #include "convergence/study.h"
-#include "convergence/order.h"
-#include "convergence/ranges.h"
-#include "convergence/tables.h"
 #include "reference/dynamics/integrator.h"
-#include "verification/evidence.h"
 #include "verification/specimens/stepper.h"
 
 namespace foldproof {

@@ -1,12 +1,10 @@
 // folding: a strip between two ends that move together, with and without a limit on compression.
-#include <algorithm>
 #include <cmath>
 
 #include "convergence/contact/section_profile.h"
 #include "convergence/study.h"
 #include "convergence/contact/wrinkle_measure.h"
 #include "reference/mesh/shapes.h"
-#include "reference/scene/scene.h"
 #include "verification/specimens/random.h"
 #include "verification/specimens/specimens.h"
 

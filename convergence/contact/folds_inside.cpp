@@ -2,12 +2,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "convergence/tables.h"
 #include "convergence/contact/contact_runs.h"
 #include "convergence/study.h"
 #include "reference/mesh/shapes.h"
 #include "reference/post/fold_projection.h"
 #include "verification/oracles/dense_algebra.h"
+#include "verification/specimens/specimens.h"
 
 namespace foldproof {
 
@@ -94,11 +94,9 @@ double mean_fold(const Scene& scene, const State& s) {
 
 /// How deep the deepest particle is that nothing holds [m]; 0 if none is inside.
 double deepest_free(const Scene& scene, const State& s) {
-  std::vector<char> held(size_t(s.x.cols()), 0);
-  for (const PrescribedParticle& particle : scene.prescribed) held[size_t(particle.particle)] = 1;
   Worst deepest;
-  for (Eigen::Index i = 0; i < s.x.cols(); ++i)
-    if (!held[size_t(i)]) deepest.observe(-distance_at(scene, s.x.col(i), s.time));
+  for (const int i : free_particles(scene))
+    deepest.observe(-distance_at(scene, s.x.col(i), s.time));
   return deepest.value();
 }
 
@@ -114,7 +112,7 @@ Table folds_of(const Subject& subject, Scene scene, double end,
   const double h = usual_step(scene);
   for (const double steps : taus_over_h) {
     scene.collision.forecast_time = steps * h;
-    const State s = run_to_end(subject, scene, h, end, [](const State&) {});
+    const State s = run_to_end(subject, scene, h, end);
     const bool is_tube = scene.mesh.particles() == around * (along + 1);
     folds.row(steps * h, deepest_free(scene, s), is_tube ? crests_a_ring(scene, s) : nan,
               mean_fold(scene, s));

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "convergence/contact/contact_runs.h"
-#include "convergence/order.h"
 #include "convergence/study.h"
 #include "reference/mesh/shapes.h"
 #include "verification/oracles/dense_algebra.h"
@@ -50,7 +49,7 @@ SceneObject ball_object(const Motion& motion) {
 /// The largest |phi| right after the step in which all points were forecast to lie on
 /// the surface [m].
 double forecast_miss(const Subject& subject, const Scene& scene, double h) {
-  const State end = run_to_end(subject, scene, h, h, [](const State&) {});
+  const State end = run_to_end(subject, scene, h, h);
   Worst worst;
   for (Eigen::Index i = 0; i < end.x.cols(); ++i)
     worst.observe(std::abs(distance_at(scene, end.x.col(i), end.time)));
@@ -104,15 +103,15 @@ Convergence errors_of(const Table& misses) {
 }
 
 NamedFinding order_finding(const Setting& setting, const Table& misses) {
-  const Estimate deviation = order_deviation(errors_of(misses), 2, 2);
-  return {"forecast-time.second-order-on-a-" + setting.name,
-          "On " + setting.words + ", it misses the surface by the square of the step.",
-          {{deviation.value, 0.1, deviation.uncertainty, "1",
-            "a first-order miss would be off by one: the forecast would then have the wrong "
-            "direction or velocity; the next term is smaller by the distance moved in a step over "
-            "the radius, a hundredth"},
-           misses,
-           "measured is |order - 2| of the last two pairs"}};
+  return {
+      "forecast-time.second-order-on-a-" + setting.name,
+      "On " + setting.words + ", it misses the surface by the square of the step.",
+      {order_verdict(
+           errors_of(misses), 2, 2, 0.1,
+           "a first-order miss would be off by one: the forecast would then have the wrong "
+           "direction or velocity; the next term is smaller by the distance moved in a step over "
+           "the radius, a hundredth"),
+       misses, "measured is |order - 2| of the last two pairs"}};
 }
 
 /// A point that comes down on a floor at forecast time tau: phi shrinks by the factor
@@ -151,7 +150,7 @@ NamedFinding next_step_finding(const Subject& subject) {
     scene.x.row(1).setConstant(height);
     scene.collision.response = response;
     scene.collision.forecast_time = 5 * h;
-    heights.row(response, run_to_end(subject, scene, h, h, [](const State&) {}).x(1, 0));
+    heights.row(response, run_to_end(subject, scene, h, h).x(1, 0));
   }
   const std::vector<double>& after = heights.numbers("height after a step");
   return {"forecast-time.long-forecast-is-no-step-prediction",

@@ -1,10 +1,7 @@
 // pointwise-contact: what lies between the particles, when they alone are held out of an object.
 #include <cmath>
-#include <limits>
 
 #include "convergence/contact/contact_runs.h"
-#include "convergence/order.h"
-#include "convergence/tables.h"
 #include "convergence/study.h"
 #include "verification/oracles/dense_algebra.h"
 
@@ -38,8 +35,7 @@ Table cuts(const Subject& subject, const std::vector<int>& meshes, PointKind poi
                  {"longest edge, stretched", "m"}},
                 meshes, [&](int n) {
                   const Scene scene = sheet_on_ball(n, points);
-                  const State end =
-                      run_to_end(subject, scene, usual_step(scene), 0.4, [](const State&) {});
+                  const State end = run_to_end(subject, scene, usual_step(scene), 0.4);
                   const Depths depths = depths_of(scene, end);
                   return std::tuple{std::sqrt(2.0) * side / n, depths.edges, depths.faces,
                                     longest_edge(scene, end)};
@@ -47,16 +43,16 @@ Table cuts(const Subject& subject, const std::vector<int>& meshes, PointKind poi
 }
 
 NamedFinding order_finding(const Table& cut) {
-  const Estimate deviation = order_deviation(convergence_of(cut, "depth of midpoints"), 2, 2);
   return {
       "pointwise-contact.edge-penetration-is-second-order",
       "Edges whose ends lie on a ball cut into it by the square of their length.",
-      {{deviation.value, 0.1, 0, "1",
-        "a chord of length L is L^2/(8R) deep, and another power is off by 1; between meshes whose "
-        "edges differ by a factor of one and a half, a tenth of an order is four percent of a "
-        "depth, more than the scatter from how the longest edges happen to lie along the ball"},
-       cut,
-       "measured is |order - 2| of the last two pairs"}};
+      {order_verdict(
+           convergence_of(cut, "depth of midpoints"), 2, 2, 0.1,
+           "a chord of length L is L^2/(8R) deep, and another power is off by 1; between meshes "
+           "whose "
+           "edges differ by a factor of one and a half, a tenth of an order is four percent of a "
+           "depth, more than the scatter from how the longest edges happen to lie along the ball"),
+       cut, "measured is |order - 2| of the last two pairs"}};
 }
 
 NamedFinding bound_finding(const Table& cut) {
@@ -97,7 +93,7 @@ NamedFinding spike_finding(const Subject& subject) {
   scene.objects.push_back(solid_object("pin", pin, 0));
   auto& body = std::get<RigidObject>(scene.objects[0].object.body);
   body.place = {oracles::rotation_between(Vector3::UnitZ(), Vector3::UnitY()), {0, -0.6, 0}};
-  const State end = run_to_end(subject, scene, usual_step(scene), 0.25, [](const State&) {});
+  const State end = run_to_end(subject, scene, usual_step(scene), 0.25);
   const double height = end.x.row(1).mean();
   return {
       "pointwise-contact.a-thin-pin-passes-through",
@@ -119,8 +115,6 @@ StudyResult run_pointwise_contact(const Subject& subject, Tier tier, const Progr
   StudyResult result;
   result.findings = {order_finding(particles), bound_finding(particles),
                      held_finding(particles, faces), spike_finding(subject)};
-  Curve chord{"chord"};
-  for (const double L : particles.numbers("edge")) chord.point(L, L * L / (8 * radius));
   result.figures.push_back(
       {"depth",
        "How deep edges and triangles lie in a ball that holds the particles out",
@@ -129,7 +123,9 @@ StudyResult run_pointwise_contact(const Subject& subject, Tier tier, const Progr
        2,
        "A sheet at rest on a ball of radius 0.2 m. Chord: L^2/(8R).",
        {curve_of("midpoints of edges", particles, "edge", "depth of midpoints"),
-        curve_of("centres of triangles", particles, "edge", "depth of centres"), chord}});
+        curve_of("centres of triangles", particles, "edge", "depth of centres"),
+        curve_over("chord", particles.numbers("edge"),
+                   [](double L) { return L * L / (8 * radius); })}});
   return result;
 }
 

@@ -1,10 +1,7 @@
 // Cost of self-collision, and the effect of thickness, step and rounds on the result.
 #include <algorithm>
 #include <cmath>
-#include <string_view>
-#include <vector>
 
-#include "convergence/tables.h"
 #include "convergence/study.h"
 #include "reference/filters/pair_search.h"
 #include "reference/mesh/shapes.h"
@@ -112,10 +109,10 @@ void add_zones(const Subject& subject, StudyResult& result) {
   for (const int count : {1, 2, 4, 8, 16}) {
     Work work;
     for (const unsigned seed : {31u, 32u, 33u}) {
-      Scene scene = layered_scene({4, 0.003, 0.001, 3, {0.002, 0, 0.2, count, true}, seed});
+      const Scene scene = layered_scene({4, 0.003, 0.001, 3, {0.002, 0, 0.2, count, true}, seed});
       const auto prepared = require_offered(subject.prepare, "prepare")(scene);
       const State start = start_state(scene);
-      require_offered(subject.step, "step")(*prepared, std::vector<State>{start}, 0.004, work);
+      require_offered(subject.step, "step")(*prepared, {&start, 1}, 0.004, work);
     }
     rounds.row(count, work.zones, work.zone_particles, work.crossings);
   }

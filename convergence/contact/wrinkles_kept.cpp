@@ -1,9 +1,6 @@
 // wrinkle-preservation: how much of the wrinkles inside an object survives the projection?
-#include <algorithm>
 #include <cmath>
-#include <string>
 
-#include "convergence/tables.h"
 #include "convergence/study.h"
 #include "convergence/contact/wrinkle_measure.h"
 #include "reference/mesh/shapes.h"
@@ -163,9 +160,7 @@ NamedFinding wavelength_stays(const std::string& map, const AllKept& kept) {
 Curve profile(const std::string& label, const PerParticle3& x) {
   Curve curve{label};
   const Eigen::Index first = (rows / 2) * (columns + 1);
-  for (int k = 60; k <= 180; ++k) {
-    curve.point(x(0, first + k), x(2, first + k));
-  }
+  for (int k = 60; k <= 180; ++k) curve.point(x(0, first + k), x(2, first + k));
   return curve;
 }
 
@@ -209,9 +204,8 @@ Figure shares(const std::vector<std::pair<std::string, AllKept>>& by_map) {
 /// A circle in the plane y = 0 about (x, 0) [m].
 Curve circle(const std::string& label, double x, double radius) {
   Curve curve{label};
-  for (int k = 0; k <= 96; ++k) {
+  for (int k = 0; k <= 96; ++k)
     curve.point(x + radius * std::cos(2 * pi * k / 96), radius * std::sin(2 * pi * k / 96));
-  }
   return curve;
 }
 

@@ -5,8 +5,6 @@
 
 #include "convergence/damping/artificial_damping.h"
 #include "convergence/damping/sheet_modes.h"
-#include "convergence/order.h"
-#include "convergence/study.h"
 #include "reference/dynamics/integrator.h"
 
 namespace foldproof {
@@ -190,13 +188,13 @@ NamedFinding order_of_loss(const VibratingSheet& sheet, const Response& response
     const double h = response.steps[s];
     losses.row(h, std::abs(loss_per_period(sheet.modes[fastest], response.free[s][fastest], h)));
   }
-  const Estimate deviation = order_deviation(convergence_of(losses, loss), law.order, 1);
   losses.add({"order of the pair", "1", row_orders(convergence_of(losses, loss))});
   return {"artificial-damping.change-per-period-is-as-derived." + law.name,
           "Under " + law.name + " undamped vibrations " + law.words + ".",
-          {{deviation.value, law.largest_deviation, deviation.uncertainty, "1",
-            "a loss of another power of the step is off by 1 at least; the next term of the "
-            "expansion leaves less than this at omega h = 1/8"},
+          {order_verdict(
+               convergence_of(losses, loss), law.order, 1, law.largest_deviation,
+               "a loss of another power of the step is off by 1 at least; the next term of the "
+               "expansion leaves less than this at omega h = 1/8"),
            losses,
            "measured is |order - expected| of the last pair, on the fastest mode of the sheet"}};
 }

@@ -2,7 +2,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <memory>
 
 #include "convergence/damping/damped_motion.h"
 #include "convergence/damping/monotonicity.h"

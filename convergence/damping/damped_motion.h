@@ -2,8 +2,6 @@
 // that folds, a sheet in which every damped mode moves.
 #pragma once
 
-#include <functional>
-#include <string>
 #include <string_view>
 #include <vector>
 

@@ -4,7 +4,6 @@
 #include "convergence/damping/artificial_damping.h"
 #include "convergence/damping/sheet_modes.h"
 #include "reference/dynamics/integrator.h"
-#include "reference/types.h"
 #include "verification/specimens/random.h"
 #include "verification/specimens/stepper.h"
 

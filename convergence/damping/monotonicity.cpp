@@ -5,7 +5,6 @@
 
 #include "convergence/damping/damped_motion.h"
 #include "convergence/damping/monotonicity.h"
-#include "convergence/study.h"
 #include "reference/dynamics/integrator.h"
 
 namespace foldproof {
@@ -36,8 +35,7 @@ NamedFinding is_monotone_on_a_hinge(const Subject& subject, const DampedMotion& 
   Table rows{{"motion", "1"}, {"h c/2", "1"}, {"overshoot or way back", "displacements"}};
   for (const double a : {0.7, 4.3, 10.0, 25.0, 400.0}) {
     const DampedRun run = run_damped(subject, hinge, method, a, 30);
-    const double wrong = run.work.unfinished_solves == 0 ? worst_overshoot_or_reversal(run)
-                                                         : std::numeric_limits<double>::quiet_NaN();
+    const double wrong = run.work.unfinished_solves == 0 ? worst_overshoot_or_reversal(run) : nan;
     rows.row(hinge.name, a, wrong);
   }
   return {"monotonicity.monotone-on-a-hinge." + method,
@@ -57,8 +55,7 @@ Finding distance_on_a_hinge(const Subject& subject, const DampedMotion& hinge,
   Table rows{{"motion", "1"}, {"h c/2", "1"}, {"farthest", "displacements"}};
   for (const double a : steps) {
     const DampedRun run = run_damped(subject, hinge, method, a, 30);
-    const double far = run.work.unfinished_solves == 0 ? largest_progress(run)
-                                                       : std::numeric_limits<double>::quiet_NaN();
+    const double far = run.work.unfinished_solves == 0 ? largest_progress(run) : nan;
     worst.observe(1.1 / far);
     rows.row(hinge.name, a, far);
   }
@@ -334,8 +331,7 @@ StudyResult run_monotonicity(const Subject& subject, Tier tier, const Progress& 
   progress(0.3);
   for (const std::string method : {"backward-euler", "linear-backward-euler"})
     result.findings.push_back(is_monotone(subject, motions, method));
-  for (NamedFinding& finding : bdf2_findings(subject, motions))
-    result.findings.push_back(std::move(finding));
+  result.add(bdf2_findings(subject, motions));
   add_nonlinear_hinge(subject, motions.hinge, result);
   progress(0.6);
   result.figures = monotonicity_figures(subject, motions, tier);

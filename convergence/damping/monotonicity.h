@@ -3,7 +3,6 @@
 
 #include "convergence/damping/damped_motion.h"
 #include "convergence/study.h"
-#include "verification/subject.h"
 
 namespace foldproof {
 

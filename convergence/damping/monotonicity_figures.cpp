@@ -1,5 +1,4 @@
 #include "convergence/damping/monotonicity.h"
-#include "convergence/ranges.h"
 
 #include <cmath>
 
@@ -22,15 +21,11 @@ Figure first_step_figure(const Subject& subject, const DampedMotions& motions) {
   const std::vector<double> as = geometric_range(0.05, 40, 16);
   for (const Integrator& method : integrators()) {
     if (method.history > 1) continue;
-    Curve curve{std::string(method.name)};
-    for (const double a : as)
-      curve.point(
-          a, std::abs(run_damped(subject, motions.triangle, method.name, a, 1).progress[1][0]));
-    figure.curves.push_back(std::move(curve));
+    figure.curves.push_back(curve_over(std::string(method.name), as, [&](double a) {
+      return std::abs(run_damped(subject, motions.triangle, method.name, a, 1).progress[1][0]);
+    }));
   }
-  Curve exact{"exact"};
-  for (const double a : as) exact.point(a, 1 - std::exp(-2 * a));
-  figure.curves.push_back(std::move(exact));
+  figure.curves.push_back(curve_over("exact", as, [](double a) { return 1 - std::exp(-2 * a); }));
   return figure;
 }
 
@@ -82,9 +77,7 @@ Figure history_figure(const Subject& subject, const DampedMotion& motion, const 
   for (const std::string& method : shown.methods) {
     Curve curve{method};
     const DampedRun run = run_damped(subject, motion, method, shown_a, 16);
-    for (size_t n = 0; n < run.progress.size(); ++n) {
-      curve.point(double(n), run.progress[n][0]);
-    }
+    for (size_t n = 0; n < run.progress.size(); ++n) curve.point(double(n), run.progress[n][0]);
     figure.curves.push_back(std::move(curve));
   }
   return figure;
@@ -100,13 +93,11 @@ Figure sheet_figure(const Subject& subject, const DampedMotions& motions, Tier t
                 "implicit midpoint rule neither below 1. BDF2 is started exactly."};
   const std::vector<double> as = geometric_range(0.1, 100, tier == Tier::quick ? 10 : 25);
   for (const std::string method : {"A", "B", "C", "BDF2", "implicit-midpoint"}) {
-    Curve curve{method};
-    for (const double a : as) {
+    figure.curves.push_back(curve_over(method, as, [&](double a) {
       const double wrong =
           worst_overshoot_or_reversal(run_damped(subject, motions.sheet, method, a, 20));
-      curve.point(a, wrong > least_shown && wrong < 1e5 ? wrong : nan);
-    }
-    figure.curves.push_back(std::move(curve));
+      return wrong > least_shown && wrong < 1e5 ? wrong : nan;
+    }));
   }
   return figure;
 }

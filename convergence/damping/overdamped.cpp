@@ -1,6 +1,5 @@
 // How every method comes to rest against stiffness that damping outweighs.
 #include "convergence/damping/monotonicity.h"
-#include "convergence/ranges.h"
 
 #include <cmath>
 

@@ -6,12 +6,12 @@
 #include <random>
 
 #include "convergence/study.h"
-#include "convergence/tables.h"
 #include "reference/dynamics/integrator.h"
 #include "reference/mesh/shapes.h"
 #include "verification/seeds.h"
 #include "verification/subject.h"
 #include "verification/specimens/specimens.h"
+#include "verification/specimens/stepper.h"
 
 namespace foldproof {
 
@@ -54,15 +54,14 @@ double asymmetry(const PerParticle3& x, const std::vector<int>& partner) {
 
 /// The asymmetry over a run: time, steps taken until then, distance.
 Table asymmetry_of_run(const Subject& subject, const Scene& scene, double end) {
-  const auto prepared = require_offered(subject.prepare, "prepare")(scene);
+  Stepper stepper(subject, scene, scene.integrator);
   const std::vector<int> partner = mirror_particles(scene);
-  State s = start_state(scene);
+  State s = stepper.start();
   const double h = 0.4 * elastic_limit(build_system(scene), s);
   const int steps = int(end / h), apart = steps / 40;
   Table history{{"time", "s"}, {"steps", "1"}, {"asymmetry", "m"}};
-  Work uncounted;
   for (int i = 1; i <= steps; ++i) {
-    s = require_offered(subject.step, "step")(*prepared, {&s, 1}, h, uncounted);
+    s = stepper.step(s, h);
     if (i % apart == 0) history.row(i * h, i, asymmetry(s.x, partner));
   }
   return history;

@@ -6,12 +6,8 @@
 #include <cmath>
 
 #include "convergence/study.h"
-#include "convergence/order.h"
-#include "convergence/ranges.h"
-#include "convergence/tables.h"
 #include "reference/dynamics/integrator.h"
 #include "reference/mesh/shapes.h"
-#include "verification/evidence.h"
 #include "verification/specimens/stepper.h"
 
 namespace foldproof {
@@ -129,17 +125,17 @@ Convergence relative_drift(const Drift& drift) {
 NamedFinding falls_with_the_order(const Drift& drift) {
   const int order = integrator_named(drift.scheme).order;
   const Convergence convergence = relative_drift(drift);
-  const Estimate deviation =
-      order_deviation(convergence, order, std::min(pairs_judged, int(drift.levels.rows()) - 2));
   Table evidence = with_columns(drift.levels, {"step", "relative drift"});
   evidence.add({"order of the pair", "1", row_orders(convergence)});
   evidence.add(drift.levels.column("drift in roundings"));
-  Finding finding{{deviation.value, 0.1, deviation.uncertainty, "1",
-                   "a drift of another power of the step is off by 1; at these steps the next term "
-                   "leaves less than a tenth"},
-                  std::move(evidence),
-                  "measured is the largest |order - " + std::to_string(order) +
-                      "| over the last pairs, three if there are so many"};
+  Finding finding{
+      order_verdict(
+          convergence, order, std::min(pairs_judged, int(drift.levels.rows()) - 2), 0.1,
+          "a drift of another power of the step is off by 1; at these steps the next term "
+          "leaves less than a tenth"),
+      std::move(evidence),
+      "measured is the largest |order - " + std::to_string(order) +
+          "| over the last pairs, three if there are so many"};
   return {"momentum-drift.damped-drift-order." + drift.scheme,
           "The angular momentum of a free, damped sheet drifts under " + drift.scheme +
               ", by order " + std::to_string(order) + " in the step.",

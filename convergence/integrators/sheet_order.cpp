@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "convergence/integrators/oracle_problem.h"
-#include "convergence/study.h"
 #include "convergence/integrators/time_order.h"
 #include "reference/mesh/shapes.h"
 

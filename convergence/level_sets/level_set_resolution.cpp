@@ -1,11 +1,8 @@
 // level-set-resolution: errors of distance and direction on grids against their spacing; what the
 // crude start costs.
 #include <cmath>
-#include <string>
 
 #include "convergence/level_sets/level_set_resolution.h"
-#include "convergence/order.h"
-#include "convergence/study.h"
 #include "reference/level_set/narrow_band.h"
 #include "reference/mesh/shapes.h"
 #include "verification/processor_time.h"
@@ -98,10 +95,9 @@ constexpr auto why_slow =
     "only, which are off by .11 to .13 on these grids. ";
 
 NamedFinding order_finding(const ExpectedOrder& expected, const Convergence& convergence) {
-  const Estimate deviation = order_deviation(convergence, expected.order, 1);
   return {"level-set-resolution." + expected.name,
           expected.claim,
-          {{deviation.value, expected.largest_deviation, deviation.uncertainty, "1", expected.why},
+          {order_verdict(convergence, expected.order, 1, expected.largest_deviation, expected.why),
            columns_of(convergence, expected.unit),
            "measured is how far the order between the two finest grids is from the one expected"}};
 }

@@ -1,10 +1,6 @@
 // Part of the study level-set-resolution: errors of grids.
 #pragma once
 
-#include <functional>
-#include <string>
-#include <vector>
-
 #include "convergence/study.h"
 #include "reference/level_set/fast_marching.h"
 

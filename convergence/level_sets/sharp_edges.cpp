@@ -4,7 +4,6 @@
 #include <memory>
 #include <random>
 
-#include "convergence/order.h"
 #include "convergence/study.h"
 #include "reference/level_set/grid.h"
 #include "reference/level_set/octree.h"
@@ -136,15 +135,14 @@ NamedFinding angle_finding(const Sampling& sampling) {
 }
 
 NamedFinding phi_finding(const Sampling& sampling) {
-  const Estimate deviation =
-      order_deviation(convergence_of(sampling.errors, "largest miss of phi"), 1, 2);
-  return {"sharp-edges.phi-is-first-order." + sampling.name,
-          "On " + sampling.words + " the surface misses an edge by a part of a cell.",
-          {{deviation.value, 0.2, deviation.uncertainty, "1",
-            "a kink of phi is cut off over a cell: order 1; the largest of 6000 random places is "
-            "known to a tenth or so, a fifth of an order between a spacing and its half"},
-           sampling.errors,
-           "measured is |order - 1| of the last two pairs"}};
+  return {
+      "sharp-edges.phi-is-first-order." + sampling.name,
+      "On " + sampling.words + " the surface misses an edge by a part of a cell.",
+      {order_verdict(
+           convergence_of(sampling.errors, "largest miss of phi"), 1, 2, 0.2,
+           "a kink of phi is cut off over a cell: order 1; the largest of 6000 random places is "
+           "known to a tenth or so, a fifth of an order between a spacing and its half"),
+       sampling.errors, "measured is |order - 1| of the last two pairs"}};
 }
 
 Figure figure_of(const std::vector<Sampling>& samplings) {

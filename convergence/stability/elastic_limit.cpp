@@ -2,12 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "convergence/order.h"
 #include "convergence/stability/stable_step.h"
 #include "convergence/study.h"
-#include "convergence/tables.h"
 #include "reference/dynamics/integrator.h"
-#include "verification/subject.h"
 
 namespace foldproof {
 
@@ -46,12 +43,12 @@ Table limits_of(const Subject& subject, const Regime& regime, const std::vector<
 
 NamedFinding exponent_of(const Regime& regime, const Table& limits) {
   const Convergence exact = convergence_of(limits, "2/omega");
-  const Estimate deviation = order_deviation(exact, regime.exponent, 1);
   Table evidence = with_columns(limits, {"width of a cell", "2/omega"});
   evidence.add({"exponent", "1", row_orders(exact)});
-  const Verdict verdict{deviation.value, 0.05, 0, "1",
-                        "another whole exponent is off by 1; the border's effect on the fastest "
-                        "mode vanishes as the number of cells grows"};
+  const Verdict verdict =
+      order_verdict(exact, regime.exponent, 1, 0.05,
+                    "another whole exponent is off by 1; the border's effect on the fastest "
+                    "mode vanishes as the number of cells grows");
   return {"elastic-limit.exponent." + regime.name,
           "With " + regime.words +
               ", the largest stable step is proportional to the cells' width to the power " +

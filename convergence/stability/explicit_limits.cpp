@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "convergence/order.h"
 #include "convergence/stability/stable_step.h"
 #include "convergence/stability/step_matrix.h"
 #include "reference/dynamics/integrator.h"
@@ -27,19 +26,20 @@ double largest_damping_rate(const Subject& subject, const Scene& scene) {
 
 NamedFinding damping_exponent(const Damping& damping, Table limits, double exponent) {
   const Convergence rates = convergence_of(limits, "2/rate of damping");
-  const Estimate deviation = order_deviation(rates, exponent, 1);
   limits.add({"exponent", "1", row_orders(rates)});
-  return {"stability-sheet.damping-limit-exponent." + damping.name,
-          "With " + damping.words +
-              ", where damping decides, the largest stable step of a fully explicit method is "
-              "proportional to the cells' width to the power " +
-              (exponent == 2 ? "two." : "three."),
-          {{deviation.value, 0.1, 0, "1",
-            "another whole exponent is off by 1; the border's effect on the fastest mode vanishes "
-            "as the number of cells grows"},
-           std::move(limits),
-           "measured is |exponent - expected| of the last pair; 2/rate is forward Euler's and "
-           "RK2's limit, where damping decides"}};
+  return {
+      "stability-sheet.damping-limit-exponent." + damping.name,
+      "With " + damping.words +
+          ", where damping decides, the largest stable step of a fully explicit method is "
+          "proportional to the cells' width to the power " +
+          (exponent == 2 ? "two." : "three."),
+      {order_verdict(
+           rates, exponent, 1, 0.1,
+           "another whole exponent is off by 1; the border's effect on the fastest mode vanishes "
+           "as the number of cells grows"),
+       std::move(limits),
+       "measured is |exponent - expected| of the last pair; 2/rate is forward Euler's and "
+       "RK2's limit, where damping decides"}};
 }
 
 }  // namespace
@@ -131,15 +131,12 @@ NamedFinding factor_exponent(const Table& counts) {
         &classical = counts.numbers("classical Runge-Kutta 4");
   Table factors{{"width of a cell", "1"}, {"steps of RK4 over those of A", "1"}};
   for (size_t i = 0; i < widths.size(); ++i) factors.row(widths[i], classical[i] / mixed[i]);
-  const Estimate deviation =
-      order_deviation(convergence_of(factors, "steps of RK4 over those of A"), -1, 1);
   return {"stability-sheet.tenth-width.step-ratio-exponent",
           "The factor between the steps of explicit and mixed methods grows as one over the width "
           "of a cell.",
-          {{deviation.value, 0.1, 0, "1",
-            "an exponent of 0, if the factor stayed, or of 2 is off by 1"},
-           factors,
-           "measured is |exponent + 1| of the last pair"}};
+          {order_verdict(convergence_of(factors, "steps of RK4 over those of A"), -1, 1, 0.1,
+                         "an exponent of 0, if the factor stayed, or of 2 is off by 1"),
+           factors, "measured is |exponent + 1| of the last pair"}};
 }
 
 /// At a tenth the steps are also found by trying: runs of the whole sheet, and for A, which leaves

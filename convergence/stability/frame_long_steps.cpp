@@ -1,7 +1,6 @@
 // frame-long-steps: implicit methods in steps of a frame, on cloth that crumples.
 #include <cmath>
 
-#include "convergence/order.h"
 #include "convergence/study.h"
 #include "reference/mesh/shapes.h"
 #include "verification/specimens/probe.h"

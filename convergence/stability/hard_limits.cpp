@@ -1,20 +1,15 @@
 // hard-limits: where stiffness ratios, slivers, graded meshes, heavy damping and jumps of the step
 // stop the schemes.
-#include <algorithm>
 #include <cmath>
-#include <limits>
-#include <string>
 
-#include "convergence/ranges.h"
 #include "convergence/stability/stable_step.h"
 #include "convergence/stability/step_matrix.h"
 #include "convergence/study.h"
-#include "convergence/tables.h"
 #include "reference/dynamics/integrator.h"
 #include "reference/mesh/shapes.h"
-#include "reference/scene/scene.h"
-#include "verification/subject.h"
+#include "verification/specimens/probe.h"
 #include "verification/specimens/specimens.h"
+#include "verification/specimens/stepper.h"
 
 namespace foldproof {
 
@@ -26,38 +21,28 @@ constexpr double fraction = 0.9;                               // s: the long st
 constexpr double one_minus_squared = 1 - fraction * fraction;  // 1 - s^2
 constexpr int jump = 100;
 
-/// A sheet that vibrates in one mode.
-struct Vibration {
-  const Subject& subject;
-  const Scene& scene;
-  const FastestMode& mode;
-  PreparedScene& prepared;
-};
-
-double energy(const Vibration& of, const State& s) {
-  const PerParticle mass = lumped_masses(of.scene.mesh, of.scene.density);
-  return 0.5 * s.v.colwise().squaredNorm().dot(mass.transpose()) +
-         require_offered(of.subject.potential_energy, "potential_energy")(of.prepared, s);
-}
-
 /// Energies after the jump over that at the start [1].
 struct EnergyRange {
   Worst largest, over_least;  // largest, and one over the least
 };
 
-EnergyRange after_jump(const Vibration& of, double phase) {
-  const double h = fraction * 2 / of.mode.omega;
-  State s = start_state(of.scene);
-  s.x += small_disturbance * of.mode.shape;
-  const double start = energy(of, s);
-  Work uncounted;
-  const long fine = std::lround(phase / of.mode.omega / (h / jump));
-  for (long i = 0; i < fine; ++i) s = of.subject.step(of.prepared, {&s, 1}, h / jump, uncounted);
+/// The sheet vibrates in one mode.
+EnergyRange after_jump(Stepper& stepper, const Probe& probe, const FastestMode& mode,
+                       double phase) {
+  const PerParticle mass = lumped_masses(stepper.scene().mesh, stepper.scene().density);
+  const auto energy = [&](const State& s) {
+    return 0.5 * s.v.colwise().squaredNorm().dot(mass.transpose()) + probe.energy(s);
+  };
+  const double h = fraction * 2 / mode.omega;
+  State s = stepper.start();
+  s.x += small_disturbance * mode.shape;
+  const double start = energy(s);
+  s = stepper.run(s, h / jump, int(std::lround(phase / mode.omega / (h / jump))));
   EnergyRange range;
   for (int i = 0; i < 60; ++i) {
-    s = of.subject.step(of.prepared, {&s, 1}, h, uncounted);
-    range.largest.observe(energy(of, s) / start);
-    range.over_least.observe(start / energy(of, s));
+    s = stepper.step(s, h);
+    range.largest.observe(energy(s) / start);
+    range.over_least.observe(start / energy(s));
   }
   return range;
 }
@@ -70,8 +55,8 @@ EnergyRange after_jump(const Vibration& of, double phase) {
 /// eight phases of the period.
 NamedFinding step_jump(const Subject& subject, Scene scene, const std::string& scheme) {
   scene.integrator = scheme;
-  const auto prepared = require_offered(subject.prepare, "prepare")(scene);
-  require_offered(subject.step, "step");
+  Stepper stepper(subject, scene, scheme);
+  const Probe probe(subject, scene);
   const FastestMode mode = fastest_mode(subject, scene);
   Worst worst;
   Table energies{{"phase at the jump", "rad"},
@@ -79,7 +64,7 @@ NamedFinding step_jump(const Subject& subject, Scene scene, const std::string& s
                  {"largest energy after it, over the start's", "1"}};
   for (int k = 0; k < 8; ++k) {
     const double phase = 2 * pi * k / 8;
-    const EnergyRange range = after_jump({subject, scene, mode, *prepared}, phase);
+    const EnergyRange range = after_jump(stepper, probe, mode, phase);
     energies.row(phase, 1 / range.over_least.value(), range.largest.value());
     worst.observe(range.largest.value() * one_minus_squared);
     worst.observe(range.over_least.value() * one_minus_squared);
@@ -113,7 +98,7 @@ double collapse_time(const Scene& scene) {
       simulate(build_system(scene), integrator_named("C"), start_state(scene), scene.schedule, {});
   const bool is_lost =
       result.stop && result.stop->reason.find("lost its area") != std::string::npos;
-  return is_lost ? result.stop->time : std::numeric_limits<double>::quiet_NaN();
+  return is_lost ? result.stop->time : nan;
 }
 
 /// The finding hard-limits.slivers-collapse-at-any-step. It runs the reference.
@@ -316,10 +301,9 @@ Figure damping_figure(const Table& limits) {
     figure.curves.push_back(curve_of(scheme, group_of(limits, "scheme", scheme),
                                      "damping ratio of the fastest mode",
                                      "largest stable step over 2/omega"));
-  Curve derived{"derived for C: zeta + sqrt(1 + zeta^2)"};
-  for (const double zeta : geometric_range(0.5, 100, 81))
-    derived.point(zeta, zeta + std::sqrt(1 + zeta * zeta));
-  figure.curves.push_back(std::move(derived));
+  figure.curves.push_back(
+      curve_over("derived for C: zeta + sqrt(1 + zeta^2)", geometric_range(0.5, 100, 81),
+                 [](double zeta) { return zeta + std::sqrt(1 + zeta * zeta); }));
   return figure;
 }
 

@@ -1,14 +1,10 @@
 #include "convergence/stability/stability_sheet.h"
 
 #include <cmath>
-#include <utility>
 
-#include "convergence/ranges.h"
 #include "convergence/stability/stable_step.h"
 #include "convergence/stability/step_matrix.h"
-#include "convergence/tables.h"
 #include "reference/dynamics/integrator.h"
-#include "verification/oracles/estimate.h"
 #include "verification/oracles/stability.h"
 
 namespace foldproof {

@@ -4,10 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "convergence/ranges.h"
 #include "convergence/stability/step_matrix.h"
 #include "convergence/study.h"
-#include "convergence/tables.h"
 #include "reference/dynamics/integrator.h"
 #include "verification/oracles/exact_solutions.h"
 #include "verification/oracles/stability.h"
@@ -135,9 +133,8 @@ NamedFinding unlimited_finding(const Subject& subject, const Integrator& integra
 
 Curve known_curve(const Integrator& integrator) {
   Curve curve{"limit as known"};
-  for (const double zeta : geometric_range(0.01, 10, 61)) {
+  for (const double zeta : geometric_range(0.01, 10, 61))
     curve.point(known_limit(integrator, zeta), zeta);
-  }
   return curve;
 }
 

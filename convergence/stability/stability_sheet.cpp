@@ -2,12 +2,8 @@
 // in the damping and what is not.
 #include <cmath>
 
-#include "convergence/order.h"
 #include "convergence/stability/stability_sheet.h"
-#include "convergence/ranges.h"
 #include "convergence/stability/step_matrix.h"
-#include "convergence/study.h"
-#include "convergence/tables.h"
 #include "reference/dynamics/integrator.h"
 #include "verification/oracles/stability.h"
 

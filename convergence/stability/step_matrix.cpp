@@ -89,14 +89,12 @@ Scene clamped_sheet(double spring_damping, double bending_damping) {
 
 SmallMotion free_motion(Scene scene, double omega0) {
   const PerParticle mass = lumped_masses(scene.mesh, scene.density);
-  std::vector<char> held(size_t(mass.size()), 0);
-  for (const PrescribedParticle& p : scene.prescribed) held[size_t(p.particle)] = 1;
-  const Eigen::Index n = 3 * (mass.size() - Eigen::Index(scene.prescribed.size()));
+  const std::vector<int> free = free_particles(scene);
+  const Eigen::Index n = 3 * Eigen::Index(free.size());
   Eigen::MatrixXd shapes = Eigen::MatrixXd::Zero(3 * mass.size(), n);
   Eigen::Index column = 0;
-  for (Eigen::Index i = 0; i < mass.size(); ++i)
-    for (Eigen::Index d = 0; d < 3 && !held[size_t(i)]; ++d)
-      shapes(3 * i + d, column++) = 1 / std::sqrt(mass[i]);
+  for (const int i : free)
+    for (int d = 0; d < 3; ++d) shapes(3 * i + d, column++) = 1 / std::sqrt(mass[i]);
   return {std::move(scene), std::move(shapes), omega0, sheet_disturbance};
 }
 
@@ -167,7 +165,7 @@ oracles::Scheme derived_scheme(std::string_view integrator) {
 }
 
 double spectral_radius(const Eigen::MatrixXd& matrix) {
-  if (!matrix.allFinite()) return std::numeric_limits<double>::quiet_NaN();
+  if (!matrix.allFinite()) return nan;
   Worst worst;
   const Eigen::VectorXcd values = oracles::eigenvalues(matrix);
   for (const std::complex<double>& value : values) worst.observe(std::abs(value));
@@ -193,7 +191,7 @@ double largest_constant_step(const SteppedMotion& of, const StepRange& range) {
 }
 
 double transient_growth(const Eigen::MatrixXd& matrix, int powers) {
-  if (!matrix.allFinite()) return std::numeric_limits<double>::quiet_NaN();
+  if (!matrix.allFinite()) return nan;
   Worst worst;
   worst.observe(1);
   Eigen::MatrixXd power = matrix;

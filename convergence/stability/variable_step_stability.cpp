@@ -1,7 +1,6 @@
 // variable-step-stability: steps that are stable each by itself need not be so in turn.
 #include <cmath>
 
-#include "convergence/ranges.h"
 #include "convergence/stability/stable_step.h"
 #include "convergence/stability/step_matrix.h"
 #include "convergence/study.h"
@@ -9,7 +8,7 @@
 #include "reference/mesh/shapes.h"
 #include "verification/oracles/exact_solutions.h"
 #include "verification/oracles/stability.h"
-#include "verification/subject.h"
+#include "verification/specimens/stepper.h"
 
 namespace foldproof {
 
@@ -240,17 +239,14 @@ double sheet_growth(const Subject& subject, Scene scene, const std::string& sche
   scene.stretch = StretchMaterial{stretch, 0, 1};
   const double omega = fastest_mode(subject, scene).omega;
   scene.stretch->damping = 2 * zeta * stretch / omega;
-  scene.integrator = scheme;
-  const auto prepared = require_offered(subject.prepare, "prepare")(scene);
-  require_offered(subject.step, "step");
-  State s = start_state(scene);
+  Stepper stepper(subject, scene, scheme);
+  State s = stepper.start();
   s.x += small_disturbance * disturbance_shape(s.x.cols());
   const double start = (s.x - scene.x).norm();
   Worst worst;
-  Work uncounted;
   for (int i = 0; i < 2 * pairs && !(worst.value() >= enough); ++i) {
     const double h = (i % 2 == 0 ? short_step : long_step) / omega;
-    s = subject.step(*prepared, {&s, 1}, h, uncounted);
+    s = stepper.step(s, h);
     worst.observe((s.x - scene.x).norm() / start);
   }
   return worst.value();
@@ -298,8 +294,7 @@ StudyResult run_variable_step_stability(const Subject& subject, Tier tier,
   result.maps.push_back(ratio_map(subject, "BDF2", fineness));
   result.maps.push_back(both_steps_map(subject, fineness));
   progress(++done / 5);
-  for (NamedFinding& finding : bdf2_growing_steps(subject))
-    result.findings.push_back(std::move(finding));
+  result.add(bdf2_growing_steps(subject));
   progress(1);
   return result;
 }

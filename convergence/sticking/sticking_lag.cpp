@@ -1,17 +1,14 @@
 // sticking-lag: how far what sticks lags behind, what forecasts buy against a plain spring, and
 // what they cost.
-#include <fmt/format.h>
-
 #include <Eigen/Geometry>
 #include <cmath>
 #include <complex>
 
-#include "convergence/ranges.h"
 #include "convergence/sticking/sticking_scenes.h"
 #include "convergence/stability/step_matrix.h"
-#include "convergence/tables.h"
 #include "convergence/study.h"
 #include "reference/dynamics/integrator.h"
+#include "verification/specimens/stepper.h"
 
 namespace foldproof {
 
@@ -49,18 +46,15 @@ Lag measured_lag(const Subject& subject, const std::string& method, double k, do
                  double h) {
   Motion motion;
   motion.angular_velocity = {0, 0, turning};
-  Scene scene = particle_on_palm({arm, 0, 0}, motion, k, tau);
-  scene.integrator = method;
+  Stepper stepper(subject, particle_on_palm({arm, 0, 0}, motion, k, tau), method);
   const double omega = std::sqrt(k / particle_mass);
   const double settled = 12 * std::max(tau, 2 / omega), watched = 3 * 2 * pi / omega;
-  const auto prepared = require_offered(subject.prepare, "prepare")(scene);
-  State s = start_state(scene);
+  State s = stepper.start();
   s.v.col(0) = Vector3(0, turning * arm, 0);
-  Work uncounted;
   std::vector<std::complex<double>> seen;
   std::complex<double> sum = 0;
   while (s.time < settled + watched) {
-    s = require_offered(subject.step, "step")(*prepared, {&s, 1}, h, uncounted);
+    s = stepper.step(s, h);
     if (s.bonds.empty()) return {nan, nan};
     if (s.time < settled) continue;
     seen.push_back(std::complex<double>(s.x(0, 0), s.x(1, 0)) * std::polar(1.0, -turning * s.time) -
@@ -173,7 +167,7 @@ void add_lags(const Subject& subject, Tier tier, StudyResult& result) {
 double measured_limit(const Subject& subject, const char* method, double omega_tau) {
   constexpr double k = 300;
   const double omega = std::sqrt(k / particle_mass);
-  const StuckParticle particle(subject, method, k, omega_tau / omega);
+  StuckParticle particle(subject, method, k, omega_tau / omega);
   double stable = 0.5, grows = 100;
   for (int n = 0; n < 40; ++n) {
     const double middle = std::sqrt(stable * grows);

@@ -1,6 +1,5 @@
 #include "convergence/sticking/sticking_scenes.h"
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -8,15 +7,16 @@
 #include "convergence/stability/step_matrix.h"
 #include "verification/specimens/sticking_scenes.h"
 #include "verification/specimens/specimens.h"
+#include "verification/specimens/stepper.h"
 
 namespace foldproof {
 
 namespace {
 
 /// Bonds after the first step, everything else at rest.
-State begun(const Subject& subject, PreparedScene& prepared, State s) {
-  Work uncounted;
-  s.bonds = require_offered(subject.step, "step")(prepared, {&s, 1}, 1e-12, uncounted).bonds;
+State begun(Stepper& stepper) {
+  State s = stepper.start();
+  s.bonds = stepper.step(s, 1e-12).bonds;
   return s;
 }
 
@@ -42,22 +42,19 @@ Scene particle_on_palm(const Vector3& place, const Motion& motion, double stiffn
 
 StuckParticle::StuckParticle(const Subject& subject, const char* method, double stiffness,
                              double forecast_time)
-    : subject_(subject), omega_(std::sqrt(stiffness / particle_mass)) {
-  Scene scene = particle_on_palm({0.11, 0.23, 0}, Motion{}, stiffness, forecast_time);
-  scene.integrator = method;
-  prepared_ = require_offered(subject.prepare, "prepare")(scene);
-  rest_ = begun(subject, *prepared_, start_state(scene));
-}
+    : omega_(std::sqrt(stiffness / particle_mass)),
+      stepper_(subject, particle_on_palm({0.11, 0.23, 0}, Motion{}, stiffness, forecast_time),
+               method),
+      rest_(begun(stepper_)) {}
 
-Eigen::MatrixXd StuckParticle::step_matrix(double h) const {
+Eigen::MatrixXd StuckParticle::step_matrix(double h) {
   constexpr double small = 1e-9;  // m; k fades by 1e-15 over it
   Eigen::MatrixXd matrix(2, 2);
   for (int j = 0; j < 2; ++j) {
     State s = rest_;
     if (j == 0) s.x(2, 0) += small;
     if (j == 1) s.v(2, 0) += small * omega_;
-    Work uncounted;
-    const State next = require_offered(subject_.step, "step")(*prepared_, {&s, 1}, h, uncounted);
+    const State next = stepper_.step(s, h);
     matrix.col(j) << (next.x(2, 0) - rest_.x(2, 0)) / small, next.v(2, 0) / (small * omega_);
   }
   return matrix;
@@ -95,14 +92,12 @@ double layers_radius(const Subject& subject, double omega_h, double share) {
   patch.far = 0.05;
   scene.sticky = {patch};
   scene.solver.tolerance = 1e-14;
-  const auto prepared = require_offered(subject.prepare, "prepare")(scene);
-  const State rest = begun(subject, *prepared, start_state(scene));
+  Stepper stepper(subject, scene, scene.integrator);
+  const State rest = begun(stepper);
 
   std::vector<Eigen::Index> free;  // coordinates
-  for (Eigen::Index i = 0; i < rest.x.cols(); ++i)
-    if (std::ranges::none_of(scene.prescribed,
-                             [&](const PrescribedParticle& p) { return p.particle == i; }))
-      for (Eigen::Index k = 0; k < 3; ++k) free.push_back(3 * i + k);
+  for (const int i : free_particles(scene))
+    for (int k = 0; k < 3; ++k) free.push_back(3 * i + k);
   const Eigen::Index n = Eigen::Index(free.size());
   Eigen::MatrixXd matrix(2 * n, 2 * n);
   for (Eigen::Index j = 0; j < 2 * n; ++j) {
@@ -110,8 +105,7 @@ double layers_radius(const Subject& subject, double omega_h, double share) {
       State s = rest;
       if (j < n) s.x.reshaped()[free[size_t(j)]] += by;
       if (j >= n) s.v.reshaped()[free[size_t(j - n)]] += by / h;
-      Work uncounted;
-      return require_offered(subject.step, "step")(*prepared, {&s, 1}, h, uncounted);
+      return stepper.step(s, h);
     };
     const State ahead = stepped(small), behind = stepped(-small);
     const Eigen::VectorXd x = (ahead.x - behind.x).reshaped() / (2 * small),
@@ -134,13 +128,11 @@ double iterations_where(const Subject& subject, int n, StuckTo to, double number
   patch.near = 0.003;
   patch.far = 0.05;
   scene.sticky = {patch};
-  const auto prepared = require_offered(subject.prepare, "prepare")(scene);
-  State s = start_state(scene);
+  Stepper stepper(subject, scene, scene.integrator);
+  State s = stepper.start();
   s.v = disturbance_shape(s.x.cols());
-  Work work;
-  for (int k = 0; k < 3; ++k)
-    s = require_offered(subject.step, "step")(*prepared, {&s, 1}, h, work);
-  return double(work.cg_iterations) / double(work.solves);
+  stepper.run(s, h, 3);
+  return double(stepper.work().cg_iterations) / double(stepper.work().solves);
 }
 
 }  // namespace foldproof

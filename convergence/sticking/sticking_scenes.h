@@ -2,9 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <memory>
 
 #include "verification/subject.h"
+#include "verification/specimens/stepper.h"
 
 namespace foldproof {
 
@@ -22,12 +22,11 @@ class StuckParticle {
   StuckParticle(const Subject& subject, const char* method, double stiffness, double forecast_time);
 
   /// Of (omega x, v) over a step of h [s], 2 x 2.
-  Eigen::MatrixXd step_matrix(double h) const;
+  Eigen::MatrixXd step_matrix(double h);
 
  private:
-  const Subject& subject_;
   double omega_;
-  std::unique_ptr<PreparedScene> prepared_;
+  Stepper stepper_;
   State rest_;
 };
 

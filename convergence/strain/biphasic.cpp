@@ -1,14 +1,11 @@
 // biphasic: a strip under a growing load, of weak springs with strain limits and of
 // springs without.
-#include <algorithm>
 #include <chrono>
 #include <cmath>
 
 #include "convergence/study.h"
-#include "convergence/tables.h"
 #include "reference/mesh/shapes.h"
 #include "reference/scene/scene.h"
-#include "verification/evidence.h"
 
 namespace foldproof {
 

@@ -1,16 +1,12 @@
 // strain-momentum: which scheme keeps the angular momentum of a free sheet while strain
 // limits act on it.
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <cmath>
 
-#include "convergence/order.h"
-#include "convergence/ranges.h"
 #include "convergence/study.h"
 #include "reference/dynamics/integrator.h"
 #include "reference/dynamics/system.h"
 #include "reference/mesh/shapes.h"
-#include "verification/evidence.h"
 #include "verification/specimens/stepper.h"
 
 namespace foldproof {

@@ -3,12 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "convergence/order.h"
 #include "convergence/study.h"
-#include "convergence/tables.h"
 #include "reference/dynamics/system.h"
 #include "reference/mesh/shapes.h"
-#include "verification/evidence.h"
 #include "verification/specimens/differences.h"
 #include "verification/specimens/strain_scenes.h"
 

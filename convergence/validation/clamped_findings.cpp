@@ -282,8 +282,7 @@ Figure section_figure(const ClampedLadder& ladder) {
 
 void add_clamped_wrinkles(const Subject& subject, StudyResult& result) {
   const ClampedLadder ladder = ladder_of_meshes(subject);
-  for (NamedFinding finding : {narrower(ladder), later(ladder), lower(ladder)})
-    result.findings.push_back(std::move(finding));
+  result.add({narrower(ladder), later(ladder), lower(ladder)});
   result.figures.push_back(stress_figure(ladder.flat));
   result.figures.push_back(section_figure(ladder));
   result.tables.push_back(other_lengths(subject));

@@ -292,11 +292,10 @@ StudyResult run_cusick_drape(const Subject& subject, Tier tier, const Progress& 
   result.tables = {published_drapes(curve)};
   if (tier == Tier::full) result.tables.push_back(fabrics_and_stretch(drapes, ladder.error));
   if (tier == Tier::full) result.findings.push_back(error_is_below_the_tests(ladder));
-  for (NamedFinding finding :
-       {fold_number_follows_the_start(starts), folds_change_the_coefficient(starts, ladder.error),
-        coefficient_grows(curve, ladder.error), is_at_rest(drapes),
-        never_crosses_itself(drapes.table)})
-    result.findings.push_back(std::move(finding));
+  result.add({fold_number_follows_the_start(starts),
+              folds_change_the_coefficient(starts, ladder.error),
+              coefficient_grows(curve, ladder.error), is_at_rest(drapes),
+              never_crosses_itself(drapes.table)});
   result.figures = outlines_of(starts.drapes);
   result.figures.push_back(curve_over_bending_length(curve));
   return result;

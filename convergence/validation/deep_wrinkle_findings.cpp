@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <vector>
 
 #include "convergence/validation/wrinkle_findings.h"
 #include "convergence/validation/comparison.h"
@@ -12,7 +11,6 @@
 #include "verification/oracles/exact_solutions.h"
 #include "verification/oracles/sheets/deep_wrinkles.h"
 #include "verification/specimens/specimens.h"
-#include "verification/subject.h"
 
 namespace foldproof {
 
@@ -233,20 +231,17 @@ NamedFinding amplitude_agrees(const std::vector<DepthLadder>& ladders) {
 /// At the greatest compression, over the law for a sine along the length.
 NamedFinding sections_fold_alike(const DepthLadder& deepest) {
   const double law = oracles::folded_in_the_mean, u = 1 - deepest.amplitude.should.value;
-  Table table = no_comparisons("1");
-  add_comparison(table,
-                 {fmt::format("amplitude at {:g} onsets", deepest.over_onset),
-                  deepest.amplitude.simulated / law,
-                  deepest.amplitude.numerical / law,
-                  {oracles::folded_in_each_section / law, std::abs(u) / law}},
-                 law_resolution);
   return {"stretched-wrinkles.each-section-folds-its-own-compression",
           "At eight times the onset's compression, wrinkles halfway between the clamps are lower "
           "by 2^(1/2), within five percent of it, than the law for a sine along the length, which "
           "folds the compression away in the mean only.",
-          judge_comparisons(std::move(table), law_resolution, "five percent of the law's amplitude",
-                            "over (2^(1/2)/pi) wavelength (Delta/W)^(1/2); the uncertainty of D is "
-                            "its distance from the plate")};
+          judge_comparison({fmt::format("amplitude at {:g} onsets", deepest.over_onset),
+                            deepest.amplitude.simulated / law,
+                            deepest.amplitude.numerical / law,
+                            {oracles::folded_in_each_section / law, std::abs(u) / law}},
+                           law_resolution, "five percent of the law's amplitude",
+                           "over (2^(1/2)/pi) wavelength (Delta/W)^(1/2); the uncertainty of D is "
+                           "its distance from the plate")};
 }
 
 NamedFinding deep_wrinkles_rest(const Table& levels) {
@@ -284,19 +279,15 @@ Figure deep_profiles(const std::vector<DepthLadder>& ladders) {
                 {"place over the length", "1"},
                 {"amplitude over (1/pi) wavelength (Delta/W)^(1/2)", "1"},
                 "The finest meshes beside the plate: the farther beyond the onset, the flatter."};
-  std::vector<double> places;
-  for (int i = 0; i <= 100; ++i) places.push_back(i / 100.0);
+  const std::vector<double> places = linear_range(0, 1, 101);
   for (const DepthLadder* one : {&ladders.front(), &ladders.back()}) {
-    Curve simulated{fmt::format("simulated, {:g} onsets", one->over_onset)},
-        plate{fmt::format("plate, {:g} onsets", one->over_onset)};
+    Curve simulated{fmt::format("simulated, {:g} onsets", one->over_onset)};
     const std::vector<double>& rows = one->finest.amplitudes;
     for (std::size_t i = 1; i + 1 < rows.size(); i += 2)  // row 0 is half a row before the clamp
       simulated.point((double(i) - 0.5) / double(rows.size() - 2), rows[i] / one->unit);
-    const std::vector<double> heights =
-        oracles::deep_wrinkles_by_series(one->plate, places).heights;
-    for (std::size_t i = 0; i < places.size(); ++i) plate.point(places[i], heights[i]);
     figure.curves.push_back(std::move(simulated));
-    figure.curves.push_back(std::move(plate));
+    figure.curves.push_back({fmt::format("plate, {:g} onsets", one->over_onset), places,
+                             oracles::deep_wrinkles_by_series(one->plate, places).heights});
   }
   return figure;
 }

@@ -37,16 +37,6 @@ struct FoldOnMesh {
   double unfinished;  // of the solve [1]
 };
 
-/// The highest row, by the parabola through it and its neighbours.
-double highest_of(const std::vector<oracles::StripPoint>& points) {
-  std::size_t top = 1;
-  for (std::size_t i = 1; i + 1 < points.size(); ++i)
-    if (points[i].up > points[top].up) top = i;
-  const double before = points[top - 1].up, after = points[top + 1].up;
-  const double bend = before - 2 * points[top].up + after;
-  return points[top].up - std::pow((after - before) / 2, 2) / (2 * bend);
-}
-
 /// Contact with the floor by its two conditions: no row is below it, and it pulls on none. A panel
 /// more lies flat where the first free one points down, one less where the floor would have to pull
 /// at the row where the strip lifts off.
@@ -64,7 +54,7 @@ FoldOnMesh fold_on_mesh(const Subject& subject, const FoldTest& test, int panels
     } else {
       FoldOnMesh fold{flat,
                       lift_off,
-                      share * highest_of(mesh.points),
+                      share * highest_row(mesh.points),
                       share * mesh.spacing,
                       {},
                       mesh.rest.strain + mesh.rest.last_step};
@@ -78,11 +68,11 @@ FoldOnMesh fold_on_mesh(const Subject& subject, const FoldTest& test, int panels
 
 Curve shape_of(const FoldTest& test, double lift_off) {
   Curve curve{std::string(test.words) + ", elastica"};
-  std::vector<double> even;
-  for (int i = 0; i <= 100; ++i) even.push_back(i / 100.0);
   curve.point(0, 0);
   for (const oracles::StripPoint& point :
-       oracles::strip_by_collocation(oracles::lifted_part(test.strip, lift_off), even).points)
+       oracles::strip_by_collocation(oracles::lifted_part(test.strip, lift_off),
+                                     linear_range(0, 1, 101))
+           .points)
     curve.point(lift_off + (1 - lift_off) * point.across, (1 - lift_off) * point.up);
   return curve;
 }
@@ -111,16 +101,14 @@ void add_fold(const Subject& subject, const FoldTest& test, StudyResult& result)
   result.figures.back().curves.push_back(rows);
   result.tables.push_back({test.name, "Meshes of the " + std::string(test.words), levels});
   const double scale = fold_resolution * fold.height.value;
-  Table table = no_comparisons("1");
-  add_comparison(table, compare_ladder("height of the fold over L", heights, fold.height), scale);
   result.findings.push_back(
       {fmt::format("fold-tests.height-agrees.{}", test.name),
        fmt::format("The height of a {} on a smooth floor is the elastica's within one percent.",
                    test.words),
-       judge_comparisons(std::move(table), scale,
-                         "a laboratory reads the height to one percent of it",
-                         "S at the finest of the meshes; it lies flat in whole panels, so that "
-                         "heights need not fall in order")});
+       judge_comparison(compare_ladder("height of the fold over L", heights, fold.height), scale,
+                        "a laboratory reads the height to one percent of it",
+                        "S at the finest of the meshes; it lies flat in whole panels, so that "
+                        "heights need not fall in order")});
 }
 
 StudyResult run_fold_tests(const Subject& subject, Tier, const Progress& progress) {
@@ -176,15 +164,13 @@ NamedFinding threshold_agrees(const Subject& subject, double compression, Tier t
   exact.point(compression, should.value);
   simulated.point(compression, thresholds.values.back());
   const double scale = threshold_resolution * should.value;
-  Table table = no_comparisons("1");
-  add_comparison(table, compare_ladder("friction at which the tip slips", thresholds, should),
-                 scale);
   return {fmt::format("pressed-strip.threshold-agrees.eps-{:.2f}", compression),
           fmt::format("A strip that hangs from a clamp and is pressed on a floor by {:.0f} % of "
                       "its length slips at the elastica's friction, within two percent.",
                       100 * compression),
-          judge_comparisons(std::move(table), scale, "two percent of the threshold",
-                            "S is the ratio of the forces that hold the tip")};
+          judge_comparison(compare_ladder("friction at which the tip slips", thresholds, should),
+                           scale, "two percent of the threshold",
+                           "S is the ratio of the forces that hold the tip")};
 }
 
 StudyResult run_pressed_strip(const Subject& subject, Tier tier, const Progress& progress) {

@@ -40,15 +40,12 @@ PerParticle3 Freedoms::moved(PerParticle3 x, const Eigen::VectorXd& by) const {
   return x;
 }
 
-Freedoms free_particles(const Scene& scene) {
+Freedoms freedoms_of(const Scene& scene) {
   const std::size_t particles = std::size_t(scene.mesh.particles());
   Freedoms freedoms{std::vector<std::array<Freedom, 3>>(particles),
                     std::vector<double>(particles, 1), 0};
-  std::vector<char> held(particles, 0);
-  for (const PrescribedParticle& one : scene.prescribed) held[std::size_t(one.particle)] = 1;
-  for (std::size_t i = 0; i < particles; ++i)
-    if (!held[i])
-      for (Freedom& freedom : freedoms.of[i]) freedom.unknown = freedoms.count++;
+  for (const int i : free_particles(scene))
+    for (Freedom& freedom : freedoms.of[std::size_t(i)]) freedom.unknown = freedoms.count++;
   return freedoms;
 }
 
@@ -121,7 +118,7 @@ Settled settle(const Settling& settling, PerParticle3 x) {
 
 Equilibrium equilibrium_of(const Subject& subject, const Scene& scene) {
   const Probe probe(subject, scene);
-  const Freedoms freedoms = free_particles(scene);
+  const Freedoms freedoms = freedoms_of(scene);
   const Hessian hessian(scene, freedoms);
   const Eigen::VectorXd masses =
       freedoms.gather(lumped_masses(scene.mesh, scene.density).transpose().replicate(3, 1));

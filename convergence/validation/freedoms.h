@@ -5,7 +5,6 @@
 #include <array>
 #include <vector>
 
-#include "reference/scene/scene.h"
 #include "verification/specimens/probe.h"
 
 namespace foldproof {
@@ -31,7 +30,7 @@ struct Freedoms {
 };
 
 /// All coordinates of the particles that the scene does not prescribe.
-Freedoms free_particles(const Scene& scene);
+Freedoms freedoms_of(const Scene& scene);
 
 /// The derivative of the energy's gradient by the unknowns. It is the reference's.
 class Hessian {

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 
-#include "convergence/order.h"
 #include "convergence/validation/comparison.h"
 #include "convergence/study.h"
 #include "reference/mesh/shapes.h"
@@ -93,10 +92,8 @@ HungStrip hung(const Subject& subject, const HungTest& test, int cells) {
   Scene scene = limp_strip(cells);
   const oracles::HungChain& chain = test.chain;
   // starts as a parabola through the two points, of about the right length
-  std::vector<double> s;
-  for (int i = 0; i <= cells; ++i) s.push_back(double(i) / cells);
   for (Eigen::Index i = 0; i < scene.x.cols(); ++i) {
-    const double at = s[std::size_t(row_of(scene, i, cells))];
+    const double at = double(row_of(scene, i, cells)) / cells;
     scene.x(0, i) = chain.across * at * length;
     scene.x(2, i) = (chain.up * at - 1.2 * at * (1 - at)) * length;
     if (at == 0 || at == 1) scene.prescribed.push_back({int(i), scene.x.col(i), Motion{}});
@@ -127,9 +124,7 @@ NamedFinding shape_agrees(const Subject& subject, const HungTest& test, Tier tie
     up.values.push_back(strip.pull_up);
     for (Ladder* ladder : {&sags, &across, &up}) update_worst(ladder->floor, 1e3 * strip.speed);
   }
-  std::vector<double> even;
-  for (int i = 0; i <= 2000; ++i) even.push_back(i / 2000.0);
-  const oracles::Catenary catenary = oracles::catenary(test.chain, even);
+  const oracles::Catenary catenary = oracles::catenary(test.chain, linear_range(0, 1, 2001));
   double lowest = 0;
   for (const oracles::CatenaryPoint& point : catenary.points) lowest = std::min(lowest, point.up);
   Table table = no_comparisons("1");
@@ -219,16 +214,15 @@ std::vector<NamedFinding> frequencies_agree(const Subject& subject, Tier tier) {
   for (int k = 0; k < modes; ++k) {
     const oracles::Estimate should = oracles::chain_frequency_by_series(k + 1);
     const double scale = chain_resolution * should.value;
-    Table table = no_comparisons("1");
-    add_comparison(
-        table, compare_ladder("frequency over sqrt(g/L)", ladders[std::size_t(k)], should), scale);
     findings.push_back(
         {fmt::format("hanging-chain.frequency-agrees.mode-{}", k + 1),
          fmt::format("A limp strip that hangs from one end swings in mode {} as often as a chain, "
                      "within one percent.",
                      k + 1),
-         judge_comparisons(std::move(table), scale, "a hundredth of the frequency",
-                           "S from the forces' derivatives at the finest mesh, angular")});
+         judge_comparison(
+             compare_ladder("frequency over sqrt(g/L)", ladders[std::size_t(k)], should), scale,
+             "a hundredth of the frequency",
+             "S from the forces' derivatives at the finest mesh, angular")});
   }
   return findings;
 }
@@ -244,8 +238,7 @@ StudyResult run_hanging_chain(const Subject& subject, Tier tier, const Progress&
     result.findings.push_back(shape_agrees(subject, test, tier, shapes));
     progress(double(result.findings.size()) / 3);
   }
-  for (NamedFinding& finding : frequencies_agree(subject, tier))
-    result.findings.push_back(std::move(finding));
+  result.add(frequencies_agree(subject, tier));
   progress(1);
   result.figures.push_back(std::move(shapes));
   return result;

@@ -22,13 +22,6 @@ struct Weight {
 constexpr Weight weights[] = {{"gamma-tenth", 0.1}, {"gamma-1", 1},      {"gamma-10", 10},
                               {"gamma-100", 100},   {"gamma-1000", 1e3}, {"gamma-10000", 1e4}};
 
-Ladder ladder_of(const StripLadder& levels, const char* column) {
-  Ladder ladder;
-  ladder.values = levels.levels.numbers(column);
-  ladder.floor = levels.floor;
-  return ladder;
-}
-
 /// A hundredth of the way that the tip has moved from where it is without weight, over L.
 double resolution(const StripLadder& levels) {
   return share * std::hypot(levels.height.value, 1 - levels.reach.value);
@@ -70,27 +63,15 @@ double resolution_of_shape(const StripLadder& levels) {
 }
 
 NamedFinding shape_agrees(const Weight& weight, const StripLadder& levels) {
-  const Verdict verdict{levels.levels.numbers(distance_column).back(), resolution_of_shape(levels),
-                        levels.floor, "1",
-                        "a hundredth of the way of the tip, for every point; where that is more, a "
-                        "tenth of the tip's reach: a limp thread has none"};
   return {fmt::format("heavy-cantilever.shape-agrees.{}", weight.name),
           fmt::format("At the finest mesh no row of a clamped strip of weight gamma = {} is "
                       "farther from the elastica than one percent of the tip's way from level, or "
                       "than a tenth of the tip's reach if that is less.",
                       weight.gamma),
-          {verdict, levels.levels, "D by collocation"}};
-}
-
-void show(const Weight& weight, const StripLadder& levels, Figure& figure) {
-  Curve elastica{fmt::format("elastica, gamma = {}", weight.gamma)};
-  for (const oracles::StripPoint& point : levels.elastica.points)
-    elastica.point(point.across, point.up);
-  Curve simulated{fmt::format("simulated, gamma = {}", weight.gamma)};
-  for (std::size_t i = 0; i < levels.points.size(); i += 4)
-    simulated.point(levels.points[i].across, levels.points[i].up);
-  figure.curves.push_back(elastica);
-  figure.curves.push_back(simulated);
+          shape_verdict(levels, resolution_of_shape(levels),
+                        "a hundredth of the way of the tip, for every point; where that is more, a "
+                        "tenth of the tip's reach: a limp thread has none",
+                        "D by collocation")};
 }
 
 StudyResult run_heavy_cantilever(const Subject& subject, Tier tier, const Progress& progress) {
@@ -105,7 +86,10 @@ StudyResult run_heavy_cantilever(const Subject& subject, Tier tier, const Progre
     const StripLadder levels = strip_ladder(subject, test, panels_for(weight, tier));
     result.findings.push_back(tip_agrees(weight, levels));
     result.findings.push_back(shape_agrees(weight, levels));
-    show(weight, levels, shapes);
+    show(levels, levels.points.size(),
+         {fmt::format("elastica, gamma = {}", weight.gamma),
+          fmt::format("simulated, gamma = {}", weight.gamma)},
+         shapes);
     progress(double(result.findings.size()) / (2 * std::size(weights)));
   }
   result.figures.push_back(std::move(shapes));

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <vector>
 
 #include "convergence/study.h"
 #include "convergence/validation/comparison.h"
@@ -14,7 +13,6 @@
 #include "verification/oracles/sheets/hung_cone.h"
 #include "verification/specimens/probe.h"
 #include "verification/specimens/specimens.h"
-#include "verification/subject.h"
 
 namespace foldproof {
 

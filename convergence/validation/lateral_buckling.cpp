@@ -12,12 +12,10 @@
 #include "convergence/study.h"
 #include "convergence/validation/comparison.h"
 #include "reference/mesh/shapes.h"
-#include "reference/scene/scene.h"
 #include "verification/oracles/chains_and_ribbons.h"
 #include "verification/oracles/homogenised_bending.h"
 #include "verification/specimens/probe.h"
 #include "verification/specimens/specimens.h"
-#include "verification/subject.h"
 
 namespace foldproof {
 
@@ -288,16 +286,14 @@ Comparison compare_ribbons(const Subject& subject, int rows, Tier tier, StudyRes
 
 NamedFinding load_agrees(const Comparison& ribbons, int rows) {
   const double scale = resolution * ribbons.should.value;
-  Table table = no_comparisons("1");
-  add_comparison(table, ribbons, scale);
   return {
       fmt::format("lateral-buckling.load-agrees.{}-rows", rows),
       fmt::format(
           "A ribbon of {} rows of equilateral triangles, on edge, tips under the weight that the "
           "theory of narrow ribbons gives for the mesh's own rigidities, within two percent.",
           rows),
-      judge_comparisons(std::move(table), scale, "two percent of the load",
-                        "S at the longest ribbon; D = ke/4")};
+      judge_comparison(ribbons, scale, "two percent of the load",
+                       "S at the longest ribbon; D = ke/4")};
 }
 
 NamedFinding isotropic_differs(const Comparison& widest) {
@@ -325,9 +321,8 @@ Figure mode_figure() {
                 {"distance from the clamp over L", "1"},
                 {"twist over the free end's", "1"},
                 "The mode of the longest ribbons beside the theory's, a power series."};
-  Curve exact{"narrow ribbon"};
-  for (int i = 0; i <= 100; ++i) exact.point(i / 100.0, oracles::tipping_twist(1 - i / 100.0));
-  figure.curves.push_back(exact);
+  figure.curves = {curve_over("narrow ribbon", linear_range(0, 1, 101),
+                              [](double place) { return oracles::tipping_twist(1 - place); })};
   return figure;
 }
 

@@ -7,7 +7,6 @@
 
 #include "convergence/validation/wrinkle_findings.h"
 #include "convergence/validation/comparison.h"
-#include "convergence/study.h"
 #include "convergence/validation/wrinkled_sheet.h"
 #include "verification/oracles/sheets/stretched_wrinkles.h"
 
@@ -183,18 +182,15 @@ NamedFinding prefactor_agrees(const SheetLadder& longest) {
   const oracles::Wrinkles law =
       oracles::wrinkles_by_scaling(reach_of(longest.sheet) / longest.sheet.length);
   const double u = law.wavelength.uncertainty / law.wavelength.value;
-  Table table = no_comparisons("1");
-  add_comparison(table,
-                 {"wavelength over (D/T)^(1/4) L^(1/2)",
-                  pi_root * longest.wavelength.simulated,
-                  pi_root * longest.wavelength.numerical,
-                  {pi_root, pi_root * u}},
-                 pi_root * resolution);
   return {"stretched-wrinkles.prefactor-agrees",
           "Where bending reaches least far against the length, the wavelength is 2 pi^(1/2) "
           "(D/T)^(1/4) L^(1/2), within one percent.",
-          judge_comparisons(std::move(table), pi_root * resolution, "one percent of a wavelength",
-                            words_of(longest.sheet))};
+          judge_comparison({"wavelength over (D/T)^(1/4) L^(1/2)",
+                            pi_root * longest.wavelength.simulated,
+                            pi_root * longest.wavelength.numerical,
+                            {pi_root, pi_root * u}},
+                           pi_root * resolution, "one percent of a wavelength",
+                           words_of(longest.sheet))};
 }
 
 /// Meshes whose edges are longer than bending reaches.
@@ -264,17 +260,15 @@ Figure profile_figure(const SheetLadder& first) {
                 {"place over the length", "1"},
                 {"height over the greatest", "1"},
                 "The first sheet on its finest mesh beside the plate, by functions."};
-  Curve simulated{"simulated"}, plate{"plate under tension"};
+  Curve simulated{"simulated"};
   const std::vector<double>& rows = first.finest.profile;
   const std::size_t stride = std::max<std::size_t>(rows.size() / 40, 1);
   for (std::size_t i = 0; i < rows.size(); i += stride)
     // row 0 is half a row before the clamp's middle
     simulated.point((double(i) + 0.5) / double(rows.size()), rows[i]);
-  std::vector<double> places;
-  for (int i = 0; i <= 100; ++i) places.push_back(i / 100.0);
-  const std::vector<double> heights =
-      oracles::wrinkle_profile(reach_of(first.sheet) / first.sheet.length, places);
-  for (std::size_t i = 0; i < places.size(); ++i) plate.point(places[i], heights[i]);
+  const std::vector<double> places = linear_range(0, 1, 101);
+  const Curve plate{"plate under tension", places,
+                    oracles::wrinkle_profile(reach_of(first.sheet) / first.sheet.length, places)};
   figure.curves = {simulated, plate};
   return figure;
 }

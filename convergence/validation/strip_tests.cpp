@@ -26,58 +26,37 @@ std::vector<StripTest> strip_tests() {
   };
 }
 
-Ladder height_ladder(const StripLadder& levels) {
-  Ladder ladder;
-  ladder.values = levels.levels.numbers(height_column);
-  ladder.floor = levels.floor;
-  return ladder;
-}
-
 NamedFinding height_agrees(const StripTest& test, const StripLadder& levels) {
   const double scale = std::abs(levels.height.value) * resolution;
-  Table table = no_comparisons("1");
-  add_comparison(
-      table, compare_ladder("height of the middle over L", height_ladder(levels), levels.height),
-      scale);
   return {fmt::format("strip-tests.height-agrees.{}", test.name),
           fmt::format("The height of a {} is the elastica's within one percent.", test.words),
-          judge_comparisons(table, scale, "a laboratory reads the height to one percent of it",
-                            "S at the finest mesh")};
+          judge_comparison(compare_ladder("height of the middle over L",
+                                          ladder_of(levels, height_column), levels.height),
+                           scale, "a laboratory reads the height to one percent of it",
+                           "S at the finest mesh")};
 }
 
 NamedFinding shape_agrees(const StripTest& test, const StripLadder& levels) {
-  const Verdict verdict{levels.levels.numbers(distance_column).back(), resolution, levels.floor,
-                        "1", "a hundredth of the strip's length, for every point"};
-  return {fmt::format("strip-tests.shape-agrees.{}", test.name),
-          fmt::format("At the finest mesh no row of a {} is farther than one percent of the "
-                      "strip's length from the elastica.",
-                      test.words),
-          {verdict, levels.levels, ""}};
+  return {
+      fmt::format("strip-tests.shape-agrees.{}", test.name),
+      fmt::format("At the finest mesh no row of a {} is farther than one percent of the "
+                  "strip's length from the elastica.",
+                  test.words),
+      shape_verdict(levels, resolution, "a hundredth of the strip's length, for every point", "")};
 }
 
 NamedFinding order_of(const StripTest& test, const StripLadder& levels) {
   Convergence errors = convergence_of(levels.levels, distance_column);
   errors.floor = levels.floor;
-  const oracles::Estimate deviation = order_deviation(errors, 2, 1);
   Table evidence = levels.levels;
   evidence.add({"order", "1", row_orders(errors)});
-  const Verdict verdict{deviation.value, 0.1, deviation.uncertainty, "1",
-                        "another order, as with a clamp on the hinge line, is off by 1; the third "
-                        "term of the error is smaller than the second by the number of panels"};
+  const Verdict verdict =
+      order_verdict(errors, 2, 1, 0.1,
+                    "another order, as with a clamp on the hinge line, is off by 1; the third "
+                    "term of the error is smaller than the second by the number of panels");
   return {fmt::format("strip-tests.is-second-order.{}", test.name),
           fmt::format("The shape of a {} tends to the elastica's with second order.", test.words),
           {verdict, std::move(evidence), ""}};
-}
-
-void show(const StripTest& test, const StripLadder& levels, Figure& figure) {
-  Curve elastica{test.words + ", elastica"};
-  for (const oracles::StripPoint& point : levels.elastica.points)
-    elastica.point(point.across, point.up);
-  Curve simulated{test.words + ", simulated"};
-  for (std::size_t i = 0; i + 1 < levels.points.size(); i += 4)
-    simulated.point(levels.points[i].across, levels.points[i].up);
-  figure.curves.push_back(elastica);
-  figure.curves.push_back(simulated);
 }
 
 Figure shapes_of(const std::string& kind) {
@@ -101,7 +80,8 @@ StudyResult run_strip_tests(const Subject& subject, Tier tier, const Progress& p
     result.findings.push_back(order_of(tests[i], levels));
     if (result.figures.empty() || result.figures.back().name != tests[i].kind)
       result.figures.push_back(shapes_of(tests[i].kind));
-    show(tests[i], levels, result.figures.back());
+    show(levels, levels.points.size() - 1,
+         {tests[i].words + ", elastica", tests[i].words + ", simulated"}, result.figures.back());
     progress(double(i + 1) / double(tests.size()));
   }
   return result;
