@@ -32,7 +32,7 @@ Outcome outcome_of(const Verdict& verdict);
 struct Finding {
   Verdict verdict;
   Table evidence;
-  std::string note;  // what a reader must know besides the numbers; may be empty
+  std::string note = {};  // what a reader must know besides the numbers
   // what was measured, in words and units, where the judged number is another; may be empty
   std::string headline = {};
   // of a failure without a number: what happened, alike in findings that fail for the same reason

@@ -405,11 +405,11 @@ StudyResult run_bending_rigidity(const Subject& subject, Tier tier, const Progre
                              all[1].numbers("D/ke, relaxed"), last_change(refinements[1])));
   Worst drift;
   for (const Table& refinement : refinements) drift.observe(last_change(refinement));
-  result.findings.push_back(refining_does_not_cure(
-      "bending-rigidity.depends-on-pattern",
-      "Curved along x, different patterns resist differently, and refinement does not remove that.",
-      at_zero, drift.value()));
-  result.findings.push_back(border_is_first_order(subject, levels, refined));
+  result.add({refining_does_not_cure("bending-rigidity.depends-on-pattern",
+                                     "Curved along x, different patterns resist differently, and "
+                                     "refinement does not remove that.",
+                                     at_zero, drift.value()),
+              border_is_first_order(subject, levels, refined)});
   for (const size_t p : {0, 1})
     result.findings.push_back(free_strip(subject, regular_patterns()[p]));
   result.tables.push_back(rigidity_table(all));

@@ -4,7 +4,6 @@
 #include "convergence/study.h"
 #include "reference/mesh/shapes.h"
 #include "verification/oracles/dense_algebra.h"
-#include "verification/subject.h"
 #include "verification/specimens/specimens.h"
 #include "verification/specimens/stepper.h"
 

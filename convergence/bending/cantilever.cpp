@@ -155,7 +155,7 @@ NamedFinding clamp_is_half_a_cell_before(const Refined& refined) {
   return {"cantilever.clamp-on-the-hinges-is-first-order",
           "With the length counted from the first line of hinges instead of half a cell before it, "
           "the same strip is first order only.",
-          {verdict, naive, ""}};
+          {verdict, naive}};
 }
 
 NamedFinding patterns_agree(const Subject& subject, const LoadCase& load) {
@@ -212,9 +212,8 @@ StudyResult run_cantilever(const Subject& subject, Tier tier, const Progress& pr
     progress(double(all.size()) / 7);
   }
   for (const Refined& refined : all) result.findings.push_back(order_of(refined));
-  result.findings.push_back(within_one_percent(all));
-  result.findings.push_back(clamp_is_half_a_cell_before(all[1]));
-  result.findings.push_back(patterns_agree(subject, heavy(5)));
+  result.add({within_one_percent(all), clamp_is_half_a_cell_before(all[1]),
+              patterns_agree(subject, heavy(5))});
   result.figures.push_back(std::move(weight));
   result.figures.push_back(std::move(tip));
   return result;

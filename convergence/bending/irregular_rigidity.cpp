@@ -13,11 +13,11 @@ namespace foldproof {
 
 namespace {
 
-constexpr double ke = 0.0037;  // J
+constexpr double gentle_ke = 0.0037;  // J
 
 Scene bending_scene(TriangleMesh mesh) {
   Scene scene = scene_at_rest(std::move(mesh), 0.17);
-  add_flat_hinges(scene, ke, 0);
+  add_flat_hinges(scene, gentle_ke, 0);
   return scene;
 }
 
@@ -81,7 +81,8 @@ class GentleSheet {
   /// inside where the subject's forces vanish.
   double forced(double angle) const { return rigidity(cylinder(angle)); }
   double relaxed(double angle) const {
-    // conjugate gradients: over the plane, forces are linear in heights as far as the slopes' square
+    // conjugate gradients: over the plane, forces are linear in heights as far as the square of the
+    // slopes
     constexpr double tolerance = 1e-9;  // of the forces, to those at the start
     // sum of the heights tried [m]
     const double probing = 1e-4 * width_ * double(scene_.mesh.particles());
@@ -124,7 +125,7 @@ class GentleSheet {
     for (size_t h = 0; h < flat_.hinges.size(); ++h)
       scene.rest_angles[h] = flat_.counted[h] ? 0 : angle_of(scene.mesh.hinges[h], x);
     return 2 * Probe(subject_, scene).energy(resting_state(x)) /
-           (ke * area_ * gentle_curvature * gentle_curvature);
+           (gentle_ke * area_ * gentle_curvature * gentle_curvature);
   }
   /// Force across the sheet, 0 where held [N].
   Eigen::VectorXd pull(const Eigen::VectorXd& heights) const {
@@ -310,11 +311,11 @@ void show(const std::vector<Row>& rows, StudyResult& result) {
       figure.curves.push_back(
           curve_of(row.disorder.words + ", " + kind, row.samples, "width of a cell", kind));
   result.figures.push_back(std::move(figure));
-  result.tables.push_back(
-      {"irregular",
-       "D/ke of irregular meshes: means over meshes and directions; settled: of the first mesh",
-       with_columns(all_meshes(rows),
-                    {"mesh", "width of a cell", "forced", "standard error", "settled"})});
+  result.tables.push_back({"irregular",
+                           "D/ke of irregular meshes: means over meshes and directions; "
+                           "settled: of the first mesh",
+                           with_columns(all_meshes(rows), {"mesh", "width of a cell", "forced",
+                                                           "standard error", "settled"})});
 }
 
 }  // namespace

@@ -159,8 +159,7 @@ StudyResult run_shape_return(const Subject& subject, Tier tier, const Progress& 
   const Return flat = let_go(subject, shells[1], RestAngles::flat);
   figure.curves.push_back(
       curve_of(shells[1].words + ", flat rest angles", flat.history, "time", "distance"));
-  result.findings.push_back(comes_back(shells, returns));
-  result.findings.push_back(angles_matter(shells[1], returns[1], flat));
+  result.add({comes_back(shells, returns), angles_matter(shells[1], returns[1], flat)});
   result.figures.push_back(std::move(figure));
   return result;
 }

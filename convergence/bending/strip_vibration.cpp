@@ -96,7 +96,7 @@ NamedFinding is_the_beam(const std::array<Table, 2>& modes) {
   return {"strip-vibration.matches-the-beam",
           "At the finest mesh the first two frequencies of a clamped strip are the beam's within "
           "one percent.",
-          {verdict, frequencies, ""}};
+          {verdict, frequencies}};
 }
 
 // --- steps ---
@@ -214,8 +214,7 @@ StudyResult run_strip_vibration(const Subject& subject, Tier tier, const Progres
     figure.curves.push_back(curve_of("mode " + std::to_string(mode + 1),
                                      convergence_of(modes[mode], "relative error")));
   }
-  result.findings.push_back(is_the_beam(modes));
-  result.findings.push_back(steps_keep_the_frequency(subject));
+  result.add({is_the_beam(modes), steps_keep_the_frequency(subject)});
   result.figures.push_back(std::move(figure));
   return result;
 }

@@ -81,11 +81,11 @@ StudyResult run_contact_answers(const Subject& subject, Tier, const Progress& pr
       {"contact-answers.repulsion-answers-calm-contact",
        "Where a sheet that lands on another moves by less than its thickness in a step, repulsion "
        "answers more than nine of ten contacts.",
-       {{calm, 0.1, 0, "1", "nine of ten are a vast majority"}, table, ""}},
+       {{calm, 0.1, 0, "1", "nine of ten are a vast majority"}, table}},
       {"contact-answers.impulses-answer-fast-contact",
        "Somewhere among thin layers, long steps and thrown cloth, impulses answer more than half "
        "of the contacts.",
-       {{0.5 / largest, 1, 0, "1", "beyond a half, repulsion is no longer the rule"}, table, ""}}};
+       {{0.5 / largest, 1, 0, "1", "beyond a half, repulsion is no longer the rule"}, table}}};
   result.tables = {{"answers", "Answers to contacts, by thickness, step and speed", table}};
   return result;
 }

@@ -128,8 +128,7 @@ NamedFinding misses_none(const std::string& of, const std::string& words,
           "No meeting of moving features is missed: " + words + ".",
           {{misses(tallies), 0, 0, "queries",
             "a plane that separates them until the end proves that they do not meet"},
-           table_of(tallies),
-           ""}};
+           table_of(tallies)}};
 }
 
 /// The test that this one replaces, asked the same.
@@ -160,8 +159,7 @@ NamedFinding tells_in_time(const std::vector<Tally>& all) {
       "The reported time is not after the first collision.",
       {{total(all, &Tally::late), 0, 0, "queries",
         "time advances only as far as a plane keeps the features apart; decided without rounding"},
-       table_of(all),
-       ""}};
+       table_of(all)}};
 }
 
 /// How near two features that start so far apart must come to be reported, as
@@ -220,8 +218,7 @@ NamedFinding tells_near_ones_only(const std::vector<Alarms>& all) {
             "distance over 1.5 times the distance to keep, or over three quarters of the distance "
             "at the start; coordinates of 10 m are rounded by 1e-15 m, 1e-12 of the least distance "
             "to keep"},
-           stacked({"queries", ""}, told),
-           ""}};
+           stacked({"queries", ""}, told)}};
 }
 
 Figure alarms_figure(const std::vector<Alarms>& all) {

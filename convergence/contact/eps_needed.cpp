@@ -169,8 +169,7 @@ StudyResult run_eps_needed(const Subject&, Tier tier, const Progress& progress) 
   std::vector<std::pair<std::string, Table>> balls;
   for (const Body& body : bodies) {
     const Table range = range_of(body, tier == Tier::quick ? 4 : 7);
-    result.findings.push_back(order_finding(body, range));
-    result.findings.push_back(bound_finding(body, range));
+    result.add({order_finding(body, range), bound_finding(body, range)});
     if (body.order == 2) balls.emplace_back(body.name, range);
     Curve curve = curve_of(body.words, convergence_of(range, "eps needed"));
     curve.slope = body.order;

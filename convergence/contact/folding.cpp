@@ -189,8 +189,7 @@ NamedFinding area_finding(const std::vector<FoldedSheet>& runs) {
           {{worst.value(), 2 * tolerance, 0, "of the area",
             "an acute triangle whose edges are no shorter than at rest, and no longer by more than "
             "a tenth, is no smaller; each edge may be short by the tolerance of the sweeps"},
-           evidence_of(runs),
-           ""}};
+           evidence_of(runs)}};
 }
 
 NamedFinding lost_finding(const std::vector<FoldedSheet>& runs) {
@@ -202,8 +201,7 @@ NamedFinding lost_finding(const std::vector<FoldedSheet>& runs) {
           {{least / run.area_lost, 1, 0, "1",
             "measured is half the share by which the clamps come together, over the area lost: "
             "Poisson's ratio gives a third of it back"},
-           evidence_of(std::vector{run}),
-           ""}};
+           evidence_of(std::vector{run})}};
 }
 
 /// The height, from trough to crest, of a cosine wave of this length [m] whose ends have come
@@ -232,8 +230,7 @@ NamedFinding height_finding(const std::vector<FoldedSheet>& runs) {
           {{std::abs(run.height / expected - 1), edge / (2 * clear), 0, "1",
             "the clamps, two columns of offset rows, leave the free length uncertain by half an "
             "edge; the arc is approximated by a cosine. A strip that is compressed stays flat"},
-           evidence_of(std::vector{run}),
-           ""}};
+           evidence_of(std::vector{run})}};
 }
 
 StudyResult run_folding(const Subject&, Tier tier, const Progress& progress) {

@@ -84,8 +84,7 @@ NamedFinding flat_finding(const Subject& subject) {
           {{off / (epsilon * (0.4 + 2 * h)), 20, 0, "epsilon of the extent",
             "one multiplication and one addition after the correction, which itself takes a dozen "
             "roundings"},
-           Table{{"step", "s"}, {"largest distance from the plane", "m"}}.with_row(h, off),
-           ""}};
+           Table{{"step", "s"}, {"largest distance from the plane", "m"}}.with_row(h, off)}};
 }
 
 /// Error against the step, for one setting.

@@ -69,8 +69,7 @@ NamedFinding bound_finding(const Table& cut) {
       {{worst.value(), 1.001, 0, "1",
         "R - sqrt(R^2 - L^2/4) of the longest edge as it is stretched, its ends on the ball or "
         "outside; a thousandth for what a step leaves on a curved surface, the square of its way"},
-       with_columns(cut, {"longest edge, stretched", "depth of midpoints"}),
-       ""}};
+       with_columns(cut, {"longest edge, stretched", "depth of midpoints"})}};
 }
 
 NamedFinding held_finding(const Table& particles, const Table& faces) {

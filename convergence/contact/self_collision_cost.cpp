@@ -160,16 +160,14 @@ void add_rest(const Subject& subject, StudyResult& result) {
        {{outside.value(), 1, 0, "1",
          "above the thickness nothing supports it; repulsion springs carry its weight at a small "
          "part of the overlap, and half of the overlap is left for the impact"},
-        gaps,
-        ""}});
+        gaps}});
   result.findings.push_back(
       {"self-collision-cost.gap-does-not-depend-on-the-step",
        "The gap at which a sheet rests on another does not depend on the step.",
        {{spread.value(), 0.05, 0, "1",
          "one step of free fall adds g h^2, 0.02 of the least thickness for the longest step; as "
          "much again for the phase of the last bounce makes 0.04, rounded up"},
-        gaps,
-        ""}});
+        gaps}});
 }
 
 }  // namespace

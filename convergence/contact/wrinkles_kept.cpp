@@ -139,8 +139,7 @@ NamedFinding power_crushes_the_deep(const std::vector<SunkCloth>& sheets) {
           {{largest_ratio(shares, by_power, by_blend), 0.1, 0, "1",
             "the power law's slope is at most (tau/(tau + t^)) p u^(p-1) = 0.0126 from the middle "
             "depth down, with p = 6 and u = 5/12; the blend's is 0.1304 there"},
-           shares,
-           ""}};
+           shares}};
 }
 
 NamedFinding wavelength_stays(const std::string& map, const AllKept& kept) {
@@ -261,9 +260,8 @@ StudyResult run_wrinkles_kept(const Subject&, Tier tier, const Progress& progres
     by_map.emplace_back(std::string(map.name), std::move(all));
     progress(double(by_map.size()) / double(depth_maps().size()));
   }
-  result.findings.push_back(plain_flattens(by_map[0].second));
-  result.findings.push_back(blend_keeps_its_share(by_map[2].second));
-  result.findings.push_back(power_crushes_the_deep(sheets));
+  result.add({plain_flattens(by_map[0].second), blend_keeps_its_share(by_map[2].second),
+              power_crushes_the_deep(sheets)});
   result.figures.push_back(shares(by_map));
   result.maps.push_back(slice_of_union());
   return result;

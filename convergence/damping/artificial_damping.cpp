@@ -61,8 +61,7 @@ NamedFinding damps_everything(const OneSided& springs, const OneSided& hinges) {
           "loses more than a tenth of its amplitude in a period.",
           {{worst.value(), 1, 0, "1",
             "measured is a tenth over the loss; the derived loss is pi omega h"},
-           evidence_of(springs, hinges),
-           ""}};
+           evidence_of(springs, hinges)}};
 }
 
 Table one_sided_table(const std::vector<OneSided>& rows) {

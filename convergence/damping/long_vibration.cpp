@@ -244,8 +244,7 @@ NamedFinding stays_bounded(const Run& run) {
           {{run.whole ? worst.value() : nan, -std::log(kept), 0, "|ln(energy/start)|",
             "a linear mode's energy lies between 1 and 1 - (omega h/2)^2 of a number that the "
             "scheme conserves; omega h/2 is at most a half"},
-           thinned_history(run),
-           ""}};
+           thinned_history(run)}};
 }
 
 NamedFinding dies_out(const Run& run) {
@@ -254,8 +253,7 @@ NamedFinding dies_out(const Run& run) {
           "hundred periods at half the elastic limit.",
           {{run.energies().back(), 0.5, 0, "of the start's energy",
             "half of the energy is what we call significant"},
-           thinned_history(run),
-           ""}};
+           thinned_history(run)}};
 }
 
 /// Means over equal spans of a curve of many steps, so that it can be read; a short one as it is.
@@ -313,8 +311,7 @@ void add_long_vibrations(const Subject& subject, Tier tier, StudyResult& result)
     same_step.push_back(run_of(subject, vibration, name, h, periods));
     const Run& run = same_step.back();
     if (method.family == Family::mixed || name == "implicit-midpoint") {
-      result.findings.push_back(has_no_trend(run));
-      result.findings.push_back(stays_bounded(run));
+      result.add({has_no_trend(run), stays_bounded(run)});
     }
     if (name == "backward-euler") result.findings.push_back(dies_out(run));
   }

@@ -107,10 +107,9 @@ Table hinge_table(const Subject& subject, const DampedMotion& hinge) {
 
 /// Coming to rest where the damping changes with the shape: a hinge that unfolds.
 void add_nonlinear_hinge(const Subject& subject, const DampedMotion& hinge, StudyResult& result) {
-  result.findings.push_back(passes_the_bound(subject, hinge));
-  result.findings.push_back(scheme_b_passes_its_place(subject, hinge));
-  result.findings.push_back(is_monotone_on_a_hinge(subject, hinge, "linear-backward-euler"));
-  result.findings.push_back(passes_its_place(subject, hinge));
+  result.add({passes_the_bound(subject, hinge), scheme_b_passes_its_place(subject, hinge),
+              is_monotone_on_a_hinge(subject, hinge, "linear-backward-euler"),
+              passes_its_place(subject, hinge)});
   result.tables.push_back(hinge_table(subject, hinge));
 }
 
@@ -155,12 +154,11 @@ NamedFinding goes_its_derived_way(const Subject& subject, const DampedMotions& m
     worst.observe(std::abs(total - derived.total) / (1 + a * a));
     ways.row(a, first, total);
   }
-  return {"monotonicity.distance-is-as-derived." + scheme,
-          "Under scheme " + scheme + " a motion that is only damped goes " + ways_in_words(scheme) +
-              ", a = h c/2.",
-          {{worst.value(), rounding, 0, "of (1 + a^2) times the displacement", why_rounding},
-           ways,
-           ""}};
+  return {
+      "monotonicity.distance-is-as-derived." + scheme,
+      "Under scheme " + scheme + " a motion that is only damped goes " + ways_in_words(scheme) +
+          ", a = h c/2.",
+      {{worst.value(), rounding, 0, "of (1 + a^2) times the displacement", why_rounding}, ways}};
 }
 
 // ---- scheme A
@@ -180,8 +178,7 @@ NamedFinding overshoots(const Subject& subject, const DampedMotions& motions) {
           {{worst.value(), 1, 0, "1",
             "measured is a hundred over the displacement back; 2a(a - 1) = 180 is derived for one "
             "step"},
-           rows,
-           ""}};
+           rows}};
 }
 
 NamedFinding is_stable(const Subject& subject, const DampedMotions& motions) {
@@ -224,8 +221,7 @@ NamedFinding is_bounded(const Subject& subject, const DampedMotions& motions,
               "damping.",
           {{rows.worst("farthest"), 2, 0, "displacements",
             "derived: it goes at most 2a/(1 + a) of the displacement, in the first step"},
-           rows,
-           ""}};
+           rows}};
 }
 
 NamedFinding alternates(const Subject& subject, const DampedMotions& motions,
@@ -245,8 +241,7 @@ NamedFinding alternates(const Subject& subject, const DampedMotions& motions,
               " is not monotone in the strict sense: for h c/2 > 1 the velocity changes its sign "
               "in every step.",
           {{kept, 0, 0, "steps", "derived: a step multiplies the velocity by (1 - a)/(1 + a) < 0"},
-           rows,
-           ""}};
+           rows}};
 }
 
 NamedFinding monotone_below_one(const Subject& subject, const DampedMotions& motions,
@@ -260,8 +255,7 @@ NamedFinding monotone_below_one(const Subject& subject, const DampedMotions& mot
   return {"monotonicity.monotone-in-short-steps." + scheme,
           "Scheme " + scheme + " is monotone while h c/2 < 1.",
           {{rows.worst("overshoot or way back"), turning, 0, "of the displacement", why_turning},
-           rows,
-           ""}};
+           rows}};
 }
 
 // ---- fully implicit methods
@@ -278,8 +272,7 @@ NamedFinding is_monotone(const Subject& subject, const DampedMotions& motions,
           "Linear motions are monotone at any step under " + method +
               ": nothing overshoots, nothing turns back.",
           {{rows.worst("overshoot or way back"), turning, 0, "of the displacement", why_turning},
-           rows,
-           ""}};
+           rows}};
 }
 
 /// The farthest that BDF2 gets from two exact values of v' = -c v: its recurrence on v, with x =
@@ -309,10 +302,10 @@ std::vector<NamedFinding> bdf2_findings(const Subject& subject, const DampedMoti
   return {{"monotonicity.overshoots.BDF2",
            "BDF2, started exactly, is not monotone at large steps: it overshoots by more than a "
            "hundredth of the displacement.",
-           {{least.value(), 1, 0, "1", "measured is a hundredth over the overshoot"}, rows, ""}},
+           {{least.value(), 1, 0, "1", "measured is a hundredth over the overshoot"}, rows}},
           {"monotonicity.distance-is-as-derived.BDF2",
            "BDF2, started exactly, overshoots as its recurrence says.",
-           {{error.value(), rounding, 0, "of the displacement", why_rounding}, rows, ""}}};
+           {{error.value(), rounding, 0, "of the displacement", why_rounding}, rows}}};
 }
 
 StudyResult run_monotonicity(const Subject& subject, Tier tier, const Progress& progress) {
@@ -321,12 +314,10 @@ StudyResult run_monotonicity(const Subject& subject, Tier tier, const Progress& 
   StudyResult result;
   for (const Integrator& scheme : paper_schemes())
     result.findings.push_back(goes_its_derived_way(subject, motions, std::string(scheme.name)));
-  result.findings.push_back(overshoots(subject, motions));
-  result.findings.push_back(is_stable(subject, motions));
+  result.add({overshoots(subject, motions), is_stable(subject, motions)});
   for (const std::string scheme : {"B", "C"}) {
-    result.findings.push_back(is_bounded(subject, motions, scheme));
-    result.findings.push_back(alternates(subject, motions, scheme));
-    result.findings.push_back(monotone_below_one(subject, motions, scheme));
+    result.add({is_bounded(subject, motions, scheme), alternates(subject, motions, scheme),
+                monotone_below_one(subject, motions, scheme)});
   }
   progress(0.3);
   for (const std::string method : {"backward-euler", "linear-backward-euler"})

@@ -9,7 +9,6 @@
 #include "reference/dynamics/integrator.h"
 #include "reference/mesh/shapes.h"
 #include "verification/seeds.h"
-#include "verification/subject.h"
 #include "verification/specimens/specimens.h"
 #include "verification/specimens/stepper.h"
 

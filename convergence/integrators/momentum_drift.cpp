@@ -109,8 +109,7 @@ NamedFinding kept(const Drift& drift, const std::string& material) {
       {drift.levels.worst("drift in roundings"), 16, 0, "epsilon, a step, of sum m|x||v|",
        "a step rounds x and v of each particle once, and the dozen or so forces on it, each at "
        "most about m|v|/h, in their last digits; sixteen assumes that all err to the same side"},
-      with_columns(drift.levels, {"step", "relative drift", "drift in roundings"}),
-      ""};
+      with_columns(drift.levels, {"step", "relative drift", "drift in roundings"})};
   return {"momentum-drift." + material + "-angular-is-conserved." + drift.scheme,
           "Scheme " + drift.scheme + " keeps the angular momentum of a free, " + material +
               " sheet to rounding.",
@@ -175,8 +174,7 @@ NamedFinding linear_is_kept(const Drifts& drifts) {
             "forces sum to zero, and every iterate of a solve differs from its guess by such "
             "forces: only the roundings of each particle's velocity are left, at most half an "
             "epsilon of it, of either sign"},
-           drift,
-           ""}};
+           drift}};
 }
 
 NamedFinding kept_to_tolerance(const Drift& drift, const std::string& material) {
@@ -233,8 +231,7 @@ void add_paper_findings(const Drifts& drifts, StudyResult& result) {
     result.findings.push_back(kept(drifts.damped, "damped"));
     return;
   }
-  result.findings.push_back(falls_with_the_order(drifts.damped));
-  result.findings.push_back(drift_is_real(drifts.damped));
+  result.add({falls_with_the_order(drifts.damped), drift_is_real(drifts.damped)});
 }
 
 StudyResult run_momentum_drift(const Subject& subject, Tier tier, const Progress& progress) {
@@ -253,8 +250,8 @@ StudyResult run_momentum_drift(const Subject& subject, Tier tier, const Progress
     damped.push_back(&all[i].damped);
     if (integrators()[i].family == Family::mixed) add_paper_findings(all[i], result);
     if (integrators()[i].name == "implicit-midpoint") {
-      result.findings.push_back(kept_to_tolerance(all[i].undamped, "undamped"));
-      result.findings.push_back(kept_to_tolerance(all[i].damped, "damped"));
+      result.add({kept_to_tolerance(all[i].undamped, "undamped"),
+                  kept_to_tolerance(all[i].damped, "damped")});
     } else if (integrators()[i].family != Family::mixed)
       result.findings.push_back(falls_with_the_order(all[i].damped));
     result.findings.push_back(linear_is_kept(all[i]));

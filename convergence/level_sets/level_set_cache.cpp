@@ -373,13 +373,11 @@ NamedFinding unfit_files_are_rejected() {
 StudyResult run_level_set_cache(const Subject&, Tier, const Progress& progress) {
   Costs costs{};
   StudyResult result;
-  result.findings.push_back(loaded_is_the_same(costs));
-  result.findings.push_back(loading_is_cheap(costs));
+  result.add({loaded_is_the_same(costs), loading_is_cheap(costs)});
   progress(0.2);
   result.findings.push_back(unfit_files_are_rejected());
   progress(0.7);
-  result.findings.push_back(runs_with_cached_level_sets_agree());
-  result.findings.push_back(unfit_grids_are_rejected());
+  result.add({runs_with_cached_level_sets_agree(), unfit_grids_are_rejected()});
   return result;
 }
 

@@ -142,8 +142,7 @@ NamedFinding frame_is_cheap(const Table& pairs, int depth) {
           "the same spacing would need.",
           {{worst.value(), 0.1, 0, "1",
             "a tenth: beyond the band the octree is sampled only as finely as needed"},
-           counts,
-           ""}};
+           counts}};
 }
 
 NamedFinding fast_bodies_keep_little(const Table& pairs) {
@@ -153,8 +152,7 @@ NamedFinding fast_bodies_keep_little(const Table& pairs) {
           {{pairs.numbers(kept_column).front(), 0.1, 0, "1",
             "a tenth: only a node farther from the surface than the displacement keeps its nearest "
             "point, and the cube has few of these"},
-           with_columns(pairs, {way_column, kept_column}),
-           ""}};
+           with_columns(pairs, {way_column, kept_column})}};
 }
 
 Figure figure_of(const Table& pairs) {

@@ -156,8 +156,7 @@ NamedFinding even_curve_takes_more(const std::vector<Balance>& all) {
           {{worst.value(), 1, 0, "1",
             "measured is a tenth over the share: below 1 the share is larger. The band's cells "
             "must all be as small as the grid's, and a leaf takes the memory of four nodes"},
-           evidence_of(all, "sphere"),
-           ""}};
+           evidence_of(all, "sphere")}};
 }
 
 NamedFinding uneven_bodies_save(const std::vector<Balance>& all) {

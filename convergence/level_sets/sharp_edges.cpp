@@ -181,8 +181,7 @@ StudyResult run_sharp_edges(const Subject&, Tier tier, const Progress& progress)
   }
   StudyResult result;
   for (const Sampling& sampling : {grids, trees}) {
-    result.findings.push_back(reach_finding(sampling));
-    result.findings.push_back(phi_finding(sampling));
+    result.add({reach_finding(sampling), phi_finding(sampling)});
   }
   result.findings.push_back(angle_finding(grids));
   result.figures.push_back(figure_of({grids, trees}));

@@ -92,7 +92,7 @@ NamedFinding smaller_of_both(const std::vector<Table>& alone, const Table& both)
   return {"elastic-limit.both.is-the-smaller-of-the-two",
           "With springs and bending, the largest stable step is the smaller of the two: that of "
           "the springs on wide cells, that of bending on narrow ones.",
-          {verdict, std::move(limits), ""}};
+          {verdict, std::move(limits)}};
 }
 
 NamedFinding scheme_limit(const Subject& subject, const Regime& regime,
@@ -108,7 +108,7 @@ NamedFinding scheme_limit(const Subject& subject, const Regime& regime,
   return {"elastic-limit.is-two-over-omega." + regime.name + "." + name,
           "With " + regime.words + ", the largest stable step of scheme " + name +
               " on an undamped flat sheet is 2/omega.",
-          {verdict, Table{{"largest stable step over 2/omega", "1"}}.with_row(ratio), ""}};
+          {verdict, Table{{"largest stable step over 2/omega", "1"}}.with_row(ratio)}};
 }
 
 StudyResult run_elastic_limit(const Subject& subject, Tier tier, const Progress& progress) {
@@ -125,8 +125,7 @@ StudyResult run_elastic_limit(const Subject& subject, Tier tier, const Progress&
   std::vector<Table> alone;
   for (const Regime& regime : regimes()) {
     const Table limits = limits_of(subject, regime, meshes);
-    result.findings.push_back(exponent_of(regime, limits));
-    result.findings.push_back(bound_of(regime, limits));
+    result.add({exponent_of(regime, limits), bound_of(regime, limits)});
     Curve exact = curve_of(regime.words, convergence_of(limits, "2/omega"));
     exact.slope = regime.exponent;
     figure.curves.push_back(std::move(exact));

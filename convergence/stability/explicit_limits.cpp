@@ -164,8 +164,7 @@ NamedFinding by_trying(const Subject& subject, const Integrator& integrator, dou
           {{std::abs(steps / expected - 1), 0.01, 0, "1",
             "from a third of a percent beyond the limit on, a disturbance grows a thousandfold in "
             "2400 steps; the bisection ends at a sixth of a percent"},
-           Table{{"steps in a unit of time", "1"}, {"as known", "1"}}.with_row(steps, expected),
-           ""}};
+           Table{{"steps in a unit of time", "1"}, {"as known", "1"}}.with_row(steps, expected)}};
 }
 
 }  // namespace
@@ -174,8 +173,7 @@ void add_tenth(const Subject& subject, Tier tier, StudyResult& result) {
   std::vector<int> meshes = {5, 10, 20};
   if (tier == Tier::full) meshes.insert(meshes.end(), {40, 80});
   const Table counts = step_counts(subject, meshes);
-  result.findings.push_back(an_order_of_magnitude(counts));
-  result.findings.push_back(factor_exponent(counts));
+  result.add({an_order_of_magnitude(counts), factor_exponent(counts)});
   for (const auto& [name, column] :
        {std::pair("A", "schemes A and B"), std::pair("forward-euler", "forward Euler"),
         std::pair("RK2", "explicit midpoint"), std::pair("RK4", "classical Runge-Kutta 4")})

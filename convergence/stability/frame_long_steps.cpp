@@ -94,8 +94,7 @@ std::vector<NamedFinding> gains_of_one_solve(const Subject& subject, Tier tier) 
            "more than a hundredth of the energy that the fall sets free.",
            {{0.01 / largest, 1, 0, "1",
              "a hundredth is visible; backward Euler solved to convergence only takes energy away"},
-            table,
-            ""}}};
+            table}}};
 }
 
 /// Where the sheet is after a quarter of a second, and what that took.
@@ -222,8 +221,8 @@ StudyResult run_frame_long_steps(const Subject& subject, Tier tier, const Progre
   progress(0.4);
   result.findings.push_back(one_solve_is_coarser(subject));
   progress(0.6);
-  result.findings.push_back(work_grows(subject, tier));
-  result.findings.push_back(coarse_meshes_differ(result.findings.back().finding.evidence));
+  const NamedFinding growth = work_grows(subject, tier);
+  result.add({growth, coarse_meshes_differ(growth.finding.evidence)});
   progress(0.8);
   result.findings.push_back(bdf2_costs(subject));
   return result;

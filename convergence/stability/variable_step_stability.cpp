@@ -43,8 +43,8 @@ NamedFinding zero_stability(const Subject& subject) {
       "x'' = 0 from the ratio 1 + sqrt(2) on.",
       {{std::abs((below + above) / 2 - exact.value), 1e-9, exact.uncertainty, "1",
         "the factor r^2/(1 + 2 r) is found to roundings, and its slope there is 0.35"},
-       Table{{"ratio found", "1"}, {"1 + sqrt(2)", "1"}}.with_row((below + above) / 2, exact.value),
-       ""}};
+       Table{{"ratio found", "1"}, {"1 + sqrt(2)", "1"}}.with_row((below + above) / 2,
+                                                                  exact.value)}};
 }
 
 /// A corner in flight at v0, whose second state is disturbed: what comes of the disturbance after
@@ -76,8 +76,7 @@ std::vector<NamedFinding> growing_steps(const std::string& where, const SteppedM
        "Steps that grow by 2.40 leave BDF2 bounded on " + where + ".",
        {{kept / bound, 1, 0, "1",
          "differences fall by p = r^2/(1 + 2 r) each step, so they add up to less than 1/(1 - p)"},
-        Table{{"amplification after 600 steps", "1"}, {"1/(1 - p)", "1"}}.with_row(kept, bound),
-        ""}},
+        Table{{"amplification after 600 steps", "1"}, {"1/(1 - p)", "1"}}.with_row(kept, bound)}},
       {"variable-step-stability.BDF2.grows-above-that-ratio." + where,
        "Steps that grow by 2.43 make BDF2 grow without bound on " + where + ", though implicit.",
        {{1000 / grown, 1, 0, "1",
@@ -282,8 +281,7 @@ StudyResult run_variable_step_stability(const Subject& subject, Tier tier,
   StudyResult result;
   double done = 0;
   for (const std::string scheme : {"A", "B", "C"}) {
-    result.findings.push_back(resonance_finding(subject, scheme));
-    result.findings.push_back(damped_finding(subject, scheme));
+    result.add({resonance_finding(subject, scheme), damped_finding(subject, scheme)});
     Map map = ratio_map(subject, scheme, fineness);
     result.findings.push_back(map_finding(scheme, map));
     add_border(scheme, map);

@@ -150,8 +150,7 @@ NamedFinding bar_finding(const PulledStrip& run) {
           {{worst.value(), lag, 0, "of the limit",
             "the strip lags behind its load by the time a wave takes along it plus the damping "
             "time; in that time a bar stretches by this much"},
-           run.pulled,
-           ""}};
+           run.pulled}};
 }
 
 NamedFinding phases_finding(const PulledStrip& run) {
@@ -191,8 +190,7 @@ NamedFinding steps_finding(const PulledStrip& limited, const PulledStrip& stiff)
           {{std::abs(ratio / std::sqrt(most) - 1), 0.05, 0, "1",
             "the elastic limit is inversely proportional to the square root of the stiffness; "
             "steps are rounded to fit frames"},
-           both,
-           ""}};
+           both}};
 }
 
 Figure figure_of(const std::vector<PulledStrip>& runs) {

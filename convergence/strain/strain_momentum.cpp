@@ -88,8 +88,7 @@ NamedFinding kept(const std::string& scheme, const Table& drifts) {
       {{drifts.worst("drift in roundings"), 16 + 12 * sweeps, 0, "epsilon, a step, of sum m|x||v|",
         "sixteen roundings of x, v and the forces, all to the same side, and two in each sweep for "
         "each of about six springs at a particle"},
-       drifts,
-       ""}};
+       drifts}};
 }
 
 NamedFinding drift_order(const std::string& scheme, const Table& drifts) {

@@ -121,8 +121,7 @@ NamedFinding mirror_finding(const Table& row) {
           {{row.worst("asymmetry") / epsilon, 64, 0, "epsilon of the largest correction",
             "the two sides differ only in the order in which a particle's impulses are added, and "
             "the limits damp its rounding errors from sweep to sweep"},
-           row,
-           ""}};
+           row}};
 }
 
 /// One order and its sweeps on all meshes.
@@ -164,8 +163,7 @@ NamedFinding energy(const std::vector<Row>& rows) {
           {{worst.value(), 1, 0, "of what there was",
             "springs start within their limits, and each impulse only removes relative motion "
             "beyond them"},
-           of_all_orders(rows),
-           ""}};
+           of_all_orders(rows)}};
 }
 
 /// What mirror symmetry costs: the fewest sweeps of all springs at once over the most of another
@@ -249,9 +247,7 @@ StudyResult run_strain_sweeps(const Subject&, Tier tier, const Progress& progres
     figure.curves.push_back(residuals(order, 12));
     progress(double(rows.size()) / double(sweep_orders().size()));
   }
-  result.findings.push_back(bias_finding(rows));
-  result.findings.push_back(jacobi_is_dearer(rows));
-  result.findings.push_back(energy(rows));
+  result.add({bias_finding(rows), jacobi_is_dearer(rows), energy(rows)});
   result.figures.push_back(std::move(figure));
   result.tables = {table_of(rows), recovery_table()};
   return result;

@@ -29,7 +29,7 @@ struct DeepWrinkleSheet {
   int edges = 0;           // in a wave, even
 };
 
-/// Of the flat sheet at rest [m]
+/// Of the flat sheet at rest [m].
 double wavelength_of(const DeepWrinkleSheet& sheet) {
   return sheet.edges * sheet.length / sheet.rows / (std::numbers::sqrt3 / 2);
 }
@@ -308,9 +308,8 @@ void add_deep_wrinkles(const Subject& subject, Tier tier, const Progress& progre
     ladders.push_back(ladder_at(subject, depth, tier, levels));
     progress((1 + double(ladders.size()) / double(depths.size())) / 2);
   }
-  result.findings.push_back(amplitude_agrees(ladders));
-  result.findings.push_back(sections_fold_alike(ladders.back()));
-  result.findings.push_back(deep_wrinkles_rest(levels));
+  result.add(
+      {amplitude_agrees(ladders), sections_fold_alike(ladders.back()), deep_wrinkles_rest(levels)});
   result.figures.push_back(depth_figure(ladders));
   result.figures.push_back(deep_profiles(ladders));
   result.tables.push_back({"deep-meshes", "Every deep wrinkle on every mesh", std::move(levels)});

@@ -140,8 +140,7 @@ NamedFinding floor_only_pushes(const Table& levels, double floor) {
           "No row of a free fold is below the floor, and the floor pulls on none.",
           {{std::max(levels.worst("pull of the floor"), levels.worst("depth below the floor")),
             1e-6, floor, "1", "shares of the weight and of the length; Newton's steps end at 1e-7"},
-           levels,
-           ""}};
+           levels}};
 }
 
 NamedFinding comes_down(const Table& levels, double floor) {

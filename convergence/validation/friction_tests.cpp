@@ -181,8 +181,7 @@ NamedFinding belt_agrees(const Subject& subject, const BeltTest& test, Tier tier
 StudyResult run_friction_tests(const Subject& subject, Tier tier, const Progress& progress) {
   StudyResult result;
   for (const double mu : {0.23, 0.61}) {
-    result.findings.push_back(threshold_agrees(subject, mu));
-    result.findings.push_back(slide_agrees(subject, mu));
+    result.add({threshold_agrees(subject, mu), slide_agrees(subject, mu)});
   }
   progress(0.3);
   Curve exact{"exp(mu beta)"}, simulated{"simulated"};

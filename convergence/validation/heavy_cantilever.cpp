@@ -84,8 +84,7 @@ StudyResult run_heavy_cantilever(const Subject& subject, Tier tier, const Progre
   for (const Weight& weight : weights) {
     const StripTest test{weight.name, "", "", {weight.gamma, 0, {}, 0}, 1};
     const StripLadder levels = strip_ladder(subject, test, panels_for(weight, tier));
-    result.findings.push_back(tip_agrees(weight, levels));
-    result.findings.push_back(shape_agrees(weight, levels));
+    result.add({tip_agrees(weight, levels), shape_agrees(weight, levels)});
     show(levels, levels.points.size(),
          {fmt::format("elastica, gamma = {}", weight.gamma),
           fmt::format("simulated, gamma = {}", weight.gamma)},

@@ -299,8 +299,8 @@ StudyResult run_stretched_wrinkles(const Subject& subject, Tier tier, const Prog
   result.findings = {wavelength_agrees(ladders), compression_agrees(ladders)};
   for (const Varied varied : {Varied::tension, Varied::length, Varied::rigidity})
     result.findings.push_back(exponent_agrees(ladders, varied));
-  result.findings.push_back(prefactor_agrees(ladders.back()));
-  result.findings.push_back(tension_stiffens(subject, ladders.back().sheet, tier, coarse));
+  result.add({prefactor_agrees(ladders.back()),
+              tension_stiffens(subject, ladders.back().sheet, tier, coarse)});
   result.figures = {wavelength_figure(ladders), profile_figure(ladders.front()), coarse};
   result.tables.push_back({"meshes", "Every sheet on every mesh", levels});
   add_clamped_continuum(subject, result);

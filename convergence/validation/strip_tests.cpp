@@ -56,7 +56,7 @@ NamedFinding order_of(const StripTest& test, const StripLadder& levels) {
                     "term of the error is smaller than the second by the number of panels");
   return {fmt::format("strip-tests.is-second-order.{}", test.name),
           fmt::format("The shape of a {} tends to the elastica's with second order.", test.words),
-          {verdict, std::move(evidence), ""}};
+          {verdict, std::move(evidence)}};
 }
 
 Figure shapes_of(const std::string& kind) {
@@ -75,9 +75,8 @@ StudyResult run_strip_tests(const Subject& subject, Tier tier, const Progress& p
   const std::vector<StripTest> tests = strip_tests();
   for (std::size_t i = 0; i < tests.size(); ++i) {
     const StripLadder levels = strip_ladder(subject, tests[i], panels);
-    result.findings.push_back(height_agrees(tests[i], levels));
-    result.findings.push_back(shape_agrees(tests[i], levels));
-    result.findings.push_back(order_of(tests[i], levels));
+    result.add({height_agrees(tests[i], levels), shape_agrees(tests[i], levels),
+                order_of(tests[i], levels)});
     if (result.figures.empty() || result.figures.back().name != tests[i].kind)
       result.figures.push_back(shapes_of(tests[i].kind));
     show(levels, levels.points.size() - 1,
