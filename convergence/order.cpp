@@ -5,7 +5,6 @@
 #include <string>
 
 #include "reference/types.h"
-#include "verification/verdict.h"
 
 namespace foldproof {
 
@@ -91,6 +90,12 @@ Estimate order_deviation(const Convergence& convergence, double expected, int pa
     uncertainty.observe(shift / std::log(convergence.steps[i] / convergence.steps[i + 1]));
   }
   return {deviation.value(), uncertainty.value()};
+}
+
+Verdict order_verdict(const Convergence& convergence, double expected, int pairs, double bound,
+                      std::string why_bound) {
+  const Estimate deviation = order_deviation(convergence, expected, pairs);
+  return {deviation.value, bound, deviation.uncertainty, "1", std::move(why_bound)};
 }
 
 Estimate richardson(double coarse, double fine, double ratio, double order) {

@@ -7,8 +7,8 @@
 #include <tuple>
 #include <vector>
 
-#include "verification/figures.h"
 #include "verification/oracles/estimate.h"
+#include "verification/verdict.h"
 
 namespace foldproof {
 
@@ -57,6 +57,10 @@ double fitted_order(const Convergence& convergence);
 /// each error e may be anything in [e - floor, e + floor], so the uncertainty is infinite once one
 /// has sunk to it. Throws InputError when there are fewer pairs.
 Estimate order_deviation(const Convergence& convergence, double expected, int pairs);
+
+/// A verdict on that deviation.
+Verdict order_verdict(const Convergence& convergence, double expected, int pairs, double bound,
+                      std::string why_bound);
 
 /// The limit h -> 0 of values that err by c h^order, from two whose steps differ by the
 /// factor ratio > 1:

@@ -1,4 +1,4 @@
-// The list of all studies; each is declared in the studies.h of its room.
+// The list of all studies.
 #pragma once
 
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace foldproof {
 
-/// In the order in which they are reported.
+/// In the order in which they are reported. Written by list_studies.cmake from the definitions.
 std::vector<Study> all_studies();
 
 }  // namespace foldproof

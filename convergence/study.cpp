@@ -1,39 +1,44 @@
 #include "convergence/study.h"
 
-#include "convergence/headlines.h"
+#include <algorithm>
+#include <stdexcept>
 
 namespace foldproof {
 
 namespace {
 
 /// "The sentence rests on: exponent, is-two-over-omega." or nothing.
-std::string words_of_headline(const std::string& study) {
+std::string words_of_headline(const Study& study) {
   std::string names;
-  for (const std::string_view family : headline_families(study))
-    names += (names.empty() ? "" : ", ") + std::string(family);
+  for (const std::string& family : study.rests_on) names += (names.empty() ? "" : ", ") + family;
   return names.empty() ? "" : " The sentence rests on the findings " + names + ".";
 }
 
-std::vector<std::string> names_of(const std::vector<NamedFinding>& findings) {
-  std::vector<std::string> names;
-  for (const NamedFinding& named : findings) names.push_back(named.name);
-  return names;
+void require_headline_findings(const Study& study, const std::vector<NamedFinding>& findings) {
+  for (const std::string& family : study.rests_on) {
+    const std::string name = study.name + "." + family;
+    const bool is_measured = std::ranges::any_of(findings, [&](const NamedFinding& finding) {
+      return finding.name == name || finding.name.starts_with(name + ".");
+    });
+    if (!is_measured)
+      throw std::logic_error(study.name + ": its sentence rests on " + name +
+                             ", which it does not measure");
+  }
 }
 
 }  // namespace
 
 std::pair<std::vector<Record>, StudyRecord> run_study(const Study& study, const Subject& subject,
                                                       Tier tier, const Progress& progress) {
-  StudyRecord whole{
-      study.name, study.claim, study.source, study.about + words_of_headline(study.name),
-      0,          {},          {},           {}};
+  StudyRecord whole{study.name, study.claim, study.source, study.about + words_of_headline(study),
+                    0,          {},          {},           {}};
   std::vector<Record> records;
   const Record blank{study.name, study.kind, study.name, study.claim, study.source,
                      {},         {},         "",         0,           {}};
   StudyResult result;
   const Record run = judge(blank, [&] {
     result = study.run(subject, tier, progress);
-    require_headline_findings(study.name, names_of(result.findings));
+    require_headline_findings(study, result.findings);
     return Finding{};
   });
   if (run.outcome != Outcome::holds) return {{run}, whole};  // it threw, or was not offered

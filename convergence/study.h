@@ -1,5 +1,5 @@
 // A study measures a rate or a cost over a range: its findings are judged like checks, its
-// curves are evidence.
+// curves are evidence. With this header come the orders, ranges and tables that most studies use.
 #pragma once
 
 #include <functional>
@@ -7,6 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "convergence/order.h"
+#include "convergence/ranges.h"
+#include "convergence/tables.h"
 #include "verification/verdict.h"
 
 namespace foldproof {
@@ -18,14 +21,23 @@ struct NamedFinding {
 };
 
 struct StudyResult {
-  std::vector<NamedFinding> findings;
-  std::vector<Figure> figures;
-  std::vector<Map> maps;
-  std::vector<Table> tables;
+  std::vector<NamedFinding> findings = {};
+  std::vector<Figure> figures = {};
+  std::vector<Map> maps = {};
+  std::vector<Table> tables = {};
+
+  void add(std::vector<NamedFinding> more) {
+    for (NamedFinding& finding : more) findings.push_back(std::move(finding));
+  }
 };
 
 struct Study {
-  std::string name, claim, source;
+  std::string name, claim;
+  // Families of findings without which the claim would not stand; it is true if all of them hold. A
+  // family is a finding's name after that of its study and the dot, or such a name up to another
+  // dot: "exponent" is "elastic-limit.exponent.springs" and "elastic-limit.exponent.bending".
+  std::vector<std::string> rests_on;
+  std::string source;
   std::string about;  // a paragraph for the report
   std::function<StudyResult(const Subject&, Tier, const Progress&)> run;
   // of its findings: "study", or "validation" for one that compares with something measured, or
@@ -33,8 +45,8 @@ struct Study {
   std::string kind = "study";
 };
 
-/// Runs a study: one record for each of its findings; one that failed, with the
-/// message, if it threw.
+/// Runs a study: one record for each of its findings; one that failed, with the message, if it
+/// threw or has no finding of a family that its claim rests on.
 std::pair<std::vector<Record>, StudyRecord> run_study(const Study& study, const Subject& subject,
                                                       Tier tier, const Progress& progress);
 

@@ -18,10 +18,10 @@ std::string_view name_of(Mark mark);  // "measured", "unfinished", "diverged"
 /// A curve of a figure; floor: the level below which y is meaningless (NaN: none).
 struct Curve {
   std::string label;
-  std::vector<double> x, y;
-  double floor;
+  std::vector<double> x = {}, y = {};
+  double floor = nan;
   // observed order of each pair of neighbours; empty if meaningless
-  std::vector<double> pair_orders;
+  std::vector<double> pair_orders = {};
   double slope = nan;            // expected of this curve in log-log, NaN: none
   std::vector<Mark> marks = {};  // one per point; empty: all measured
 
@@ -35,19 +35,41 @@ struct Curve {
 Curve curve_of(const std::string& label, const Table& table, std::string_view x,
                std::string_view y);
 
+/// The values of a function at these places, without a floor.
+template <class Function>
+Curve curve_over(std::string label, const std::vector<double>& places, const Function& value) {
+  Curve curve{std::move(label), places};
+  for (const double place : places) curve.y.push_back(value(place));
+  return curve;
+}
+
 enum class Scale { linear, log };
 
 struct Axis {
   std::string label, unit;
-  Scale scale;
+  Scale scale = Scale::linear;
 };
 
 struct Figure {
   std::string name, title;
   Axis x, y;
-  double slope;  // expected in log-log, NaN: none
+  double slope = nan;  // expected in log-log, NaN: none
   std::string caption;
   std::vector<Curve> curves;
+
+  Figure() = default;
+  Figure(std::string name_, std::string title_, Axis x_, Axis y_, double slope_,
+         std::string caption_, std::vector<Curve> curves_ = {})
+      : name(std::move(name_)),
+        title(std::move(title_)),
+        x(std::move(x_)),
+        y(std::move(y_)),
+        slope(slope_),
+        caption(std::move(caption_)),
+        curves(std::move(curves_)) {}
+  Figure(std::string name_, std::string title_, Axis x_, Axis y_, std::string caption_,
+         std::vector<Curve> curves_ = {})
+      : Figure(name_, title_, x_, y_, nan, caption_, std::move(curves_)) {}
 };
 
 /// A quantity over two parameters.

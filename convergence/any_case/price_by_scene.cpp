@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "convergence/any_case/precision_report.h"
-#include "convergence/any_case/studies.h"
+#include "convergence/study.h"
 #include "verification/evidence.h"
 
 namespace foldproof {
@@ -214,6 +214,7 @@ Study price_by_scene_study() {
           "the cheapest method on a small, lightly damped sheet that swings from an edge; on small "
           "sheets that are heavily damped, slide on a ball or reach strain limits another method "
           "takes less. Work counts force operators, neither contact nor strain limits.",
+          {"C-costs-at-most-twice-the-cheapest", "C-is-not-the-cheapest"},
           "BMF03 section 3",
           "Four small scenes, one a kind, asked as `foldproof precision` asks any case: every "
           "method runs with constant steps, halved until it reaches an error of one percent of the "

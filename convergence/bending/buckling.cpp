@@ -1,10 +1,11 @@
 // buckling: the load at which a compressed strip leaves its plane, and how fast it does so beyond.
 #include <cmath>
 
-#include "convergence/bending/studies.h"
+#include "convergence/study.h"
 #include "reference/mesh/shapes.h"
 #include "verification/oracles/dense_algebra.h"
-#include "verification/subject.h"
+#include "verification/specimens/specimens.h"
+#include "verification/specimens/stepper.h"
 
 namespace foldproof {
 
@@ -32,8 +33,7 @@ Scene scene_of_strip(const Strip& strip) {
   Scene scene = scene_at_rest(
       make_sheet({SheetPattern::equilateral, strip.width(), 0, columns, strip.rows}), density);
   scene.stretch = StretchMaterial{young, 0.01, 1};
-  scene.bending = BendingMaterial{bending, 0, Weighting::rest, DampingFactor::edge, "sine"};
-  scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
+  add_flat_hinges(scene, bending, 0);
   scene.x.row(0) *= 1 + strip.strain / 3;
   scene.x.row(1) *= 1 - strip.strain;
   for (int i = 0; i < scene.mesh.particles(); ++i) {
@@ -53,38 +53,27 @@ struct CompressedStrip {
 };
 
 /// Lets the motion in the plane die out: springs are damped, and nothing leaves the plane exactly.
-State settle(const Subject& subject, PreparedScene& prepared, const Scene& scene) {
+State settle(Stepper& stepper) {
   constexpr double h = 1e-4;  // s: a third of the elastic limit
   constexpr int steps = 800;
-  State s = start_state(scene);
-  Work uncounted;
-  for (int i = 0; i < steps; ++i) s = subject.step(prepared, {&s, 1}, h, uncounted);
+  State s = stepper.run(stepper.start(), h, steps);
   s.v.setZero();
   return s;
 }
 
-std::vector<int> free_particles(const Scene& scene) {
-  std::vector<char> held(size_t(scene.mesh.particles()), 0);
-  for (const PrescribedParticle& p : scene.prescribed) held[size_t(p.particle)] = 1;
-  std::vector<int> free;
-  for (int i = 0; i < scene.mesh.particles(); ++i)
-    if (!held[size_t(i)]) free.push_back(i);
-  return free;
-}
-
 /// M^{-1/2} K_zz M^{-1/2} over the free particles, by central differences of the subject's
 /// forces [1/s^2].
-Eigen::MatrixXd stiffness_across(const Subject& subject, PreparedScene& prepared,
-                                 const Scene& scene, State s) {
+Eigen::MatrixXd stiffness_across(const Stepper& stepper, State s) {
   constexpr double shift = 1e-8;  // m
+  const Scene& scene = stepper.scene();
   const std::vector<int> free = free_particles(scene);
   const PerParticle mass = lumped_masses(scene.mesh, scene.density);
   Eigen::MatrixXd matrix(free.size(), free.size());
   for (size_t j = 0; j < free.size(); ++j) {
     s.x(2, free[j]) = shift;
-    const PerParticle3 ahead = subject.elastic_forces(prepared, s);
+    const PerParticle3 ahead = stepper.elastic_forces(s);
     s.x(2, free[j]) = -shift;
-    const PerParticle3 behind = subject.elastic_forces(prepared, s);
+    const PerParticle3 behind = stepper.elastic_forces(s);
     s.x(2, free[j]) = 0;
     for (size_t i = 0; i < free.size(); ++i)
       matrix(Eigen::Index(i), Eigen::Index(j)) = (behind(2, free[i]) - ahead(2, free[i])) /
@@ -95,18 +84,15 @@ Eigen::MatrixXd stiffness_across(const Subject& subject, PreparedScene& prepared
 }
 
 CompressedStrip compress(const Subject& subject, const Strip& strip) {
-  const Scene scene = scene_of_strip(strip);
-  const auto prepared = require_offered(subject.prepare, "prepare")(scene);
-  require_offered(subject.step, "step");
-  CompressedStrip result{settle(subject, *prepared, scene), 0, 0,
-                         PerParticle::Zero(scene.mesh.particles())};
-  const PerParticle3 force =
-      require_offered(subject.elastic_forces, "elastic_forces")(*prepared, result.rest);
+  Stepper stepper(subject, scene_of_strip(strip), "C");
+  const Scene& scene = stepper.scene();
+  CompressedStrip result{settle(stepper), 0, 0, PerParticle::Zero(scene.mesh.particles())};
+  const PerParticle3 force = stepper.elastic_forces(result.rest);
   for (int i = 0; i < scene.mesh.particles(); ++i)  // what the lower clamp holds back
     if (scene.mesh.rest(1, i) < 1.5 * strip.row()) result.load -= force(1, i) / strip.width();
 
   const oracles::SymmetricModes modes =
-      oracles::symmetric_modes(stiffness_across(subject, *prepared, scene, result.rest));
+      oracles::symmetric_modes(stiffness_across(stepper, result.rest));
   result.stiffness = modes.values[0];
   const PerParticle mass = lumped_masses(scene.mesh, scene.density);
   const std::vector<int> free = free_particles(scene);
@@ -164,18 +150,16 @@ struct Growth {
 
 Growth growth_beyond(const Subject& subject, const Strip& strip) {
   const CompressedStrip at = compress(subject, strip);
-  const Scene scene = scene_of_strip(strip);
-  const auto prepared = require_offered(subject.prepare, "prepare")(scene);
+  Stepper stepper(subject, scene_of_strip(strip), "C");
   Growth growth{.expected = std::sqrt(-at.stiffness), .measured = nan};
   State s = at.rest;
   s.x.row(2) += 1e-9 * at.mode.transpose();
   s.v.row(2) += growth.expected * 1e-9 * at.mode.transpose();
   const double h = 1e-4, duration = 5 / growth.expected;  // s
   const int steps = int(duration / h);
-  Work uncounted;
   for (int i = 0; i <= steps; ++i) {
     if (i % (steps / 20) == 0) growth.history.row(i * h, s.x.row(2).dot(at.mode));
-    s = subject.step(*prepared, {&s, 1}, h, uncounted);
+    s = stepper.step(s, h);
   }
   const std::vector<double>& amplitudes = growth.history.numbers("amplitude");
   growth.measured =
@@ -197,17 +181,15 @@ NamedFinding growth_finding(const Growth& growth) {
 Figure growth_figure(const Growth& growth) {
   Figure figure{"growth",
                 "A strip leaves its plane at 1.4 times the critical strain",
-                {"time", "s", Scale::linear},
+                {"time", "s"},
                 {"amplitude of the buckling mode", "m", Scale::log},
-                nan,
                 "A straight line is exponential growth; the expected one follows from the forces' "
                 "eigenvalue.",
                 {curve_of("simulated", growth.history, "time", "amplitude")}};
-  Curve expected{"expected", {}, {}, nan, {}};
   const double start = growth.history.numbers("amplitude").front();
-  for (const double t : growth.history.numbers("time"))
-    expected.point(t, start * std::exp(growth.expected * t));
-  figure.curves.push_back(std::move(expected));
+  figure.curves.push_back(curve_over("expected", growth.history.numbers("time"), [&](double t) {
+    return start * std::exp(growth.expected * t);
+  }));
   return figure;
 }
 
@@ -236,6 +218,7 @@ Study buckling_study() {
           "A compressed strip buckles out of its plane at Euler's load, with a rigidity between "
           "those of its mesh with free edges and bent to a cylinder; beyond that load the buckle "
           "grows at the rate of the linearised forces.",
+          {"load-matches-euler", "grows-at-the-linearised-rate"},
           "our test of BMF03 section 4",
           "A strip of equilateral triangles is shortened between two clamps; motion in its plane "
           "dies out, and none leaves it. Central differences of the forces normal to the plane "

@@ -1,9 +1,8 @@
 // cantilever: a clamped strip under its own weight or a load on its tip, against the elastica.
 #include <cmath>
 
-#include "convergence/order.h"
 #include "convergence/bending/row_strip.h"
-#include "convergence/bending/studies.h"
+#include "convergence/study.h"
 #include "verification/oracles/heavy_cantilever.h"
 #include "verification/oracles/tip_load.h"
 
@@ -93,12 +92,12 @@ Convergence distance(const Refined& refined) {
 
 NamedFinding order_of(const Refined& refined) {
   const Convergence tip = distance(refined);
-  const Estimate deviation = order_deviation(tip, 2, 1);
   Table evidence = refined.tips;
   evidence.add({"order of the distance", "1", row_orders(tip)});
-  const Verdict verdict{deviation.value, 0.1, deviation.uncertainty, "1",
-                        "another order is off by 1; the third term of the error is smaller than "
-                        "the second by the number of panels"};
+  const Verdict verdict =
+      order_verdict(tip, 2, 1, 0.1,
+                    "another order is off by 1; the third term of the error is smaller than "
+                    "the second by the number of panels");
   return {"cantilever.is-second-order." + refined.load.name,
           "The tip of a strip held cylindrical, " + refined.load.words +
               ", tends to the elastica's with second order.",
@@ -149,14 +148,14 @@ NamedFinding clamp_is_half_a_cell_before(const Refined& refined) {
   Convergence errors = convergence_of(naive, drop_error);
   errors.floor = refined.floor;
   naive.add({"order", "1", row_orders(errors)});
-  const Estimate deviation = order_deviation(errors, 1, 1);
-  const Verdict verdict{deviation.value, 0.1, deviation.uncertainty, "1",
-                        "another order is off by 1; the second term is smaller than the first by "
-                        "the number of panels"};
+  const Verdict verdict =
+      order_verdict(errors, 1, 1, 0.1,
+                    "another order is off by 1; the second term is smaller than the first by "
+                    "the number of panels");
   return {"cantilever.clamp-on-the-hinges-is-first-order",
           "With the length counted from the first line of hinges instead of half a cell before it, "
           "the same strip is first order only.",
-          {verdict, naive, ""}};
+          {verdict, naive}};
 }
 
 NamedFinding patterns_agree(const Subject& subject, const LoadCase& load) {
@@ -186,8 +185,7 @@ Figure error_figure(const std::string& name, const std::string& title) {
           {"distance from the elastica's tip over L", "1", Scale::log},
           2,
           "Against the elastica with D = ke/4; the length counts from half a cell before the first "
-          "hinges.",
-          {}};
+          "hinges."};
 }
 
 void show(const Refined& refined, Figure& figure) {
@@ -214,9 +212,8 @@ StudyResult run_cantilever(const Subject& subject, Tier tier, const Progress& pr
     progress(double(all.size()) / 7);
   }
   for (const Refined& refined : all) result.findings.push_back(order_of(refined));
-  result.findings.push_back(within_one_percent(all));
-  result.findings.push_back(clamp_is_half_a_cell_before(all[1]));
-  result.findings.push_back(patterns_agree(subject, heavy(5)));
+  result.add({within_one_percent(all), clamp_is_half_a_cell_before(all[1]),
+              patterns_agree(subject, heavy(5))});
   result.figures.push_back(std::move(weight));
   result.figures.push_back(std::move(tip));
   return result;
@@ -229,6 +226,7 @@ Study cantilever_study() {
       "cantilever",
       "The tip of a clamped strip, under its own weight or a load, comes to where that of the "
       "elastica with the mesh's own rigidity is, to second order.",
+      {"is-second-order", "matches-the-elastica"},
       "BMF03 section 4; Bisshopp and Drucker 1945 for the tip load",
       "The first two rows of vertices of a strip are held level. The strip is held cylindrical: "
       "each row moves as one, driven by the sum of the solver's forces on it, so that the rigidity "

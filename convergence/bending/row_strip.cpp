@@ -21,8 +21,7 @@ Scene strip_scene(const StripPattern& pattern, int panels, double spacing, const
   const Sheet sheet{pattern.pattern, along_x ? length : width, along_x ? width : length,
                     along_x ? panels + 1 : cells_across, along_x ? cells_across : panels + 1};
   Scene scene = scene_at_rest(make_sheet(sheet), strip_density);
-  scene.bending = BendingMaterial{strip_ke, 0, Weighting::rest, DampingFactor::edge, "sine"};
-  scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
+  add_flat_hinges(scene, strip_ke, 0);
   if (load.gravity > 0) scene.gravity = Vector3(0, 0, -load.gravity);
   if (load.stretch > 0) scene.stretch = StretchMaterial{load.stretch, 0, 1};
   return scene;

@@ -1,11 +1,9 @@
 // shape-recovery: a sculpted shell is pulled out of shape, let go, and damped until it rests.
 #include <cmath>
-#include <numbers>
 
-#include "convergence/bending/studies.h"
+#include "convergence/study.h"
 #include "reference/forces/bending.h"
 #include "reference/mesh/shapes.h"
-#include "reference/scene/scene.h"
 #include "verification/oracles/dense_algebra.h"
 #include "verification/specimens/stepper.h"
 
@@ -51,7 +49,7 @@ Scene pulled_out_of_shape(const Shell& shell, RestAngles angles) {
   Scene scene = scene_at_rest(shell.mesh, density);
   scene.stretch = StretchMaterial{young, young * delay, 1};
   scene.bending = BendingMaterial{bending, bending / 2 * delay, Weighting::rest,
-                                  DampingFactor::edge_squared_over_area, "sine"};
+                                  DampingFactor::edge_squared_over_area};
   scene.rest_angles = hinge_angles(shell.mesh, shell.mesh.rest);
   if (angles == RestAngles::flat) scene.rest_angles.assign(scene.rest_angles.size(), 0);
   for (Eigen::Index i = 0; i < scene.x.cols(); ++i) {
@@ -149,11 +147,9 @@ StudyResult run_shape_return(const Subject& subject, Tier tier, const Progress& 
   StudyResult result;
   Figure figure{"distance",
                 "Return of a shell to its shape",
-                {"time", "s", Scale::linear},
+                {"time", "s"},
                 {"distance from the rest shape", "m", Scale::log},
-                nan,
-                "Root mean square over the particles, after the best rigid motion.",
-                {}};
+                "Root mean square over the particles, after the best rigid motion."};
   std::vector<Return> returns;
   for (const Shell& shell : shells) {
     returns.push_back(let_go(subject, shell, RestAngles::own));
@@ -163,8 +159,7 @@ StudyResult run_shape_return(const Subject& subject, Tier tier, const Progress& 
   const Return flat = let_go(subject, shells[1], RestAngles::flat);
   figure.curves.push_back(
       curve_of(shells[1].words + ", flat rest angles", flat.history, "time", "distance"));
-  result.findings.push_back(comes_back(shells, returns));
-  result.findings.push_back(angles_matter(shells[1], returns[1], flat));
+  result.add({comes_back(shells, returns), angles_matter(shells[1], returns[1], flat)});
   result.figures.push_back(std::move(figure));
   return result;
 }
@@ -175,6 +170,7 @@ Study shape_return_study() {
   return {"shape-recovery",
           "A sculpted shell that is pulled out of shape by about a tenth returns to it if its own "
           "angles are its rest angles, and does not if they are flat.",
+          {"shell-returns-to-its-shape", "flat-rest-angles-do-not-restore-it"},
           "BMF03 section 4: non-zero rest angles",
           "A closed shell with bumps is squeezed, sheared and dented by about a tenth of its size, "
           "released and damped. Its distance from the rest shape falls until it is invisible, on "

@@ -4,9 +4,7 @@
 #include <cmath>
 
 #include "convergence/bending/row_strip.h"
-#include "convergence/bending/studies.h"
-#include "convergence/order.h"
-#include "convergence/tables.h"
+#include "convergence/study.h"
 #include "reference/dynamics/integrator.h"
 #include "verification/oracles/dense_algebra.h"
 #include "verification/oracles/gsl.h"
@@ -74,11 +72,11 @@ Eigen::Vector2d frequencies(const RowStrip& strip) {
 
 NamedFinding order_of(int mode, Table modes) {
   const Convergence error = convergence_of(modes, "relative error");
-  const Estimate deviation = order_deviation(error, 2, 1);
   modes.add({"order", "1", row_orders(error)});
-  const Verdict verdict{deviation.value, 0.1, deviation.uncertainty, "1",
-                        "another order is off by 1; the third term of the error is smaller than "
-                        "the second by the number of panels over the mode's number"};
+  const Verdict verdict =
+      order_verdict(error, 2, 1, 0.1,
+                    "another order is off by 1; the third term of the error is smaller than "
+                    "the second by the number of panels over the mode's number");
   const std::string number = std::to_string(mode);
   return {
       "strip-vibration.is-second-order.mode-" + number,
@@ -98,7 +96,7 @@ NamedFinding is_the_beam(const std::array<Table, 2>& modes) {
   return {"strip-vibration.matches-the-beam",
           "At the finest mesh the first two frequencies of a clamped strip are the beam's within "
           "one percent.",
-          {verdict, frequencies, ""}};
+          {verdict, frequencies}};
 }
 
 // --- steps ---
@@ -110,24 +108,12 @@ Scene free_strip() {
   Scene scene = scene_at_rest(
       make_sheet({SheetPattern::one_diagonal, along * cell, across * cell, along, across}),
       strip_density);
-  scene.bending = BendingMaterial{strip_ke, 0, Weighting::rest, DampingFactor::edge, "sine"};
-  scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
+  add_flat_hinges(scene, strip_ke, 0);
   for (int i = 0; i < scene.mesh.particles(); ++i) {
     if (scene.mesh.rest(0, i) < 1.5 * cell)
       scene.prescribed.push_back({i, scene.mesh.rest.col(i), {}});
   }
   return scene;
-}
-
-/// The free particles of a scene.
-std::vector<int> free_particles(const Scene& scene) {
-  std::vector<char> is_led(size_t(scene.mesh.particles()), 0);
-  for (const PrescribedParticle& prescribed : scene.prescribed)
-    is_led[size_t(prescribed.particle)] = 1;
-  std::vector<int> free;
-  for (int i = 0; i < scene.mesh.particles(); ++i)
-    if (!is_led[size_t(i)]) free.push_back(i);
-  return free;
 }
 
 /// Modes across the sheet from the subject's forces about the flat state.
@@ -222,15 +208,13 @@ StudyResult run_strip_vibration(const Subject& subject, Tier tier, const Progres
                 {"relative error of omega", "1", Scale::log},
                 2,
                 "Against the clamped-free beam with D = ke/4; the length counts from half a cell "
-                "before the first hinges.",
-                {}};
+                "before the first hinges."};
   for (const size_t mode : {0, 1}) {
     result.findings.push_back(order_of(int(mode) + 1, modes[mode]));
     figure.curves.push_back(curve_of("mode " + std::to_string(mode + 1),
                                      convergence_of(modes[mode], "relative error")));
   }
-  result.findings.push_back(is_the_beam(modes));
-  result.findings.push_back(steps_keep_the_frequency(subject));
+  result.add({is_the_beam(modes), steps_keep_the_frequency(subject)});
   result.figures.push_back(std::move(figure));
   return result;
 }
@@ -241,6 +225,7 @@ Study strip_vibration_study() {
   return {"strip-vibration",
           "The two lowest frequencies of a clamped strip are those of the clamped-free beam with "
           "the mesh's own rigidity, to second order.",
+          {"is-second-order", "matches-the-beam"},
           "BMF03 section 4",
           "The stiffness across a strip held cylindrical is taken from differences of the solver's "
           "forces, its masses from the area; the two lowest frequencies are compared with beta^2 "

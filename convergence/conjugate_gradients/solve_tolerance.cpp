@@ -3,9 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "convergence/order.h"
 #include "convergence/work_precision/precision_problem.h"
-#include "convergence/conjugate_gradients/studies.h"
+#include "convergence/study.h"
 #include "reference/dynamics/integrator.h"
 
 namespace foldproof {
@@ -150,10 +149,8 @@ Figure figure_of(const std::vector<SchemeRuns>& schemes) {
                 "Error against the tolerance of the solves",
                 {"tolerance", "1", Scale::log},
                 {"position error over the motion", "%", Scale::log},
-                nan,
                 "Largest position error at the end, with the coarsest and with the finest step. "
-                "Where a curve is level the step decides the error; where it rises the solves do.",
-                {}};
+                "Where a curve is level the step decides the error; where it rises the solves do."};
   const size_t finest = schemes.front().front().runs.rows() - 1;
   const std::array<std::pair<size_t, const char*>, 2> levels = {
       {{0, "coarsest"}, {finest, "finest"}}};
@@ -196,6 +193,7 @@ Study solve_tolerance_study() {
   return {"solve-tolerance",
           "On a damped sheet, in steps of a half to an eighth of the elastic limit, the default "
           "tolerance of the solves leaves the observed order of A, B and C as exact solves do.",
+          {"default-tolerance-preserves-the-order"},
           "BMF03 section 3",
           "How loose may a solve be? A damped sheet, whose fastest mode is damped several times "
           "critically, is run with A, B and C at half, a quarter and an eighth of the elastic "

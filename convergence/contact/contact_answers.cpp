@@ -1,10 +1,8 @@
 // contact-answers: which part of self-collision answers contacts: repulsion, impulses
 // or rigid zones?
-#include <fmt/format.h>
-
 #include <cmath>
 
-#include "convergence/contact/studies.h"
+#include "convergence/study.h"
 #include "reference/dynamics/system.h"
 #include "verification/specimens/layered_cloth.h"
 #include "verification/specimens/stepper.h"
@@ -83,11 +81,11 @@ StudyResult run_contact_answers(const Subject& subject, Tier, const Progress& pr
       {"contact-answers.repulsion-answers-calm-contact",
        "Where a sheet that lands on another moves by less than its thickness in a step, repulsion "
        "answers more than nine of ten contacts.",
-       {{calm, 0.1, 0, "1", "nine of ten are a vast majority"}, table, ""}},
+       {{calm, 0.1, 0, "1", "nine of ten are a vast majority"}, table}},
       {"contact-answers.impulses-answer-fast-contact",
        "Somewhere among thin layers, long steps and thrown cloth, impulses answer more than half "
        "of the contacts.",
-       {{0.5 / largest, 1, 0, "1", "beyond a half, repulsion is no longer the rule"}, table, ""}}};
+       {{0.5 / largest, 1, 0, "1", "beyond a half, repulsion is no longer the rule"}, table}}};
   result.tables = {{"answers", "Answers to contacts, by thickness, step and speed", table}};
   return result;
 }
@@ -98,6 +96,7 @@ Study contact_answers_study() {
   return {"contact-answers",
           "Where cloth moves by less than its thickness in a step, repulsion answers more than "
           "nine of ten contacts; where it moves by more, impulses may answer most.",
+          {"repulsion-answers-calm-contact", "impulses-answer-fast-contact"},
           "Bridson, Fedkiw and Anderson (2002)",
           "Two small free sheets meet at a tenth of a metre per second or at two. Counted are "
           "pairs that repulsion parts, pairs that an impulse keeps from meeting, and particles in "

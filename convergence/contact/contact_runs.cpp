@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "reference/mesh/shapes.h"
+#include "verification/specimens/specimens.h"
+#include "verification/specimens/stepper.h"
 
 namespace foldproof {
 
@@ -22,21 +24,18 @@ Scene level_sheet(int n, double side, const Vector3& middle) {
   }
   scene.gravity = Vector3(0, -9.80665, 0);
   scene.stretch = StretchMaterial{40, 0.05, 1};
-  scene.bending = BendingMaterial{1e-4, 3e-6, Weighting::rest, DampingFactor::edge, "sine"};
-  scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
+  add_flat_hinges(scene, 1e-4, 3e-6);
   scene.solver.tolerance = 1e-8;
   return scene;
 }
 
 State run_to_end(const Subject& subject, const Scene& scene, double h, double end,
                  const std::function<void(const State&)>& watch) {
-  const auto prepared = require_offered(subject.prepare, "prepare")(scene);
-  const auto& step = require_offered(subject.step, "step");
-  State s = start_state(scene);
-  Work work;
+  Stepper stepper(subject, scene, scene.integrator);
+  State s = stepper.start();
   watch(s);
   while (s.time < end - h / 2) {
-    s = step(*prepared, {&s, 1}, h, work);
+    s = stepper.step(s, h);
     watch(s);
   }
   return s;

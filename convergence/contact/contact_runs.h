@@ -1,12 +1,8 @@
 // Small scenes of cloth against objects, and what the studies of contact measure on them.
 #pragma once
 
-#include <functional>
-#include <memory>
-#include <string>
 #include <vector>
 
-#include "reference/scene/scene.h"
 #include "verification/subject.h"
 
 namespace foldproof {
@@ -20,8 +16,9 @@ Scene level_sheet(int n, double side, const Vector3& middle);
 
 /// Steps the scene with scheme C in steps of h [s] until `end` [s]; `watch` sees every state.
 /// Returns the last.
-State run_to_end(const Subject& subject, const Scene& scene, double h, double end,
-                 const std::function<void(const State&)>& watch);
+State run_to_end(
+    const Subject& subject, const Scene& scene, double h, double end,
+    const std::function<void(const State&)>& watch = [](const State&) {});
 
 /// Half the elastic limit of the start [s].
 double usual_step(const Scene& scene);

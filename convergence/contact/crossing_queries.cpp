@@ -1,10 +1,8 @@
 // Does the test for crossings miss one? Asked of many motions whose truth is known.
-#include <cmath>
 #include <optional>
 
 #include "convergence/contact/crossing_families.h"
-#include "convergence/contact/studies.h"
-#include "convergence/tables.h"
+#include "convergence/study.h"
 #include "verification/oracles/feature_distance.h"
 #include "verification/processor_time.h"
 #include "verification/specimens/cubic_crossing.h"
@@ -130,8 +128,7 @@ NamedFinding misses_none(const std::string& of, const std::string& words,
           "No meeting of moving features is missed: " + words + ".",
           {{misses(tallies), 0, 0, "queries",
             "a plane that separates them until the end proves that they do not meet"},
-           table_of(tallies),
-           ""}};
+           table_of(tallies)}};
 }
 
 /// The test that this one replaces, asked the same.
@@ -162,8 +159,7 @@ NamedFinding tells_in_time(const std::vector<Tally>& all) {
       "The reported time is not after the first collision.",
       {{total(all, &Tally::late), 0, 0, "queries",
         "time advances only as far as a plane keeps the features apart; decided without rounding"},
-       table_of(all),
-       ""}};
+       table_of(all)}};
 }
 
 /// How near two features that start so far apart must come to be reported, as
@@ -222,8 +218,7 @@ NamedFinding tells_near_ones_only(const std::vector<Alarms>& all) {
             "distance over 1.5 times the distance to keep, or over three quarters of the distance "
             "at the start; coordinates of 10 m are rounded by 1e-15 m, 1e-12 of the least distance "
             "to keep"},
-           stacked({"queries", ""}, told),
-           ""}};
+           stacked({"queries", ""}, told)}};
 }
 
 Figure alarms_figure(const std::vector<Alarms>& all) {
@@ -233,10 +228,9 @@ Figure alarms_figure(const std::vector<Alarms>& all) {
                 {"share of the pairs that do not meet", "1", Scale::log},
                 1,
                 "Coordinates up to 10 m. Features that come near are to be reported: a share "
-                "proportional to the distance.",
-                {}};
+                "proportional to the distance."};
   for (const Alarms& alarms : all) {
-    Curve curve{name_of(alarms.kind), {}, {}, nan, {}};
+    Curve curve{name_of(alarms.kind)};
     const std::vector<double>&keep = alarms.told.numbers("distance to be kept"),
           &reported = alarms.told.numbers("told");
     for (std::size_t k = 0; k < keep.size(); ++k)
@@ -278,6 +272,7 @@ Study crossing_queries_study() {
   return {"crossing-queries",
           "The test for crossings misses no meeting among random, degenerate and far-away motions, "
           "each decided exactly.",
+          {"no-meeting-is-missed"},
           "Bridson, Fedkiw and Anderson (2002), section 6",
           "A vertex and a triangle, or two edges, move in straight lines between points of small "
           "whole coordinates. Whether they ever meet is decided in whole numbers by the signs of "

@@ -2,11 +2,8 @@
 // into the object?
 #include <algorithm>
 #include <cmath>
-#include <string>
 
-#include "convergence/ranges.h"
-#include "convergence/order.h"
-#include "convergence/contact/studies.h"
+#include "convergence/study.h"
 #include "reference/mesh/shapes.h"
 #include "reference/post/fold_projection.h"
 #include "verification/oracles/exact_geometry.h"
@@ -123,17 +120,17 @@ Table range_of(const Body& body, int levels) {
 }
 
 NamedFinding order_finding(const Body& body, const Table& range) {
-  const Estimate deviation = order_deviation(convergence_of(range, "eps needed"), body.order, 2);
   const std::string power = body.order == 2 ? "as the square of the cloth's edge length"
                                             : "in proportion to the cloth's edge length";
-  return {"required-eps.order-is-as-derived." + body.name,
-          "On the " + body.words + " the eps that is needed grows " + power + ".",
-          {{deviation.value, 0.01, 0, "1",
-            "eps is found to 5e-4 of itself, which is 0.0015 of an order; the next term of "
-            "sqrt(R^2 + L^2/3) - R is L^2/(12 R^2) of the first, below 0.003 in the last pairs; "
-            "along an edge every scale looks alike"},
-           range,
-           "measured is |order - " + std::to_string(int(body.order)) + "| over the last pairs"}};
+  return {
+      "required-eps.order-is-as-derived." + body.name,
+      "On the " + body.words + " the eps that is needed grows " + power + ".",
+      {order_verdict(
+           convergence_of(range, "eps needed"), body.order, 2, 0.01,
+           "eps is found to 5e-4 of itself, which is 0.0015 of an order; the next term of "
+           "sqrt(R^2 + L^2/3) - R is L^2/(12 R^2) of the first, below 0.003 in the last pairs; "
+           "along an edge every scale looks alike"),
+       range, "measured is |order - " + std::to_string(int(body.order)) + "| over the last pairs"}};
 }
 
 NamedFinding bound_finding(const Body& body, const Table& range) {
@@ -166,16 +163,13 @@ StudyResult run_eps_needed(const Subject&, Tier tier, const Progress& progress) 
                 "The least eps that leaves no triangle inside",
                 {"longest edge of the projected cloth", "m", Scale::log},
                 {"eps needed", "m", Scale::log},
-                nan,
                 "Decided exactly, triangle by triangle. Smooth bodies need L^2/(6 R); along an "
-                "edge of the body eps has to grow with the cloth's edges.",
-                {}};
+                "edge of the body eps has to grow with the cloth's edges."};
   const std::vector<Body> bodies = {ball("ball", 0.13), ball("large-ball", 0.41), box_edge()};
   std::vector<std::pair<std::string, Table>> balls;
   for (const Body& body : bodies) {
     const Table range = range_of(body, tier == Tier::quick ? 4 : 7);
-    result.findings.push_back(order_finding(body, range));
-    result.findings.push_back(bound_finding(body, range));
+    result.add({order_finding(body, range), bound_finding(body, range)});
     if (body.order == 2) balls.emplace_back(body.name, range);
     Curve curve = curve_of(body.words, convergence_of(range, "eps needed"));
     curve.slope = body.order;
@@ -193,6 +187,7 @@ Study eps_needed_study() {
   return {"required-eps",
           "The eps that keeps triangles out of a ball grows as the square of their edge length "
           "over its radius, and along an edge of a box in proportion to their edge length.",
+          {"order-is-as-derived", "derived-eps-suffices", "balls-need-the-derived-eps"},
           "BMF03 section 5.3",
           "Sheets of equilateral triangles are sunk into a body and projected plainly, their "
           "particles to eps outside. The least eps is sought with which no triangle has a point in "

@@ -1,15 +1,10 @@
 // filtered-order: what is left of the order of schemes A, B and C while contact or strain limits
 // correct their velocities.
-#include <algorithm>
 #include <cmath>
 
 #include "convergence/contact/contact_runs.h"
-#include "convergence/contact/studies.h"
-#include "convergence/order.h"
-#include "convergence/ranges.h"
-#include "convergence/tables.h"
+#include "convergence/study.h"
 #include "reference/dynamics/integrator.h"
-#include "verification/evidence.h"
 #include "verification/specimens/stepper.h"
 
 namespace foldproof {
@@ -142,8 +137,7 @@ StudyResult run_filtered_order(const Subject& subject, Tier tier, const Progress
                   {"root mean square difference at the end", "m", Scale::log},
                   1,
                   "Geometric mean over several starts. Without filters each halving takes three "
-                  "quarters of the difference away.",
-                  {}};
+                  "quarters of the difference away."};
     for (const Integrator& method : paper_schemes()) {
       const std::string scheme(method.name);
       const Table differences = differences_of(subject, scenes, scheme, motion.end, levels);
@@ -163,6 +157,8 @@ Study filtered_order_study() {
   return {"filtered-order",
           "No scheme of the paper is of second order on a sheet that meets a ball, or on one that "
           "strain limits hold; without ball and limits each is, in the same motions.",
+          {"contact-leaves-no-second-order", "strain-limits-leave-no-second-order",
+           "second-order-without"},
           "BMF03 section 3",
           "A sheet falls on a ball and slides on it; another hangs on springs that reach their "
           "limits. A contact begins somewhere within a step, but acts from the step's start or "

@@ -1,13 +1,12 @@
 // folding: a strip between two ends that move together, with and without a limit on compression.
-#include <algorithm>
 #include <cmath>
 
 #include "convergence/contact/section_profile.h"
-#include "convergence/contact/studies.h"
+#include "convergence/study.h"
 #include "convergence/contact/wrinkle_measure.h"
 #include "reference/mesh/shapes.h"
-#include "reference/scene/scene.h"
 #include "verification/specimens/random.h"
+#include "verification/specimens/specimens.h"
 
 namespace foldproof {
 
@@ -42,9 +41,7 @@ Scene scene_of_strip(const Strip& strip) {
   Scene scene = scene_at_rest(
       make_sheet({SheetPattern::equilateral, strip.length, 0, strip.columns, strip.rows}), 0.2);
   scene.stretch = strip.stretch;
-  scene.bending = BendingMaterial{strip.ke, strip.relaxation * strip.ke, Weighting::rest,
-                                  DampingFactor::edge, "sine"};
-  scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
+  add_flat_hinges(scene, strip.ke, strip.relaxation * strip.ke);
   if (strip.is_limited) {
     StrainLimits limits;
     limits.order = SweepOrder::alternating;
@@ -192,8 +189,7 @@ NamedFinding area_finding(const std::vector<FoldedSheet>& runs) {
           {{worst.value(), 2 * tolerance, 0, "of the area",
             "an acute triangle whose edges are no shorter than at rest, and no longer by more than "
             "a tenth, is no smaller; each edge may be short by the tolerance of the sweeps"},
-           evidence_of(runs),
-           ""}};
+           evidence_of(runs)}};
 }
 
 NamedFinding lost_finding(const std::vector<FoldedSheet>& runs) {
@@ -205,8 +201,7 @@ NamedFinding lost_finding(const std::vector<FoldedSheet>& runs) {
           {{least / run.area_lost, 1, 0, "1",
             "measured is half the share by which the clamps come together, over the area lost: "
             "Poisson's ratio gives a third of it back"},
-           evidence_of(std::vector{run}),
-           ""}};
+           evidence_of(std::vector{run})}};
 }
 
 /// The height, from trough to crest, of a cosine wave of this length [m] whose ends have come
@@ -235,8 +230,7 @@ NamedFinding height_finding(const std::vector<FoldedSheet>& runs) {
           {{std::abs(run.height / expected - 1), edge / (2 * clear), 0, "1",
             "the clamps, two columns of offset rows, leave the free length uncertain by half an "
             "edge; the arc is approximated by a cosine. A strip that is compressed stays flat"},
-           evidence_of(std::vector{run}),
-           ""}};
+           evidence_of(std::vector{run})}};
 }
 
 StudyResult run_folding(const Subject&, Tier tier, const Progress& progress) {
@@ -263,6 +257,8 @@ Study folding_study() {
   return {"folding",
           "Cloth that may not be compressed folds and loses no area; without the limit it is "
           "compressed where its hinges are stiffer than its springs.",
+          {"limit-preserves-area", "arc-height-matches-its-length", "wrinkle-length-matches-theory",
+           "area-is-lost-without-the-limit"},
           "BMF03 section 3, after Provot 1995",
           "The clamped ends of a strip are moved together by a fifth of its length within half a "
           "second. With stiff hinges Euler's strain 4 pi^2 D/(Y L^2) is a quarter: the strip "

@@ -2,12 +2,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "convergence/tables.h"
 #include "convergence/contact/contact_runs.h"
-#include "convergence/contact/studies.h"
+#include "convergence/study.h"
 #include "reference/mesh/shapes.h"
 #include "reference/post/fold_projection.h"
 #include "verification/oracles/dense_algebra.h"
+#include "verification/specimens/specimens.h"
 
 namespace foldproof {
 
@@ -33,7 +33,7 @@ Scene tube_on_drum() {
       scene.prescribed.push_back({int(i), scene.x.col(i), Motion{}});
   }
   scene.stretch = StretchMaterial{20, 0.05, 1};
-  scene.bending = BendingMaterial{1e-4, 6e-6, Weighting::rest, DampingFactor::edge, "sine"};
+  scene.bending = BendingMaterial{1e-4, 6e-6};
   scene.rest_angles = hinge_angles(scene.mesh, scene.mesh.rest);
   SceneObject drum = solid_object("drum", Capsule{radius, 0.3}, 0.2);
   std::get<RigidObject>(drum.object.body).place.rotation =
@@ -94,11 +94,9 @@ double mean_fold(const Scene& scene, const State& s) {
 
 /// How deep the deepest particle is that nothing holds [m]; 0 if none is inside.
 double deepest_free(const Scene& scene, const State& s) {
-  std::vector<char> held(size_t(s.x.cols()), 0);
-  for (const PrescribedParticle& particle : scene.prescribed) held[size_t(particle.particle)] = 1;
   Worst deepest;
-  for (Eigen::Index i = 0; i < s.x.cols(); ++i)
-    if (!held[size_t(i)]) deepest.observe(-distance_at(scene, s.x.col(i), s.time));
+  for (const int i : free_particles(scene))
+    deepest.observe(-distance_at(scene, s.x.col(i), s.time));
   return deepest.value();
 }
 
@@ -114,7 +112,7 @@ Table folds_of(const Subject& subject, Scene scene, double end,
   const double h = usual_step(scene);
   for (const double steps : taus_over_h) {
     scene.collision.forecast_time = steps * h;
-    const State s = run_to_end(subject, scene, h, end, [](const State&) {});
+    const State s = run_to_end(subject, scene, h, end);
     const bool is_tube = scene.mesh.particles() == around * (along + 1);
     folds.row(steps * h, deepest_free(scene, s), is_tube ? crests_a_ring(scene, s) : nan,
               mean_fold(scene, s));
@@ -176,6 +174,7 @@ Study folds_inside_study() {
   return {"folding-inside-objects",
           "A tube that starts partly inside a drum folds more if it may stay there; a sheet that "
           "falls on a ball from outside folds as much either way.",
+          {"more-folds-when-allowed-inside", "same-folds-over-a-ball"},
           "BMF03 section 5.3",
           "A tube that starts inside a drum is pushed together, and a sheet falls on a ball: how "
           "many folds do they form with forecast times from one step to far longer than the run?",

@@ -6,8 +6,7 @@
 #include <limits>
 
 #include "convergence/contact/contact_runs.h"
-#include "convergence/order.h"
-#include "convergence/contact/studies.h"
+#include "convergence/study.h"
 #include "reference/mesh/shapes.h"
 #include "verification/oracles/dense_algebra.h"
 
@@ -50,7 +49,7 @@ SceneObject ball_object(const Motion& motion) {
 /// The largest |phi| right after the step in which all points were forecast to lie on
 /// the surface [m].
 double forecast_miss(const Subject& subject, const Scene& scene, double h) {
-  const State end = run_to_end(subject, scene, h, h, [](const State&) {});
+  const State end = run_to_end(subject, scene, h, h);
   Worst worst;
   for (Eigen::Index i = 0; i < end.x.cols(); ++i)
     worst.observe(std::abs(distance_at(scene, end.x.col(i), end.time)));
@@ -85,8 +84,7 @@ NamedFinding flat_finding(const Subject& subject) {
           {{off / (epsilon * (0.4 + 2 * h)), 20, 0, "epsilon of the extent",
             "one multiplication and one addition after the correction, which itself takes a dozen "
             "roundings"},
-           Table{{"step", "s"}, {"largest distance from the plane", "m"}}.with_row(h, off),
-           ""}};
+           Table{{"step", "s"}, {"largest distance from the plane", "m"}}.with_row(h, off)}};
 }
 
 /// Error against the step, for one setting.
@@ -104,15 +102,15 @@ Convergence errors_of(const Table& misses) {
 }
 
 NamedFinding order_finding(const Setting& setting, const Table& misses) {
-  const Estimate deviation = order_deviation(errors_of(misses), 2, 2);
-  return {"forecast-time.second-order-on-a-" + setting.name,
-          "On " + setting.words + ", it misses the surface by the square of the step.",
-          {{deviation.value, 0.1, deviation.uncertainty, "1",
-            "a first-order miss would be off by one: the forecast would then have the wrong "
-            "direction or velocity; the next term is smaller by the distance moved in a step over "
-            "the radius, a hundredth"},
-           misses,
-           "measured is |order - 2| of the last two pairs"}};
+  return {
+      "forecast-time.second-order-on-a-" + setting.name,
+      "On " + setting.words + ", it misses the surface by the square of the step.",
+      {order_verdict(
+           errors_of(misses), 2, 2, 0.1,
+           "a first-order miss would be off by one: the forecast would then have the wrong "
+           "direction or velocity; the next term is smaller by the distance moved in a step over "
+           "the radius, a hundredth"),
+       misses, "measured is |order - 2| of the last two pairs"}};
 }
 
 /// A point that comes down on a floor at forecast time tau: phi shrinks by the factor
@@ -151,7 +149,7 @@ NamedFinding next_step_finding(const Subject& subject) {
     scene.x.row(1).setConstant(height);
     scene.collision.response = response;
     scene.collision.forecast_time = 5 * h;
-    heights.row(response, run_to_end(subject, scene, h, h, [](const State&) {}).x(1, 0));
+    heights.row(response, run_to_end(subject, scene, h, h).x(1, 0));
   }
   const std::vector<double>& after = heights.numbers("height after a step");
   return {"forecast-time.long-forecast-is-no-step-prediction",
@@ -175,8 +173,7 @@ StudyResult run_forecast_time(const Subject& subject, Tier tier, const Progress&
                 {"distance", "m", Scale::log},
                 2,
                 "After the step for which the forecast was made. Points slide on a frictionless "
-                "ball of radius 0.3 m, or on a frictionless plane.",
-                {}};
+                "ball of radius 0.3 m, or on a frictionless plane."};
   for (const Setting& setting : bent_settings()) {
     const Table of = misses(subject, setting, steps);
     result.findings.push_back(order_finding(setting, of));
@@ -190,13 +187,11 @@ StudyResult run_forecast_time(const Subject& subject, Tier tier, const Progress&
   Figure approach{
       "approach",
       "A point comes down on a floor",
-      {"time", "s", Scale::linear},
-      {"height", "m", Scale::linear},
-      nan,
+      {"time", "s"},
+      {"height", "m"},
       "At 0.9 m/s, steps of 4 ms. The height is multiplied by 1 - h/tau in every step: a longer "
       "forecast time is a softer landing. A forecast time shorter than the step overshoots: the "
-      "point is inside after the step, and the push outwards throws it off.",
-      {}};
+      "point is inside after the step, and the push outwards throws it off."};
   Table decays{{"forecast time over the step", "1"}, {"off", "1"}};
   const Decay thrown = decay_of(subject, 0.7);
   approach.curves.push_back(curve_of("tau = 0.7 h", thrown.heights, "time", "phi"));
@@ -223,6 +218,8 @@ StudyResult run_forecast_time(const Subject& subject, Tier tier, const Progress&
 Study forecast_time_study() {
   return {"forecast-time",
           "A forecast is exact on planes at rest, and of second order on balls and on what turns.",
+          {"exact-on-a-plane", "second-order-on-a-resting-ball", "second-order-on-a-moving-ball",
+           "second-order-on-a-turning-ball", "second-order-on-a-turning-plane"},
           "BMF03 section 5.2",
           "The response makes a point's forecast exact: phi + tau (v_p - v).N = 0. The point's "
           "true place after that time may differ: the surface curves away under a sliding point, "

@@ -1,11 +1,8 @@
 // pointwise-contact: what lies between the particles, when they alone are held out of an object.
 #include <cmath>
-#include <limits>
 
 #include "convergence/contact/contact_runs.h"
-#include "convergence/order.h"
-#include "convergence/tables.h"
-#include "convergence/contact/studies.h"
+#include "convergence/study.h"
 #include "verification/oracles/dense_algebra.h"
 
 namespace foldproof {
@@ -38,8 +35,7 @@ Table cuts(const Subject& subject, const std::vector<int>& meshes, PointKind poi
                  {"longest edge, stretched", "m"}},
                 meshes, [&](int n) {
                   const Scene scene = sheet_on_ball(n, points);
-                  const State end =
-                      run_to_end(subject, scene, usual_step(scene), 0.4, [](const State&) {});
+                  const State end = run_to_end(subject, scene, usual_step(scene), 0.4);
                   const Depths depths = depths_of(scene, end);
                   return std::tuple{std::sqrt(2.0) * side / n, depths.edges, depths.faces,
                                     longest_edge(scene, end)};
@@ -47,16 +43,16 @@ Table cuts(const Subject& subject, const std::vector<int>& meshes, PointKind poi
 }
 
 NamedFinding order_finding(const Table& cut) {
-  const Estimate deviation = order_deviation(convergence_of(cut, "depth of midpoints"), 2, 2);
   return {
       "pointwise-contact.edge-penetration-is-second-order",
       "Edges whose ends lie on a ball cut into it by the square of their length.",
-      {{deviation.value, 0.1, 0, "1",
-        "a chord of length L is L^2/(8R) deep, and another power is off by 1; between meshes whose "
-        "edges differ by a factor of one and a half, a tenth of an order is four percent of a "
-        "depth, more than the scatter from how the longest edges happen to lie along the ball"},
-       cut,
-       "measured is |order - 2| of the last two pairs"}};
+      {order_verdict(
+           convergence_of(cut, "depth of midpoints"), 2, 2, 0.1,
+           "a chord of length L is L^2/(8R) deep, and another power is off by 1; between meshes "
+           "whose "
+           "edges differ by a factor of one and a half, a tenth of an order is four percent of a "
+           "depth, more than the scatter from how the longest edges happen to lie along the ball"),
+       cut, "measured is |order - 2| of the last two pairs"}};
 }
 
 NamedFinding bound_finding(const Table& cut) {
@@ -73,8 +69,7 @@ NamedFinding bound_finding(const Table& cut) {
       {{worst.value(), 1.001, 0, "1",
         "R - sqrt(R^2 - L^2/4) of the longest edge as it is stretched, its ends on the ball or "
         "outside; a thousandth for what a step leaves on a curved surface, the square of its way"},
-       with_columns(cut, {"longest edge, stretched", "depth of midpoints"}),
-       ""}};
+       with_columns(cut, {"longest edge, stretched", "depth of midpoints"})}};
 }
 
 NamedFinding held_finding(const Table& particles, const Table& faces) {
@@ -97,7 +92,7 @@ NamedFinding spike_finding(const Subject& subject) {
   scene.objects.push_back(solid_object("pin", pin, 0));
   auto& body = std::get<RigidObject>(scene.objects[0].object.body);
   body.place = {oracles::rotation_between(Vector3::UnitZ(), Vector3::UnitY()), {0, -0.6, 0}};
-  const State end = run_to_end(subject, scene, usual_step(scene), 0.25, [](const State&) {});
+  const State end = run_to_end(subject, scene, usual_step(scene), 0.25);
   const double height = end.x.row(1).mean();
   return {
       "pointwise-contact.a-thin-pin-passes-through",
@@ -119,8 +114,6 @@ StudyResult run_pointwise_contact(const Subject& subject, Tier tier, const Progr
   StudyResult result;
   result.findings = {order_finding(particles), bound_finding(particles),
                      held_finding(particles, faces), spike_finding(subject)};
-  Curve chord{"chord", {}, {}, nan, {}};
-  for (const double L : particles.numbers("edge")) chord.point(L, L * L / (8 * radius));
   result.figures.push_back(
       {"depth",
        "How deep edges and triangles lie in a ball that holds the particles out",
@@ -129,7 +122,9 @@ StudyResult run_pointwise_contact(const Subject& subject, Tier tier, const Progr
        2,
        "A sheet at rest on a ball of radius 0.2 m. Chord: L^2/(8R).",
        {curve_of("midpoints of edges", particles, "edge", "depth of midpoints"),
-        curve_of("centres of triangles", particles, "edge", "depth of centres"), chord}});
+        curve_of("centres of triangles", particles, "edge", "depth of centres"),
+        curve_over("chord", particles.numbers("edge"),
+                   [](double L) { return L * L / (8 * radius); })}});
   return result;
 }
 
@@ -139,6 +134,8 @@ Study pointwise_contact_study() {
   return {"pointwise-contact",
           "Edges between particles cut into a ball by the square of their length, no deeper than "
           "chords; a pin thinner than an edge passes through.",
+          {"edge-penetration-is-second-order", "edge-penetration-is-within-the-chord",
+           "a-thin-pin-passes-through"},
           "BMF03 section 5.2",
           "The response holds points out of objects. What lies between the points is held out only "
           "as far as the object is flat from one point to the next.",

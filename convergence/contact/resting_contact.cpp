@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "convergence/contact/contact_runs.h"
-#include "convergence/contact/studies.h"
+#include "convergence/study.h"
 
 namespace foldproof {
 
@@ -94,11 +94,9 @@ StudyResult run_resting_contact(const Subject& subject, Tier, const Progress& pr
   std::vector<Rest> rests;
   Figure figure{"speed",
                 "Cloth comes to rest on a ball",
-                {"time", "s", Scale::linear},
+                {"time", "s"},
                 {"speed", "m/s", Scale::log},
-                nan,
-                "Root mean square over the particles.",
-                {}};
+                "Root mean square over the particles."};
   for (const char* response : {"forecast", "projection", "push_out"}) {
     rests.push_back(rest_of(subject, response));
     figure.curves.push_back(curve_of(response, rests.back().speeds, "time", "speed"));
@@ -117,6 +115,7 @@ Study resting_contact_study() {
       "resting-contact",
       "Cloth that lies on a ball shakes less than half as much under forecasting as when it is "
       "pushed out, and as much as when it is projected after each step.",
+      {"quieter-than-push-out", "projection-is-as-quiet"},
       "BMF03 section 5.2",
       "A sheet falls on a ball and hangs over it. The paper's response corrects velocities before "
       "the cloth moves; the two responses compared with it act on positions after the move.",

@@ -1,11 +1,8 @@
 // Cost of self-collision, and the effect of thickness, step and rounds on the result.
 #include <algorithm>
 #include <cmath>
-#include <string_view>
-#include <vector>
 
-#include "convergence/tables.h"
-#include "convergence/contact/studies.h"
+#include "convergence/study.h"
 #include "reference/filters/pair_search.h"
 #include "reference/mesh/shapes.h"
 #include "verification/processor_time.h"
@@ -112,10 +109,10 @@ void add_zones(const Subject& subject, StudyResult& result) {
   for (const int count : {1, 2, 4, 8, 16}) {
     Work work;
     for (const unsigned seed : {31u, 32u, 33u}) {
-      Scene scene = layered_scene({4, 0.003, 0.001, 3, {0.002, 0, 0.2, count, true}, seed});
+      const Scene scene = layered_scene({4, 0.003, 0.001, 3, {0.002, 0, 0.2, count, true}, seed});
       const auto prepared = require_offered(subject.prepare, "prepare")(scene);
       const State start = start_state(scene);
-      require_offered(subject.step, "step")(*prepared, std::vector<State>{start}, 0.004, work);
+      require_offered(subject.step, "step")(*prepared, {&start, 1}, 0.004, work);
     }
     rounds.row(count, work.zones, work.zone_particles, work.crossings);
   }
@@ -163,16 +160,14 @@ void add_rest(const Subject& subject, StudyResult& result) {
        {{outside.value(), 1, 0, "1",
          "above the thickness nothing supports it; repulsion springs carry its weight at a small "
          "part of the overlap, and half of the overlap is left for the impact"},
-        gaps,
-        ""}});
+        gaps}});
   result.findings.push_back(
       {"self-collision-cost.gap-does-not-depend-on-the-step",
        "The gap at which a sheet rests on another does not depend on the step.",
        {{spread.value(), 0.05, 0, "1",
          "one step of free fall adds g h^2, 0.02 of the least thickness for the longest step; as "
          "much again for the phase of the last bounce makes 0.04, rounded up"},
-        gaps,
-        ""}});
+        gaps}});
 }
 
 }  // namespace
@@ -181,6 +176,7 @@ Study self_collision_cost_study() {
   return {"self-collision-cost",
           "With two layers the search for close pairs compares boxes nearly in proportion to the "
           "particles; layers come to rest between half and the whole of the thickness apart.",
+          {"search-work-is-nearly-linear", "sheet-rests-within-the-thickness"},
           "BMF03 section 5; Bridson, Fedkiw, Anderson 2002",
           "Sheets in layers: the cost of the search for close pairs by particles and layers, how "
           "much rounds of impulses leave to rigid zones, and the distance at which layers come to "

@@ -1,10 +1,7 @@
 // wrinkle-preservation: how much of the wrinkles inside an object survives the projection?
-#include <algorithm>
 #include <cmath>
-#include <string>
 
-#include "convergence/tables.h"
-#include "convergence/contact/studies.h"
+#include "convergence/study.h"
 #include "convergence/contact/wrinkle_measure.h"
 #include "reference/mesh/shapes.h"
 #include "reference/post/fold_projection.h"
@@ -142,8 +139,7 @@ NamedFinding power_crushes_the_deep(const std::vector<SunkCloth>& sheets) {
           {{largest_ratio(shares, by_power, by_blend), 0.1, 0, "1",
             "the power law's slope is at most (tau/(tau + t^)) p u^(p-1) = 0.0126 from the middle "
             "depth down, with p = 6 and u = 5/12; the blend's is 0.1304 there"},
-           shares,
-           ""}};
+           shares}};
 }
 
 NamedFinding wavelength_stays(const std::string& map, const AllKept& kept) {
@@ -161,16 +157,14 @@ NamedFinding wavelength_stays(const std::string& map, const AllKept& kept) {
 
 /// The middle row seen from the side [m].
 Curve profile(const std::string& label, const PerParticle3& x) {
-  Curve curve{label, {}, {}, nan, {}};
+  Curve curve{label};
   const Eigen::Index first = (rows / 2) * (columns + 1);
-  for (int k = 60; k <= 180; ++k) {
-    curve.point(x(0, first + k), x(2, first + k));
-  }
+  for (int k = 60; k <= 180; ++k) curve.point(x(0, first + k), x(2, first + k));
   return curve;
 }
 
 Curve outline() {
-  Curve curve{"the ball", {}, {}, nan, {}};
+  Curve curve{"the ball"};
   for (int k = -50; k <= 50; ++k) {
     const double a = 0.34 * k / 50;
     curve.point(ball_radius * std::sin(a), ball_radius * std::cos(a));
@@ -183,9 +177,8 @@ Figure before_and_after(const SunkCloth& cloth, const DepthMap& map, double reac
   const std::string words(map.title);
   return {"profile-" + std::string(map.name),
           "Before and after: " + words,
-          {"x", "m", Scale::linear},
-          {"z", "m", Scale::linear},
-          nan,
+          {"x", "m"},
+          {"z", "m"},
           "A strip half inside a ball, seen from the side; tau = 6 mm, eps = 0 (BMF03 figure 2).",
           {outline(), profile("before", cloth.x),
            profile("after", project(cloth, std::string(map.name), reach).x)}};
@@ -196,10 +189,8 @@ Figure shares(const std::vector<std::pair<std::string, AllKept>>& by_map) {
       "share",
       "What is left of the wrinkles that were inside",
       {"tau over t^", "1", Scale::log},
-      {"deviation of their depths, after over before", "1", Scale::linear},
-      nan,
-      "Half inside a ball. t^, the deepest penetration that the map still resolves, is 14 mm.",
-      {}};
+      {"deviation of their depths, after over before", "1"},
+      "Half inside a ball. t^, the deepest penetration that the map still resolves, is 14 mm."};
   for (const auto& [map, all] : by_map) {
     Curve curve{
         std::string(depth_map_named(map).title), {}, all[1].second.numbers(share_column), nan, {}};
@@ -211,10 +202,9 @@ Figure shares(const std::vector<std::pair<std::string, AllKept>>& by_map) {
 
 /// A circle in the plane y = 0 about (x, 0) [m].
 Curve circle(const std::string& label, double x, double radius) {
-  Curve curve{label, {}, {}, nan, {}};
-  for (int k = 0; k <= 96; ++k) {
+  Curve curve{label};
+  for (int k = 0; k <= 96; ++k)
     curve.point(x + radius * std::cos(2 * pi * k / 96), radius * std::sin(2 * pi * k / 96));
-  }
   return curve;
 }
 
@@ -230,8 +220,8 @@ Map slice_of_union() {
   const std::vector<Object> balls = {ball(-0.15, 0.24), ball(0.17, 0.2)};
   Map map{"slice-of-phi",
           "Signed distance to two balls that overlap",
-          {"x", "m", Scale::linear},
-          {"z", "m", Scale::linear},
+          {"x", "m"},
+          {"z", "m"},
           {},
           {},
           {},
@@ -270,9 +260,8 @@ StudyResult run_wrinkles_kept(const Subject&, Tier tier, const Progress& progres
     by_map.emplace_back(std::string(map.name), std::move(all));
     progress(double(by_map.size()) / double(depth_maps().size()));
   }
-  result.findings.push_back(plain_flattens(by_map[0].second));
-  result.findings.push_back(blend_keeps_its_share(by_map[2].second));
-  result.findings.push_back(power_crushes_the_deep(sheets));
+  result.add({plain_flattens(by_map[0].second), blend_keeps_its_share(by_map[2].second),
+              power_crushes_the_deep(sheets)});
   result.figures.push_back(shares(by_map));
   result.maps.push_back(slice_of_union());
   return result;
@@ -285,6 +274,8 @@ Study wrinkles_kept_study() {
           "Plain projection flattens wrinkles; maps of depth keep their wavelength. The blend "
           "keeps at least a derived share of their depths; the power law crushes the deepest if "
           "tau is small compared with them.",
+          {"plain-flattens-wrinkles", "wavelength-is-preserved", "blend-keeps-a-share-of-depths",
+           "power-crushes-deep-wrinkles"},
           "BMF03 section 5.3, figure 2",
           "Wrinkled strips lie half inside a half space, a ball and a torus, and are projected by "
           "each map over a range of tau. Of the particles that were inside, the standard deviation "

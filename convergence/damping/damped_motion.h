@@ -2,8 +2,6 @@
 // that folds, a sheet in which every damped mode moves.
 #pragma once
 
-#include <functional>
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -34,6 +32,19 @@ DampedMotion folding_hinge();
 /// A flat sheet of damped springs; a coordinate is a mode of vibration that stiffness as large as
 /// the damping would have, and as such a mode of the damping.
 DampedMotion sheet_in_plane(int cells);
+
+// Motions to rest against stiffness that damping outweighs.
+
+/// A flat, free sheet with springs and hinges, whose modes are all damped more than four times
+/// critically. Each starts displaced by its way and moving towards rest, so that half of the way
+/// decays at its fast rate and half at its slow one: positions and velocities both fall without a
+/// turn. rate: the fastest mode's c.
+DampedMotion overdamped_sheet(int cells);
+
+/// A hinge bent by nearly two radians beyond its rest angle, with one triangle held, released;
+/// springs and hinge overdamped. Not linear. Its way is that back to the rest angle, and its speed
+/// is over way times rate.
+DampedMotion closing_hinge();
 
 struct DampedMotions {
   DampedMotion triangle, hinge, sheet;

@@ -1,14 +1,73 @@
+#include <algorithm>
+#include <cmath>
+
 #include "convergence/damping/artificial_damping.h"
 #include "convergence/damping/sheet_modes.h"
 #include "reference/dynamics/integrator.h"
 #include "verification/specimens/random.h"
 #include "verification/specimens/stepper.h"
-#include <algorithm>
-#include <cmath>
 
 namespace foldproof {
 
 namespace {
+
+/// Does a quantity that fluctuates drift? Its slope in time, and how far chance alone may tilt it.
+struct Trend {
+  double slope = 0;  // of the quantity, by least squares over the blocks [unit/unit of time]
+  double error = 0;  // its standard error
+  std::vector<double> times;  // middles of the blocks
+  std::vector<double> means;  // of the quantity over each block
+};
+
+/// Fills times and means.
+void average(const std::vector<double>& times, const std::vector<double>& values, int blocks,
+             Trend& trend) {
+  const double start = times.front(), span = (times.back() - start) / blocks;
+  std::vector<double> sums(size_t(blocks), 0), counts = sums;
+  for (size_t i = 0; i < times.size(); ++i) {
+    const int block = std::min(blocks - 1, int((times[i] - start) / span));
+    sums[size_t(block)] += values[i];
+    ++counts[size_t(block)];
+  }
+  for (int k = 0; k < blocks; ++k) {
+    if (counts[size_t(k)] == 0)
+      throw InputError("trend_of: a block has no sample; take fewer blocks");
+    trend.times.push_back(start + (k + 0.5) * span);
+    trend.means.push_back(sums[size_t(k)] / counts[size_t(k)]);
+  }
+}
+
+/// Averages the samples over `blocks` equal spans of time, so that what is correlated within a
+/// block counts once, and fits a line. The standard error comes from the scatter about the line,
+/// enlarged by sqrt((1 + r)/(1 - r)) where neighbouring blocks are still correlated, r > 0 being
+/// the lag-one correlation of the scatter. Times must ascend, one for each value, and there must be
+/// a sample in every block, else InputError.
+Trend trend_of(const std::vector<double>& times, const std::vector<double>& values, int blocks) {
+  if (times.size() != values.size() || blocks < 3 || times.empty() ||
+      !(times.back() > times.front()))
+    throw InputError(
+        "trend_of: needs as many times as values, in ascending order, and at least three blocks");
+  Trend trend;
+  average(times, values, blocks, trend);
+
+  const Eigen::Map<const PerParticle> t(trend.times.data(), blocks), y(trend.means.data(), blocks);
+  const PerParticle centred = t.array() - t.mean();
+  trend.slope = centred.dot(y) / centred.squaredNorm();
+  const PerParticle scatter = (y.array() - y.mean()).matrix() - trend.slope * centred;
+  const double lag_one =
+      scatter.head(blocks - 1).dot(scatter.tail(blocks - 1)) / scatter.squaredNorm();
+  const double enlarged = lag_one > 0 ? std::sqrt((1 + lag_one) / (1 - lag_one)) : 1;
+  trend.error = enlarged * std::sqrt(scatter.squaredNorm() / (blocks - 2) / centred.squaredNorm());
+  return trend;
+}
+
+/// At most some 500 of the values, evenly chosen.
+std::vector<double> thin_out(const std::vector<double>& values) {
+  const size_t stride = 1 + values.size() / 500;
+  std::vector<double> kept;
+  for (size_t i = 0; i < values.size(); i += stride) kept.push_back(values[i]);
+  return kept;
+}
 
 constexpr double periods = 100;        // of the slowest mode
 constexpr double part_of_limit = 0.5;  // equal step: of 2/omega_max
@@ -185,8 +244,7 @@ NamedFinding stays_bounded(const Run& run) {
           {{run.whole ? worst.value() : nan, -std::log(kept), 0, "|ln(energy/start)|",
             "a linear mode's energy lies between 1 and 1 - (omega h/2)^2 of a number that the "
             "scheme conserves; omega h/2 is at most a half"},
-           thinned_history(run),
-           ""}};
+           thinned_history(run)}};
 }
 
 NamedFinding dies_out(const Run& run) {
@@ -195,8 +253,7 @@ NamedFinding dies_out(const Run& run) {
           "hundred periods at half the elastic limit.",
           {{run.energies().back(), 0.5, 0, "of the start's energy",
             "half of the energy is what we call significant"},
-           thinned_history(run),
-           ""}};
+           thinned_history(run)}};
 }
 
 /// Means over equal spans of a curve of many steps, so that it can be read; a short one as it is.
@@ -217,11 +274,9 @@ Figure energy_figure(const std::string& name, const std::string& title, const st
                      const std::vector<Run>& runs) {
   Figure figure{name,
                 title,
-                {"time", "periods of the slowest mode", Scale::linear},
+                {"time", "periods of the slowest mode"},
                 {"energy over that of the start", "1", Scale::log},
-                nan,
-                caption,
-                {}};
+                caption};
   for (const Run& run : runs) figure.curves.push_back(readable_curve(run));
   return figure;
 }
@@ -256,8 +311,7 @@ void add_long_vibrations(const Subject& subject, Tier tier, StudyResult& result)
     same_step.push_back(run_of(subject, vibration, name, h, periods));
     const Run& run = same_step.back();
     if (method.family == Family::mixed || name == "implicit-midpoint") {
-      result.findings.push_back(has_no_trend(run));
-      result.findings.push_back(stays_bounded(run));
+      result.add({has_no_trend(run), stays_bounded(run)});
     }
     if (name == "backward-euler") result.findings.push_back(dies_out(run));
   }

@@ -1,9 +1,7 @@
 // How every method comes to rest against stiffness that damping outweighs.
-#include "convergence/damping/monotonicity.h"
-#include "convergence/ranges.h"
-
 #include <cmath>
 
+#include "convergence/damping/monotonicity.h"
 #include "reference/dynamics/integrator.h"
 
 namespace foldproof {
@@ -11,8 +9,101 @@ namespace foldproof {
 namespace {
 
 constexpr double least_shown = 1e-6;  // of the way
-constexpr double most_shown = 1e6;    // ways
-constexpr double turning = 1e-5;      // of the way
+
+Figure first_step_figure(const Subject& subject, const DampedMotions& motions) {
+  Figure figure{
+      "first-step",
+      "First step of a damped motion",
+      {"h c/2", "1", Scale::log},
+      {"|first step| over the whole way", "1", Scale::log},
+      "The exact motion covers 1 - exp(-h c) of its displacement. Above h c/2 = 1 the steps of A "
+      "and RK2 go backwards. BDF2 is left out: its first step is another method's."};
+  const std::vector<double> as = geometric_range(0.05, 40, 16);
+  for (const Integrator& method : integrators()) {
+    if (method.history > 1) continue;
+    figure.curves.push_back(curve_over(std::string(method.name), as, [&](double a) {
+      return std::abs(run_damped(subject, motions.triangle, method.name, a, 1).progress[1][0]);
+    }));
+  }
+  figure.curves.push_back(curve_over("exact", as, [](double a) { return 1 - std::exp(-2 * a); }));
+  return figure;
+}
+
+constexpr double shown_a = 10;
+
+Figure distance_figure(const Subject& subject, const DampedMotions& motions) {
+  Figure figure{"distance",
+                "A damped motion at h c/2 = 10",
+                {"step", "1"},
+                {"distance from the exact place of rest, over the displacement", "1", Scale::log},
+                "The exact motion is over before the first step ends. Explicit methods are "
+                "unstable here; A comes to rest a hundred displacements away."};
+  for (const Integrator& method : integrators()) {
+    Curve curve{std::string(method.name)};
+    const DampedRun run = run_damped(subject, motions.triangle, method.name, shown_a, 24);
+    for (size_t n = 0; n < run.progress.size(); ++n) {
+      const double distance = std::abs(run.progress[n][0] - 1);
+      curve.point(double(n), distance > least_shown && distance < 1e6 ? distance : nan);
+    }
+    figure.curves.push_back(std::move(curve));
+  }
+  return figure;
+}
+
+/// Which methods a history shows, and what to say of them.
+struct Shown {
+  std::vector<std::string> methods;
+  std::string caption;
+};
+
+Shown shown_of_triangle() {
+  return {{"B", "C", "implicit-midpoint", "BDF2", "backward-euler"},
+          "Methods whose motion stays bounded: B, C and the implicit midpoint rule oscillate about "
+          "rest, BDF2 (started exactly) overshoots once, backward Euler approaches from one side."};
+}
+
+Shown shown_of_hinge() {
+  return {{"B", "C", "linear-backward-euler"},
+          "Methods whose solves all succeed; the table has the others. The hinge's damping falls "
+          "as it unfolds: C, which takes the explicit part first, does not come back."};
+}
+
+Figure history_figure(const Subject& subject, const DampedMotion& motion, const Shown& shown) {
+  Figure figure{"history-" + motion.name,
+                "Coming to rest at h c/2 = 10: " + motion.words,
+                {"step", "1"},
+                {"displacement over the exact one", "1"},
+                shown.caption};
+  for (const std::string& method : shown.methods) {
+    Curve curve{method};
+    const DampedRun run = run_damped(subject, motion, method, shown_a, 16);
+    for (size_t n = 0; n < run.progress.size(); ++n) curve.point(double(n), run.progress[n][0]);
+    figure.curves.push_back(std::move(curve));
+  }
+  return figure;
+}
+
+Figure overshoot_figure(const Subject& subject, const DampedMotions& motions, Tier tier) {
+  Figure figure{"sheet",
+                "Overshoot on a damped sheet",
+                {"h c/2 of the fastest mode", "1", Scale::log},
+                {"largest overshoot or way back of a mode, over its way", "1", Scale::log},
+                "All modes in the plane of the sheet move at first, and damping stops them. "
+                "Backward Euler neither overshoots nor turns back at any step, A, B, C and the "
+                "implicit midpoint rule neither below 1. BDF2 is started exactly."};
+  const std::vector<double> as = geometric_range(0.1, 100, tier == Tier::quick ? 10 : 25);
+  for (const std::string method : {"A", "B", "C", "BDF2", "implicit-midpoint"}) {
+    figure.curves.push_back(curve_over(method, as, [&](double a) {
+      const double wrong =
+          worst_overshoot_or_reversal(run_damped(subject, motions.sheet, method, a, 20));
+      return wrong > least_shown && wrong < 1e5 ? wrong : nan;
+    }));
+  }
+  return figure;
+}
+
+constexpr double most_shown = 1e6;  // ways
+constexpr double turning = 1e-5;    // of the way
 constexpr const char* why_turning =
     "displacements are nanometres: positions round by 1e-8 of them, nonlinearity is 1e-7; a method "
     "that overshoots does so by a large part of the displacement";
@@ -28,22 +119,14 @@ double velocity_misconduct(const DampedRun& run) {
   return worst.value();
 }
 
-/// Positions and velocities of a run, each by the worse of overshoot and way back.
-struct Misconduct {
-  double position, velocity;
-};
-
-Misconduct misconduct_of(const DampedRun& run) {
-  return {worst_overshoot_or_reversal(run), velocity_misconduct(run)};
-}
-
-/// The sheet at each of these steps, a = h c/2.
+/// The sheet at each of these steps, a = h c/2: positions and velocities, each by the worse of
+/// overshoot and way back.
 Table sheet_at_steps(const Subject& subject, const DampedMotion& sheet, const std::string& method,
                      const std::vector<double>& as, int steps) {
   Table rows{{"h c/2", "1"}, {"positions", "displacements"}, {"velocities", "of the start's"}};
   for (const double a : as) {
-    const Misconduct wrong = misconduct_of(run_damped(subject, sheet, method, a, steps));
-    rows.row(a, wrong.position, wrong.velocity);
+    const DampedRun run = run_damped(subject, sheet, method, a, steps);
+    rows.row(a, worst_overshoot_or_reversal(run), velocity_misconduct(run));
   }
   return rows;
 }
@@ -64,8 +147,7 @@ NamedFinding sheet_is_monotone(const Subject& subject, const DampedMotion& sheet
           "turns back at any step under " +
               method + ".",
           {{worst_of_both(rows), turning, 0, "of the displacement or of the speed", why_turning},
-           rows,
-           ""}};
+           rows}};
 }
 
 NamedFinding sheet_is_thrown_back(const Subject& subject, const DampedMotion& sheet) {
@@ -76,8 +158,7 @@ NamedFinding sheet_is_thrown_back(const Subject& subject, const DampedMotion& sh
           {{50 / rows.numbers("positions").front(), 1, 0, "1",
             "measured is fifty over the displacement back; if half of the displacement decays "
             "fast, a^2 - a = 90 is derived for the first step"},
-           rows,
-           ""}};
+           rows}};
 }
 
 NamedFinding sheet_is_bounded(const Subject& subject, const DampedMotion& sheet,
@@ -91,8 +172,7 @@ NamedFinding sheet_is_bounded(const Subject& subject, const DampedMotion& sheet,
             "derived without stiffness: a velocity is multiplied by (1 - a)/(1 + a) > -1, so it "
             "changes by less than twice its size; the part of a position that decays fast "
             "overshoots by less than itself"},
-           rows,
-           ""}};
+           rows}};
 }
 
 NamedFinding sheet_swings(const Subject& subject, const DampedMotion& sheet,
@@ -106,8 +186,7 @@ NamedFinding sheet_swings(const Subject& subject, const DampedMotion& sheet,
           {{worst.value(), 1, 0, "1",
             "each reversal must reach a tenth of the starting velocity: measured is a tenth over "
             "the smallest of the four"},
-           rows,
-           ""}};
+           rows}};
 }
 
 NamedFinding hinge_closes_monotonically(const Subject& subject, const DampedMotion& hinge,
@@ -137,11 +216,9 @@ Figure sheet_figure(const std::string& name, const std::string& of) {
       "Overshoot on an overdamped sheet with stiffness: " + of,
       {"h c/2 of the fastest mode", "1", Scale::log},
       {"largest overshoot or way back of a mode, over its start", "1", Scale::log},
-      nan,
       "Every mode starts displaced and moving towards rest. All modes have at least four times the "
       "critical damping. Curves of methods that are monotone everywhere are empty and left out. A "
-      "step beyond a method's limit ends its curve, or sends it up. BDF2 is started exactly.",
-      {}};
+      "step beyond a method's limit ends its curve, or sends it up. BDF2 is started exactly."};
 }
 
 /// The values worth a marker, if there is any.
@@ -196,13 +273,20 @@ void add_overdamped(const Subject& subject, Tier tier, StudyResult& result) {
     result.findings.push_back(sheet_is_monotone(subject, sheet, method));
   result.findings.push_back(sheet_is_thrown_back(subject, sheet));
   for (const std::string scheme : {"B", "C"}) {
-    result.findings.push_back(sheet_is_bounded(subject, sheet, scheme));
-    result.findings.push_back(sheet_swings(subject, sheet, scheme));
+    result.add({sheet_is_bounded(subject, sheet, scheme), sheet_swings(subject, sheet, scheme)});
   }
-  result.findings.push_back(sheet_swings(subject, sheet, "implicit-midpoint"));
-  result.findings.push_back(hinge_closes_monotonically(subject, hinge, "backward-euler"));
+  result.add({sheet_swings(subject, sheet, "implicit-midpoint"),
+              hinge_closes_monotonically(subject, hinge, "backward-euler")});
   add_figures(subject, sheet, tier, result);
   result.tables.push_back(closing_table(subject, hinge));
+}
+
+std::vector<Figure> monotonicity_figures(const Subject& subject, const DampedMotions& motions,
+                                         Tier tier) {
+  return {first_step_figure(subject, motions), distance_figure(subject, motions),
+          history_figure(subject, motions.triangle, shown_of_triangle()),
+          history_figure(subject, motions.hinge, shown_of_hinge()),
+          overshoot_figure(subject, motions, tier)};
 }
 
 }  // namespace foldproof

@@ -133,7 +133,7 @@ Scene sheet_at_rest(int cells, const Relaxation& relaxation) {
   scene.stretch = StretchMaterial{young, relaxation.stretch * young, 1};
   // K = (ke/2) c u u^T and -D = kd c u u^T at a flat hinge
   scene.bending = BendingMaterial{bending, relaxation.bending * bending / 2, Weighting::rest,
-                                  DampingFactor::edge_squared_over_area, "sine"};
+                                  DampingFactor::edge_squared_over_area};
   scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
   scene.solver.tolerance = 1e-10;
   return scene;

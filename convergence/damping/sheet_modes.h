@@ -2,7 +2,6 @@
 // method makes of it.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "reference/dynamics/integrator.h"

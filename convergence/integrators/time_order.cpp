@@ -4,9 +4,6 @@
 #include <cmath>
 #include <random>
 
-#include "convergence/order.h"
-#include "convergence/ranges.h"
-#include "convergence/tables.h"
 #include "reference/dynamics/integrator.h"
 #include "verification/seeds.h"
 
@@ -122,15 +119,14 @@ Convergence above_floor(const Convergence& errors) {
 
 NamedFinding finding_of(const OrderProblem& problem, const Run& run, const Quantity& quantity) {
   const Convergence errors = quantity.of(run);
-  const Estimate deviation =
-      order_deviation(above_floor(errors), run.integrator.order, pairs_judged);
   Table evidence = with_columns(run.levels, {"mean step", "steps", quantity.column()});
   evidence.add({"order of the pair", "1", row_orders(errors)});
-  Finding finding{{deviation.value, bound, deviation.uncertainty, "1", why_bound},
-                  std::move(evidence),
-                  "measured is the largest |order - expected| over the last three pairs of errors "
-                  "that exceed fifty times the reference's uncertainty, where the table of "
-                  "integrators states what is expected"};
+  Finding finding{
+      order_verdict(above_floor(errors), run.integrator.order, pairs_judged, bound, why_bound),
+      std::move(evidence),
+      "measured is the largest |order - expected| over the last three pairs of errors "
+      "that exceed fifty times the reference's uncertainty, where the table of "
+      "integrators states what is expected"};
   const std::string name(run.integrator.name);
   return {problem.study + "." + name + "." + std::string(run.pattern.name) + "." + quantity.name,
           name + " is " + in_words(run.integrator.order) + " order in the " + quantity.words +

@@ -2,11 +2,6 @@
 // sequences that vary.
 #pragma once
 
-#include <array>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "reference/dynamics/integrator.h"
 #include "verification/oracles/cloth.h"
 #include "verification/subject.h"

@@ -1,6 +1,5 @@
 #include "convergence/level_sets/level_set_resolution.h"
 #include "verification/specimens/random.h"
-#include "verification/verdict.h"
 #include <algorithm>
 #include <cmath>
 

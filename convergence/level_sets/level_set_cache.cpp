@@ -4,23 +4,157 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <memory>
 
-#include "convergence/level_sets/cached_level_sets.h"
-#include "convergence/level_sets/studies.h"
+#include "convergence/study.h"
 #include "reference/bodies/deforming_content.h"
+#include "reference/bodies/grid_content.h"
+#include "reference/dynamics/simulate.h"
 #include "reference/level_set/mesh_distance.h"
+#include "reference/mesh/obj.h"
 #include "reference/mesh/shapes.h"
+#include "reference/scene/scene.h"
+#include "verification/files/hdf5_file.h"
+#include "verification/files/level_set_cache_file.h"
+#include "verification/files/level_set_folder.h"
 #include "verification/processor_time.h"
 #include "verification/specimens/scratch_folder.h"
-#include "verification/files/hdf5_file.h"
-#include "verification/files/level_set_folder.h"
-#include "verification/files/level_set_cache_file.h"
 
 namespace foldproof {
 
 namespace {
+
+TriangleSoup ball(int subdivisions) {
+  const TriangleMesh mesh = make_icosphere(0.21, subdivisions);
+  return {mesh.rest, mesh.triangles, {}};
+}
+
+/// A cloth that falls on three bodies: a grid, an octree, and one that breathes.
+std::string case_text(const ScratchFolder& folder) {
+  write_obj(folder.file("ball.obj"), ball(2).rest, ball(2).triangles);
+  const std::string mesh = "[[object]]\nmesh = \"ball.obj\"\ncells = 12\n";
+  return "[cloth]\nshape = \"sheet\"\npattern = \"alternating\"\nwidth = 0.9\nheight = "
+         "0.7\ncolumns = 9\nrows = 7\n"
+         "density = 0.2\nturn = { axis = [1, 0, 0], angle = -90 }\nmove = [-0.4, 0.22, "
+         "0.3]\n[gravity]\n"
+         "[stretch]\nstiffness = 20.0\n[time]\nend = 0.15\n" +
+         mesh + "move = [0.2, 0.0, 0.0]\n" + mesh +
+         "field = \"octree\"\nmove = [-0.2, 0.0, 0.0]\n" + mesh +
+         "interval = 0.05\n[[object.deform]]\nkind = \"breathe\"\namplitude = 0.4\nperiod = 0.3\n";
+}
+
+State end_of_run(const std::string& text, const std::string& path,
+                 const LevelSetProvider& provider) {
+  const Scene scene = read_scene_text(text, path);
+  const BuiltScene built = build(scene, provider);
+  return simulate(built.system, integrator_named(scene.integrator), built.start, scene.schedule, {})
+      .last;
+}
+
+/// Something that makes a good file unfit for what is asked next.
+struct Spoiling {
+  std::string name, reason;  // the reason that must be given
+  std::function<void(const std::string& path)> file = [](const std::string&) {};
+  std::function<void(MeshSequence&, OctreeSettings&)> request = [](MeshSequence&, OctreeSettings&) {
+  };
+};
+
+void cut_to(const std::string& path, double share) {
+  std::filesystem::resize_file(path,
+                               std::uintmax_t(share * double(std::filesystem::file_size(path))));
+}
+
+void cut_at_half(const std::string& path) { cut_to(path, 0.5); }
+
+void write_a_text(const std::string& path) { std::ofstream(path) << "level sets\n"; }
+
+void write_another_file(const std::string& path) {
+  Hdf5::create_file(path).attribute("version", 1);
+}
+
+/// Turns a bit in a value of a file, at this part of its length.
+void turn_bit(const std::string& path, double part) {
+  std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+  const auto place = std::streamoff(part * double(std::filesystem::file_size(path)));
+  file.seekg(place);
+  const char byte = char(file.get());
+  file.seekp(place);
+  file.put(char(byte ^ 4));
+}
+
+bool is_same(const Grid& a, const Grid& b) { return content_key(a) == content_key(b); }
+
+NamedFinding runs_with_cached_level_sets_agree() {
+  const ScratchFolder folder;
+  const std::string text = case_text(folder), path = folder.file("case.toml");
+  int loaded = 0;
+  const auto listen = [&](const std::string& line) {
+    loaded += line.find("loaded") != std::string::npos;
+  };
+  const State without = end_of_run(text, path, computing_provider());
+  const State first = end_of_run(text, path, caching_provider(folder.file("kept"), listen));
+  const int early = loaded;
+  const State second = end_of_run(text, path, caching_provider(folder.file("kept"), listen));
+  const auto differs = [&](const State& s) {
+    return s.x == without.x && s.v == without.v ? 0.0 : 1.0;
+  };
+  return {
+      "level-set-cache.runs-are-bitwise-equal",
+      "A run whose bodies come from stored level sets ends as one that computes them, bit for bit.",
+      {{differs(first) + differs(second) + std::abs(early) + std::abs(loaded - early - 3), 0, 0,
+        "1",
+        "values are stored in full: no bit may differ, and the second run loads all three bodies"},
+       Table{{"run that writes differs", "1"},
+             {"run that loads differs", "1"},
+             {"bodies loaded by the second run", "1"}}
+           .with_row(differs(first), differs(second), double(loaded - early)),
+       "a grid, an octree and a body that deforms under a falling cloth"}};
+}
+
+NamedFinding unfit_grids_are_rejected() {
+  const ScratchFolder folder;
+  std::vector<std::string> said;
+  const LevelSetProvider provider =
+      caching_provider(folder.file("kept"), [&](const std::string& line) { said.push_back(line); });
+  const GridMethod method{14, 4, 3, MarchingOrder::second};
+  const auto file_of = [&](const TriangleSoup& soup) {
+    return folder.file("kept/" + input_key(soup, method, Repair::refuse) + ".h5");
+  };
+  const auto make = [&](const TriangleSoup& soup) {
+    return provider.make_level_set(soup, method, Repair::refuse);
+  };
+  const auto good = make(ball(2));
+  make(ball(1));
+  Table answers{{"file", ""}, {"refused or replaced wrongly", "1"}, {"said", ""}};
+  const auto take_another = [&](const std::string& path) {
+    std::filesystem::copy_file(file_of(ball(1)), path,
+                               std::filesystem::copy_options::overwrite_existing);
+  };
+  for (const Spoiling& spoiling :
+       {Spoiling{"cut at half", "whole HDF5 file", cut_at_half},
+        {"a text", "whole HDF5 file", write_a_text},
+        {"another HDF5 file", "cannot read", write_another_file},
+        {"the grid of another mesh", "another mesh", take_another},
+        {"a bit turned", "", [](const std::string& path) { turn_bit(path, 0.5); }}}) {
+    spoiling.file(file_of(ball(2)));
+    said.clear();
+    const bool is_rebuilt = is_same(*make(ball(2)), *good);
+    const std::string reason = said.empty() ? "" : said.front();
+    const bool is_rejected = reason.find("refused") != std::string::npos &&
+                             reason.find(spoiling.reason) != std::string::npos;
+    const bool is_good_again = is_same(*make(ball(2)), *good) && !said.empty() &&
+                               said.back().find("loaded") != std::string::npos;
+    answers.row(spoiling.name,
+                (is_rebuilt ? 0 : 1) + (is_rejected ? 0 : 1) + (is_good_again ? 0 : 1),
+                reason.substr(0, reason.find('/')) +
+                    reason.substr(std::min(reason.size(), reason.rfind('/'))));
+  }
+  return {"level-set-cache.invalid-grids-are-rejected",
+          "A stored grid that is truncated, damaged, of another format or of another mesh is "
+          "refused with the reason, and replaced.",
+          judge_worst(answers, "refused or replaced wrongly", 0,
+                      "each must be refused and said so, and the new file be good")};
+}
 
 /// A ball that bends, in three frames.
 MeshSequence animation(int subdivisions) {
@@ -162,31 +296,6 @@ NamedFinding loading_is_cheap(const Costs& costs) {
            "beside it and are not judged"}};
 }
 
-/// Something that makes a good file unfit for what is asked next.
-struct Spoiling {
-  std::string name, reason;  // the reason that must be given
-  std::function<void(const std::string& path)> file;
-  std::function<void(MeshSequence&, OctreeSettings&)> request;
-};
-
-void keep_file(const std::string&) {}
-void keep_request(MeshSequence&, OctreeSettings&) {}
-
-void cut_to(const std::string& path, double share) {
-  std::filesystem::resize_file(path,
-                               std::uintmax_t(share * double(std::filesystem::file_size(path))));
-}
-
-/// Turns a bit in a value of a file.
-void turn_bit(const std::string& path, std::uintmax_t from_end) {
-  std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
-  const auto place = std::streamoff(std::filesystem::file_size(path) - from_end);
-  file.seekg(place);
-  const char byte = char(file.get());
-  file.seekp(place);
-  file.put(char(byte ^ 4));
-}
-
 /// A body without sense, written with the keys that belong to it.
 void write_unsound(const std::string& path) {
   DeformingBody body = make_deforming_body(animation(2), settings(4), BetweenFrames::carried);
@@ -195,35 +304,34 @@ void write_unsound(const std::string& path) {
 }
 
 std::vector<Spoiling> spoilings() {
-  return {
-      {"not there", "", [](const std::string& path) { std::filesystem::remove(path); },
-       keep_request},
-      {"cut at half", "whole HDF5 file", [](const std::string& path) { cut_to(path, 0.5); },
-       keep_request},
+  const std::string other = "computed from another";
+  std::vector<Spoiling> all = {
+      {"not there", "", [](const std::string& path) { std::filesystem::remove(path); }},
+      {"cut at half", "whole HDF5 file", cut_at_half},
       {"cut at its last byte", "whole HDF5 file",
-       [](const std::string& path) { cut_to(path, 1 - 1e-7); }, keep_request},
-      {"empty", "whole HDF5 file", [](const std::string& path) { cut_to(path, 0); }, keep_request},
-      {"a text", "whole HDF5 file",
-       [](const std::string& path) { std::ofstream(path) << "level sets\n"; }, keep_request},
-      {"another HDF5 file", "cannot read",
-       [](const std::string& path) { Hdf5::create_file(path).attribute("version", 1); },
-       keep_request},
-      {"a bit turned", "",
-       [](const std::string& path) { turn_bit(path, std::filesystem::file_size(path) / 3); },
-       keep_request},
-      {"branches that do not fit", "branches", write_unsound, keep_request},
-      {"a vertex moved by a rounding", "computed from another", keep_file,
-       [](MeshSequence& s, OctreeSettings&) {
-         s.positions[1](2, 7) = std::nextafter(s.positions[1](2, 7), 1.0);
-       }},
-      {"a triangle turned", "computed from another", keep_file,
-       [](MeshSequence& s, OctreeSettings&) {
-         s.triangles[5] = {s.triangles[5][1], s.triangles[5][2], s.triangles[5][0]};
-       }},
-      {"another time", "computed from another", keep_file,
-       [](MeshSequence& s, OctreeSettings&) { s.times[1] = 0.31; }},
-      {"another tolerance", "computed from another", keep_file,
-       [](MeshSequence&, OctreeSettings& how) { how.tolerance = 1.01e-3; }}};
+       [](const std::string& path) { cut_to(path, 1 - 1e-7); }},
+      {"empty", "whole HDF5 file", [](const std::string& path) { cut_to(path, 0); }},
+      {"a text", "whole HDF5 file", write_a_text},
+      {"another HDF5 file", "cannot read", write_another_file},
+      {"a bit turned", "", [](const std::string& path) { turn_bit(path, 2.0 / 3); }},
+      {"branches that do not fit", "branches", write_unsound}};
+  all.push_back({.name = "a vertex moved by a rounding",
+                 .reason = other,
+                 .request = [](MeshSequence& s, OctreeSettings&) {
+                   s.positions[1](2, 7) = std::nextafter(s.positions[1](2, 7), 1.0);
+                 }});
+  all.push_back({.name = "a triangle turned",
+                 .reason = other,
+                 .request = [](MeshSequence& s, OctreeSettings&) {
+                   s.triangles[5] = {s.triangles[5][1], s.triangles[5][2], s.triangles[5][0]};
+                 }});
+  all.push_back({.name = "another time",
+                 .reason = other,
+                 .request = [](MeshSequence& s, OctreeSettings&) { s.times[1] = 0.31; }});
+  all.push_back({.name = "another tolerance",
+                 .reason = other,
+                 .request = [](MeshSequence&, OctreeSettings& how) { how.tolerance = 1.01e-3; }});
+  return all;
 }
 
 /// Without the path of the file.
@@ -265,13 +373,11 @@ NamedFinding unfit_files_are_rejected() {
 StudyResult run_level_set_cache(const Subject&, Tier, const Progress& progress) {
   Costs costs{};
   StudyResult result;
-  result.findings.push_back(loaded_is_the_same(costs));
-  result.findings.push_back(loading_is_cheap(costs));
+  result.add({loaded_is_the_same(costs), loading_is_cheap(costs)});
   progress(0.2);
   result.findings.push_back(unfit_files_are_rejected());
   progress(0.7);
-  result.findings.push_back(runs_with_cached_level_sets_agree());
-  result.findings.push_back(unfit_grids_are_rejected());
+  result.add({runs_with_cached_level_sets_agree(), unfit_grids_are_rejected()});
   return result;
 }
 
@@ -281,6 +387,8 @@ Study level_set_cache_study() {
   return {"level-set-cache",
           "Level sets loaded from a file answer as computed ones do, bit for bit; loading reads a "
           "tenth of the numbers that computing reads, or less; invalid files are rejected.",
+          {"loaded-fields-are-bitwise-equal", "runs-are-bitwise-equal", "loading-is-cheap",
+           "invalid-files-are-rejected", "invalid-grids-are-rejected"},
           "BMF03 section 5.1",
           "A whole animation's level sets are stored in a file with the key of what they were "
           "computed from. How much does a second run still cost, and can it be fooled?",

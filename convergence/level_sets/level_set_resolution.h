@@ -1,9 +1,5 @@
-// Parts of the study level-set-resolution: errors of grids, and their cost.
+// Part of the study level-set-resolution: errors of grids.
 #pragma once
-
-#include <functional>
-#include <string>
-#include <vector>
 
 #include "convergence/study.h"
 #include "reference/level_set/fast_marching.h"
@@ -67,11 +63,5 @@ struct ContourErrors {
 };
 
 ContourErrors contour_errors(const KnownBody& body, const Grid& grid);
-
-// Cost of a grid around a mesh: nodes, memory, seconds, error.
-
-/// Adds the table `cost` and the figure `error-against-memory` of grids about a statue. cells:
-/// along its longest side.
-void add_grid_costs(const std::vector<int>& cells, StudyResult& result);
 
 }  // namespace foldproof

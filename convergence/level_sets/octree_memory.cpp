@@ -1,10 +1,9 @@
 // octree-memory: what an octree saves against a regular grid of the same error.
-#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <random>
 
-#include "convergence/level_sets/studies.h"
+#include "convergence/study.h"
 #include "reference/level_set/mesh_distance.h"
 #include "reference/level_set/octree.h"
 #include "reference/level_set/octree_nodes.h"
@@ -157,8 +156,7 @@ NamedFinding even_curve_takes_more(const std::vector<Balance>& all) {
           {{worst.value(), 1, 0, "1",
             "measured is a tenth over the share: below 1 the share is larger. The band's cells "
             "must all be as small as the grid's, and a leaf takes the memory of four nodes"},
-           evidence_of(all, "sphere"),
-           ""}};
+           evidence_of(all, "sphere")}};
 }
 
 NamedFinding uneven_bodies_save(const std::vector<Balance>& all) {
@@ -215,13 +213,10 @@ Figure figure_of(const std::vector<Balance>& all) {
                 "Memory against error",
                 {"largest miss within three cells", "m", Scale::log},
                 {"memory", "MB", Scale::log},
-                nan,
                 "The cube is 1 m wide. A grid of n cells along each axis has (n + 1)^3 values; "
-                "each octree's error is at most that of the grid beside it.",
-                {}};
+                "each octree's error is at most that of the grid beside it."};
   for (const char* const body : {"sphere", "torus", "box", "statue"}) {
-    Curve grid{std::string(body) + ", grid", {}, {}, nan, {}},
-        tree{std::string(body) + ", octree", {}, {}, nan, {}};
+    Curve grid{std::string(body) + ", grid"}, tree{std::string(body) + ", octree"};
     for (const Balance& b : all) {
       if (b.body != body) continue;
       grid.point(b.grid_miss, b.grid_bytes / 1e6);
@@ -239,8 +234,8 @@ Map slice_of(const Body& body) {
                                                     0.25, 0, HangingNodes::constrained});
   Map map{"leaves",
           "Leaves of an octree, cut by a plane",
-          {"x", "m", Scale::linear},
-          {"y", "m", Scale::linear},
+          {"x", "m"},
+          {"y", "m"},
           {},
           {},
           {},
@@ -284,6 +279,7 @@ Study octree_memory_study() {
       "octree-memory",
       "An octree takes less memory than a regular grid of the same error on a box and on a bumpy "
       "body; on a sphere and on a torus more at 64 cells along each axis, and less from 128 on.",
+      {"saves-on-boxes-and-bumpy-bodies", "even-bodies-save-from-128-cells-on"},
       "BMF03 section 5.1",
       "How much does adaptive sampling save? For bodies with even curvature, sharp edges and "
       "bumps, a regular grid and the coarsest octree with no larger error, both in double "

@@ -4,8 +4,7 @@
 #include <memory>
 #include <random>
 
-#include "convergence/order.h"
-#include "convergence/level_sets/studies.h"
+#include "convergence/study.h"
 #include "reference/level_set/grid.h"
 #include "reference/level_set/octree.h"
 #include "verification/seeds.h"
@@ -136,15 +135,14 @@ NamedFinding angle_finding(const Sampling& sampling) {
 }
 
 NamedFinding phi_finding(const Sampling& sampling) {
-  const Estimate deviation =
-      order_deviation(convergence_of(sampling.errors, "largest miss of phi"), 1, 2);
-  return {"sharp-edges.phi-is-first-order." + sampling.name,
-          "On " + sampling.words + " the surface misses an edge by a part of a cell.",
-          {{deviation.value, 0.2, deviation.uncertainty, "1",
-            "a kink of phi is cut off over a cell: order 1; the largest of 6000 random places is "
-            "known to a tenth or so, a fifth of an order between a spacing and its half"},
-           sampling.errors,
-           "measured is |order - 1| of the last two pairs"}};
+  return {
+      "sharp-edges.phi-is-first-order." + sampling.name,
+      "On " + sampling.words + " the surface misses an edge by a part of a cell.",
+      {order_verdict(
+           convergence_of(sampling.errors, "largest miss of phi"), 1, 2, 0.2,
+           "a kink of phi is cut off over a cell: order 1; the largest of 6000 random places is "
+           "known to a tenth or so, a fifth of an order between a spacing and its half"),
+       sampling.errors, "measured is |order - 1| of the last two pairs"}};
 }
 
 Figure figure_of(const std::vector<Sampling>& samplings) {
@@ -154,12 +152,11 @@ Figure figure_of(const std::vector<Sampling>& samplings) {
                 {"distance from the edge", "m", Scale::log},
                 1,
                 "A box at an angle to the grid: the points of its faces farthest from an edge at "
-                "which N is off by more than a degree.",
-                {}};
+                "which N is off by more than a degree."};
   for (const Sampling& sampling : samplings) {
     const std::vector<double>&spacings = sampling.errors.numbers("spacing"),
           &reaches = sampling.errors.numbers("reach");
-    Curve curve{sampling.words, {}, {}, nan, {}};
+    Curve curve{sampling.words};
     for (size_t k = 0; k < spacings.size(); ++k) curve.point(spacings[k], reaches[k] * spacings[k]);
     figure.curves.push_back(std::move(curve));
   }
@@ -184,8 +181,7 @@ StudyResult run_sharp_edges(const Subject&, Tier tier, const Progress& progress)
   }
   StudyResult result;
   for (const Sampling& sampling : {grids, trees}) {
-    result.findings.push_back(reach_finding(sampling));
-    result.findings.push_back(phi_finding(sampling));
+    result.add({reach_finding(sampling), phi_finding(sampling)});
   }
   result.findings.push_back(angle_finding(grids));
   result.figures.push_back(figure_of({grids, trees}));
@@ -195,7 +191,10 @@ StudyResult run_sharp_edges(const Subject&, Tier tier, const Progress& progress)
 }  // namespace
 
 Study sharp_edges_study() {
-  return {"sharp-edges", "Sampled distances round off edges and blend the normals next to them.",
+  return {"sharp-edges",
+          "Sampled distances round off edges and blend the normals next to them.",
+          {"phi-is-first-order", "normals-blend-near-edges-only",
+           "normal-error-persists-under-refinement"},
           "BMF03 section 5.1",
           "How far from an edge does N differ from the face's normal, and how much does refinement "
           "help? A box at an angle to the grid, with exact values at the nodes.",

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "convergence/order.h"
 #include "convergence/stability/stable_step.h"
 #include "convergence/stability/step_matrix.h"
 #include "reference/dynamics/integrator.h"
@@ -16,9 +15,7 @@ namespace {
 Scene damped_sheet(int cells, const Damping& damping) {
   Scene scene = flat_sheet(cells);
   if (damping.springs > 0) scene.stretch = StretchMaterial{29, damping.springs, 1};
-  if (damping.bending > 0)
-    scene.bending =
-        BendingMaterial{0.0071, damping.bending, Weighting::rest, DampingFactor::edge, "sine"};
+  if (damping.bending > 0) scene.bending = BendingMaterial{0.0071, damping.bending};
   return scene;
 }
 
@@ -29,19 +26,20 @@ double largest_damping_rate(const Subject& subject, const Scene& scene) {
 
 NamedFinding damping_exponent(const Damping& damping, Table limits, double exponent) {
   const Convergence rates = convergence_of(limits, "2/rate of damping");
-  const Estimate deviation = order_deviation(rates, exponent, 1);
   limits.add({"exponent", "1", row_orders(rates)});
-  return {"stability-sheet.damping-limit-exponent." + damping.name,
-          "With " + damping.words +
-              ", where damping decides, the largest stable step of a fully explicit method is "
-              "proportional to the cells' width to the power " +
-              (exponent == 2 ? "two." : "three."),
-          {{deviation.value, 0.1, 0, "1",
-            "another whole exponent is off by 1; the border's effect on the fastest mode vanishes "
-            "as the number of cells grows"},
-           std::move(limits),
-           "measured is |exponent - expected| of the last pair; 2/rate is forward Euler's and "
-           "RK2's limit, where damping decides"}};
+  return {
+      "stability-sheet.damping-limit-exponent." + damping.name,
+      "With " + damping.words +
+          ", where damping decides, the largest stable step of a fully explicit method is "
+          "proportional to the cells' width to the power " +
+          (exponent == 2 ? "two." : "three."),
+      {order_verdict(
+           rates, exponent, 1, 0.1,
+           "another whole exponent is off by 1; the border's effect on the fastest mode vanishes "
+           "as the number of cells grows"),
+       std::move(limits),
+       "measured is |exponent - expected| of the last pair; 2/rate is forward Euler's and "
+       "RK2's limit, where damping decides"}};
 }
 
 }  // namespace
@@ -59,10 +57,8 @@ void add_refinement(const Subject& subject, Tier tier, StudyResult& result) {
                 "What limits a step as the cells become small",
                 {"width of a cell", "m", Scale::log},
                 {"largest stable step", "s", Scale::log},
-                nan,
                 "2/omega limits schemes A and B, and C where nothing is damped; 2/rate of damping "
-                "limits forward Euler and explicit midpoint.",
-                {}};
+                "limits forward Euler and explicit midpoint."};
   Curve elastic{"2/omega, springs", {}, {}, nan, {}, 1};
   for (const int cells : meshes)
     elastic.point(flat_side / cells,
@@ -135,15 +131,12 @@ NamedFinding factor_exponent(const Table& counts) {
         &classical = counts.numbers("classical Runge-Kutta 4");
   Table factors{{"width of a cell", "1"}, {"steps of RK4 over those of A", "1"}};
   for (size_t i = 0; i < widths.size(); ++i) factors.row(widths[i], classical[i] / mixed[i]);
-  const Estimate deviation =
-      order_deviation(convergence_of(factors, "steps of RK4 over those of A"), -1, 1);
   return {"stability-sheet.tenth-width.step-ratio-exponent",
           "The factor between the steps of explicit and mixed methods grows as one over the width "
           "of a cell.",
-          {{deviation.value, 0.1, 0, "1",
-            "an exponent of 0, if the factor stayed, or of 2 is off by 1"},
-           factors,
-           "measured is |exponent + 1| of the last pair"}};
+          {order_verdict(convergence_of(factors, "steps of RK4 over those of A"), -1, 1, 0.1,
+                         "an exponent of 0, if the factor stayed, or of 2 is off by 1"),
+           factors, "measured is |exponent + 1| of the last pair"}};
 }
 
 /// At a tenth the steps are also found by trying: runs of the whole sheet, and for A, which leaves
@@ -171,8 +164,7 @@ NamedFinding by_trying(const Subject& subject, const Integrator& integrator, dou
           {{std::abs(steps / expected - 1), 0.01, 0, "1",
             "from a third of a percent beyond the limit on, a disturbance grows a thousandfold in "
             "2400 steps; the bisection ends at a sixth of a percent"},
-           Table{{"steps in a unit of time", "1"}, {"as known", "1"}}.with_row(steps, expected),
-           ""}};
+           Table{{"steps in a unit of time", "1"}, {"as known", "1"}}.with_row(steps, expected)}};
 }
 
 }  // namespace
@@ -181,8 +173,7 @@ void add_tenth(const Subject& subject, Tier tier, StudyResult& result) {
   std::vector<int> meshes = {5, 10, 20};
   if (tier == Tier::full) meshes.insert(meshes.end(), {40, 80});
   const Table counts = step_counts(subject, meshes);
-  result.findings.push_back(an_order_of_magnitude(counts));
-  result.findings.push_back(factor_exponent(counts));
+  result.add({an_order_of_magnitude(counts), factor_exponent(counts)});
   for (const auto& [name, column] :
        {std::pair("A", "schemes A and B"), std::pair("forward-euler", "forward Euler"),
         std::pair("RK2", "explicit midpoint"), std::pair("RK4", "classical Runge-Kutta 4")})

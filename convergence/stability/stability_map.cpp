@@ -1,14 +1,10 @@
 #include "convergence/stability/stability_sheet.h"
 
 #include <cmath>
-#include <utility>
 
-#include "convergence/ranges.h"
 #include "convergence/stability/stable_step.h"
 #include "convergence/stability/step_matrix.h"
-#include "convergence/tables.h"
 #include "reference/dynamics/integrator.h"
-#include "verification/oracles/estimate.h"
 #include "verification/oracles/stability.h"
 
 namespace foldproof {
@@ -37,7 +33,7 @@ Scene relaxing_sheet(const Springs& springs, int cells, double relaxation) {
   scene.stretch = StretchMaterial{springs.stiffness, relaxation * springs.stiffness, 1};
   // K = (ke/2) c u u^T and -D = kd c u u^T at a flat hinge
   scene.bending = BendingMaterial{bending, relaxation * bending / 2, Weighting::rest,
-                                  DampingFactor::edge_squared_over_area, "sine"};
+                                  DampingFactor::edge_squared_over_area};
   scene.solver.tolerance = 1e-12;
   return scene;
 }
@@ -128,7 +124,7 @@ std::vector<Curve> level_curves(const Integrator& method, const MappedSheet& she
   if (method.name == "A" || method.name == "B") return curves;
   for (const auto& [level, words] : {std::pair(0.01, "1/100"), std::pair(0.1, "1/10"),
                                      std::pair(10., "10"), std::pair(100., "100")}) {
-    Curve curve{std::string("derived: ") + words, {}, {}, nan, {}};
+    Curve curve{std::string("derived: ") + words};
     for (const MeshMode& one : sheet.modes) {
       const double zeta = ratio_at_level(method, level, sheet.faster(one),
                                          {sheet.materials.front(), sheet.materials.back()});

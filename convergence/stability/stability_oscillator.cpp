@@ -4,10 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "convergence/ranges.h"
 #include "convergence/stability/step_matrix.h"
-#include "convergence/stability/studies.h"
-#include "convergence/tables.h"
+#include "convergence/study.h"
 #include "reference/dynamics/integrator.h"
 #include "verification/oracles/exact_solutions.h"
 #include "verification/oracles/stability.h"
@@ -134,10 +132,9 @@ NamedFinding unlimited_finding(const Subject& subject, const Integrator& integra
 }
 
 Curve known_curve(const Integrator& integrator) {
-  Curve curve{"limit as known", {}, {}, nan, {}};
-  for (const double zeta : geometric_range(0.01, 10, 61)) {
+  Curve curve{"limit as known"};
+  for (const double zeta : geometric_range(0.01, 10, 61))
     curve.point(known_limit(integrator, zeta), zeta);
-  }
   return curve;
 }
 
@@ -177,10 +174,8 @@ StudyResult run_stability_oscillator(const Subject& subject, Tier tier, const Pr
                 "Largest stable step of the damped oscillator",
                 {"damping ratio", "1", Scale::log},
                 {"largest stable omega h", "1", Scale::log},
-                nan,
                 "Measured from step matrices. Methods that are implicit in the elastic forces have "
-                "no limit and no curve; A and B share one.",
-                {}};
+                "no limit and no curve; A and B share one."};
   Table heavy{{"method", "1"},
               {"largest stable omega h", "1"},
               {"exponent in the damping ratio", "1"},
@@ -194,7 +189,7 @@ StudyResult run_stability_oscillator(const Subject& subject, Tier tier, const Pr
       const Table row = limit_row(subject, integrator, ratios);
       result.findings.push_back(limit_finding(integrator, row));
       if (integrator.family == Family::fully_explicit) add_heavy(integrator, row, heavy);
-      Curve curve{std::string(integrator.name), {}, {}, nan, {}};
+      Curve curve{std::string(integrator.name)};
       for (size_t i = 0; i < row.rows(); ++i)
         if (row.numbers("damping ratio")[i] > 0)
           curve.point(row.numbers("damping ratio")[i], row.numbers("largest stable omega h")[i]);
@@ -218,6 +213,8 @@ Study stability_oscillator_study() {
           "On the damped oscillator schemes A and B are stable up to 2/omega whatever the damping, "
           "and C up to longer steps the stronger the damping; heavy damping shortens the stable "
           "step of explicit methods in proportion, and fully implicit ones have no limit.",
+          {"limit-is-as-derived", "undamped-motion-grows", "heavy-damping-shortens-explicit-steps",
+           "has-no-limit"},
           "BMF03 section 3",
           "One corner of a hinge moves across its plane, three are held: an oscillator whose "
           "frequency and damping can be worked out by hand. Two unit disturbances, stepped once, "

@@ -2,12 +2,8 @@
 // in the damping and what is not.
 #include <cmath>
 
-#include "convergence/order.h"
 #include "convergence/stability/stability_sheet.h"
-#include "convergence/ranges.h"
 #include "convergence/stability/step_matrix.h"
-#include "convergence/stability/studies.h"
-#include "convergence/tables.h"
 #include "reference/dynamics/integrator.h"
 #include "verification/oracles/stability.h"
 
@@ -127,12 +123,10 @@ void add_clamped_sheet(const Subject& subject, Tier tier, const Progress& progre
         "Largest stable step of a clamped sheet, " + damping.words,
         {"multiple of the damping constants", "1", Scale::log},
         {"largest stable step", "s", Scale::log},
-        nan,
         "The constants are 0.3 N s/m of springs, 0.01 N s of bending. From the spectral radius of "
         "the whole sheet's step. A and B keep the undamped limit, that of C is never shorter, and "
         "heavy damping shortens that of explicit methods in proportion. Forward Euler and explicit "
-        "midpoint have no stable step at all where some modes are undamped.",
-        {}};
+        "midpoint have no stable step at all where some modes are undamped."};
     Table heavy{{"method", "1"},
                 {"largest stable step", "s"},
                 {"exponent in the damping", "1"},
@@ -171,18 +165,21 @@ StudyResult run_stability_sheet(const Subject& subject, Tier tier, const Progres
 }  // namespace
 
 Study stability_sheet_study() {
-  return {"stability-sheet",
-          "On a sheet the largest stable step of A and B does not depend on the damping, and "
-          "damping never shortens that of C; where damping decides, that of explicit methods is "
-          "inversely proportional to it, and proportional to dx^2 with damped springs, to dx^3 "
-          "with damped bending.",
-          "BMF03 section 3",
-          "A small clamped sheet of springs and hinges is stepped from each unit disturbance, "
-          "which gives the matrix of the whole step. The step at which its spectral radius exceeds "
-          "1 is found by bisection while the damping rises by a factor of 1e4. Under refinement "
-          "the largest rate of the damping is found by power iteration. The paper's example, cells "
-          "of a tenth, is computed and confirmed by runs.",
-          run_stability_sheet};
+  return {
+      "stability-sheet",
+      "On a sheet the largest stable step of A and B does not depend on the damping, and "
+      "damping never shortens that of C; where damping decides, that of explicit methods is "
+      "inversely proportional to it, and proportional to dx^2 with damped springs, to dx^3 "
+      "with damped bending.",
+      {"limit-does-not-depend-on-damping", "damping-never-lowers-the-limit",
+       "heavy-damping-shortens-explicit-steps", "damping-limit-exponent", "limit-is-as-derived"},
+      "BMF03 section 3",
+      "A small clamped sheet of springs and hinges is stepped from each unit disturbance, "
+      "which gives the matrix of the whole step. The step at which its spectral radius exceeds "
+      "1 is found by bisection while the damping rises by a factor of 1e4. Under refinement "
+      "the largest rate of the damping is found by power iteration. The paper's example, cells "
+      "of a tenth, is computed and confirmed by runs.",
+      run_stability_sheet};
 }
 
 }  // namespace foldproof

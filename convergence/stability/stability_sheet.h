@@ -1,9 +1,6 @@
 // Parts of the study stability-sheet: limits of explicit methods, and maps over damping and mesh.
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "convergence/study.h"
 #include "verification/subject.h"
 

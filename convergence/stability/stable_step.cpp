@@ -1,11 +1,11 @@
 #include "convergence/stability/stable_step.h"
 
 #include <cmath>
-#include <memory>
 #include <random>
 
 #include "reference/mesh/shapes.h"
 #include "verification/seeds.h"
+#include "verification/specimens/stepper.h"
 
 namespace foldproof {
 
@@ -13,26 +13,17 @@ namespace {
 
 /// Does a small disturbance stay small in steps of h [s]? Stable motion is bounded by the modes'
 /// amplitudes, unstable motion grows beyond every bound.
-enum class ProjectionOutcome { stays, grows };
-
-struct Trial {
-  const Subject& subject;
-  const Scene& scene;
-  PreparedScene& prepared;
-  int steps;
-};
-
-ProjectionOutcome fate_of(const Trial& trial, double h) {
+bool stays(Stepper& stepper, int steps, double h) {
   constexpr double growth = 1000;
-  State s = start_state(trial.scene);
+  const Scene& scene = stepper.scene();
+  State s = stepper.start();
   s.x += small_disturbance * disturbance_shape(s.x.cols());
-  const double start = (s.x - trial.scene.x).norm();
-  Work uncounted;
-  for (int i = 0; i < trial.steps; ++i) {
-    s = trial.subject.step(trial.prepared, {&s, 1}, h, uncounted);
-    if (!((s.x - trial.scene.x).norm() <= growth * start)) return ProjectionOutcome::grows;
+  const double start = (s.x - scene.x).norm();
+  for (int i = 0; i < steps; ++i) {
+    s = stepper.step(s, h);
+    if (!((s.x - scene.x).norm() <= growth * start)) return false;
   }
-  return ProjectionOutcome::stays;
+  return true;
 }
 
 }  // namespace
@@ -97,15 +88,15 @@ FastestMode fastest_mode(const Subject& subject, const Scene& scene) {
 
 double largest_stable_step(const Subject& subject, const Scene& scene, double omega,
                            const StepSearch& search) {
-  const auto prepared = require_offered(subject.prepare, "prepare")(scene);
-  require_offered(subject.step, "step");
-  const Trial trial{subject, scene, *prepared, search.steps};
+  Stepper stepper(subject, scene, scene.integrator);
+  const auto is_stable = [&](double step) {
+    return stays(stepper, search.steps, step * 2 / omega);
+  };
   double below = search.low, above = search.high;
-  if (fate_of(trial, below * 2 / omega) == ProjectionOutcome::grows) return nan;
-  if (fate_of(trial, above * 2 / omega) == ProjectionOutcome::stays) return nan;
+  if (!is_stable(below) || is_stable(above)) return nan;
   for (int i = 0; i < search.halvings; ++i) {
     const double middle = (below + above) / 2;
-    (fate_of(trial, middle * 2 / omega) == ProjectionOutcome::stays ? below : above) = middle;
+    (is_stable(middle) ? below : above) = middle;
   }
   return (below + above) / 2;
 }

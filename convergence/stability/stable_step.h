@@ -1,8 +1,6 @@
 // The largest stable step of motion near a scene's start: found from the forces, and by trying.
 #pragma once
 
-#include <functional>
-
 #include "verification/subject.h"
 
 namespace foldproof {

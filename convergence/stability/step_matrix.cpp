@@ -7,6 +7,7 @@
 #include "reference/dynamics/integrator.h"
 #include "reference/mesh/shapes.h"
 #include "verification/oracles/dense_algebra.h"
+#include "verification/specimens/specimens.h"
 
 namespace foldproof {
 
@@ -69,7 +70,7 @@ SmallMotion hinge_oscillator(double zeta) {
   const double kd = 2 * zeta * omega * mass / (length * squared_mode);  // N s
 
   Scene scene = scene_at_rest(make_hinge(length, 0), density);
-  scene.bending = BendingMaterial{ke, kd, Weighting::rest, DampingFactor::edge, "sine"};
+  scene.bending = BendingMaterial{ke, kd};
   scene.rest_angles = {0};
   for (int i = 1; i < 4; ++i) scene.prescribed.push_back({i, scene.x.col(i), {}});
   Eigen::MatrixXd shape = Eigen::MatrixXd::Zero(12, 1);
@@ -80,9 +81,7 @@ SmallMotion hinge_oscillator(double zeta) {
 Scene clamped_sheet(double spring_damping, double bending_damping) {
   Scene scene = scene_at_rest(make_sheet({SheetPattern::union_jack, 0.33, 0.22, 3, 2}), 0.23);
   scene.stretch = StretchMaterial{29, spring_damping, 1};
-  scene.bending =
-      BendingMaterial{0.11, bending_damping, Weighting::rest, DampingFactor::edge, "sine"};
-  scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
+  add_flat_hinges(scene, 0.11, bending_damping);
   for (int i = 0; i < scene.mesh.particles(); ++i)
     if (scene.mesh.rest(0, i) < 0.17) scene.prescribed.push_back({i, scene.x.col(i), {}});
   return scene;
@@ -90,14 +89,12 @@ Scene clamped_sheet(double spring_damping, double bending_damping) {
 
 SmallMotion free_motion(Scene scene, double omega0) {
   const PerParticle mass = lumped_masses(scene.mesh, scene.density);
-  std::vector<char> held(size_t(mass.size()), 0);
-  for (const PrescribedParticle& p : scene.prescribed) held[size_t(p.particle)] = 1;
-  const Eigen::Index n = 3 * (mass.size() - Eigen::Index(scene.prescribed.size()));
+  const std::vector<int> free = free_particles(scene);
+  const Eigen::Index n = 3 * Eigen::Index(free.size());
   Eigen::MatrixXd shapes = Eigen::MatrixXd::Zero(3 * mass.size(), n);
   Eigen::Index column = 0;
-  for (Eigen::Index i = 0; i < mass.size(); ++i)
-    for (Eigen::Index d = 0; d < 3 && !held[size_t(i)]; ++d)
-      shapes(3 * i + d, column++) = 1 / std::sqrt(mass[i]);
+  for (const int i : free)
+    for (int d = 0; d < 3; ++d) shapes(3 * i + d, column++) = 1 / std::sqrt(mass[i]);
   return {std::move(scene), std::move(shapes), omega0, sheet_disturbance};
 }
 
@@ -168,7 +165,7 @@ oracles::Scheme derived_scheme(std::string_view integrator) {
 }
 
 double spectral_radius(const Eigen::MatrixXd& matrix) {
-  if (!matrix.allFinite()) return std::numeric_limits<double>::quiet_NaN();
+  if (!matrix.allFinite()) return nan;
   Worst worst;
   const Eigen::VectorXcd values = oracles::eigenvalues(matrix);
   for (const std::complex<double>& value : values) worst.observe(std::abs(value));
@@ -194,7 +191,7 @@ double largest_constant_step(const SteppedMotion& of, const StepRange& range) {
 }
 
 double transient_growth(const Eigen::MatrixXd& matrix, int powers) {
-  if (!matrix.allFinite()) return std::numeric_limits<double>::quiet_NaN();
+  if (!matrix.allFinite()) return nan;
   Worst worst;
   worst.observe(1);
   Eigen::MatrixXd power = matrix;

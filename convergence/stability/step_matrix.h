@@ -3,7 +3,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <memory>
 #include <string_view>
 
 #include "verification/oracles/exact_solutions.h"

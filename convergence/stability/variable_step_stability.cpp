@@ -1,18 +1,100 @@
 // variable-step-stability: steps that are stable each by itself need not be so in turn.
 #include <cmath>
 
-#include "convergence/stability/bdf2_growing_steps.h"
-#include "convergence/ranges.h"
 #include "convergence/stability/stable_step.h"
 #include "convergence/stability/step_matrix.h"
-#include "convergence/stability/studies.h"
+#include "convergence/study.h"
 #include "reference/dynamics/integrator.h"
 #include "reference/mesh/shapes.h"
 #include "verification/oracles/exact_solutions.h"
+#include "verification/oracles/stability.h"
+#include "verification/specimens/stepper.h"
 
 namespace foldproof {
 
 namespace {
+
+/// The hinge's corner without any force: x'' = 0.
+SteppedMotion bdf2_without_forces(const Subject& subject) {
+  SmallMotion motion = hinge_oscillator(0);
+  motion.scene.bending.reset();
+  motion.scene.rest_angles.clear();
+  return stepped_motion(subject, std::move(motion), "BDF2");
+}
+
+/// Factor on the difference of the two latest velocities in one step of ratio times the one before.
+double difference_factor(const SteppedMotion& of, double ratio) {
+  const double h = 1 / of.motion.omega0;
+  const Eigen::MatrixXd matrix = step_matrix(of, {ratio * h, h});
+  return -matrix(3, 1);  // v'' = (1 + p) v' - p v
+}
+
+NamedFinding zero_stability(const Subject& subject) {
+  const SteppedMotion of = bdf2_without_forces(subject);
+  double below = 1, above = 5;
+  for (int i = 0; i < 45; ++i) {
+    const double middle = (below + above) / 2;
+    (difference_factor(of, middle) <= 1 ? below : above) = middle;
+  }
+  const oracles::Estimate exact = oracles::bdf2_largest_ratio();
+  return {
+      "variable-step-stability.BDF2.largest-step-ratio-is-as-derived",
+      "With steps that grow by a constant ratio, BDF2 amplifies differences between solutions of "
+      "x'' = 0 from the ratio 1 + sqrt(2) on.",
+      {{std::abs((below + above) / 2 - exact.value), 1e-9, exact.uncertainty, "1",
+        "the factor r^2/(1 + 2 r) is found to roundings, and its slope there is 0.35"},
+       Table{{"ratio found", "1"}, {"1 + sqrt(2)", "1"}}.with_row((below + above) / 2,
+                                                                  exact.value)}};
+}
+
+/// A corner in flight at v0, whose second state is disturbed: what comes of the disturbance after
+/// steps that grow by `ratio` up to omega h = .001, over the disturbance.
+double amplification(const SteppedMotion& of, double ratio) {
+  constexpr int steps = 600;
+  double h = 1e-3 / of.motion.omega0 * std::pow(ratio, -steps);
+  State first = start_state(of.motion.scene), second = first;
+  second.v(2, 0) = of.motion.omega0 * of.motion.disturbance;
+  second.time = h;
+  const double size = second.v(2, 0);
+  std::vector<State> past = {first, second};
+  Work uncounted;
+  for (int i = 0; i < steps; ++i) {
+    h *= ratio;
+    State next = of.subject.step(*of.prepared, past, h, uncounted);
+    past = {past[1], std::move(next)};
+  }
+  return std::abs(past[1].v(2, 0)) / size;
+}
+
+std::vector<NamedFinding> growing_steps(const std::string& where, const SteppedMotion& of) {
+  constexpr double below = 2.40, above = 2.43;
+  const auto factor = [](double r) { return r * r / (1 + 2 * r); };
+  const double kept = amplification(of, below), grown = amplification(of, above);
+  const double bound = 1 / (1 - factor(below));  // 1 + p + p^2 + ...
+  return {
+      {"variable-step-stability.BDF2.bounded-below-that-ratio." + where,
+       "Steps that grow by 2.40 leave BDF2 bounded on " + where + ".",
+       {{kept / bound, 1, 0, "1",
+         "differences fall by p = r^2/(1 + 2 r) each step, so they add up to less than 1/(1 - p)"},
+        Table{{"amplification after 600 steps", "1"}, {"1/(1 - p)", "1"}}.with_row(kept, bound)}},
+      {"variable-step-stability.BDF2.grows-above-that-ratio." + where,
+       "Steps that grow by 2.43 make BDF2 grow without bound on " + where + ", though implicit.",
+       {{1000 / grown, 1, 0, "1",
+         "p = 1.0077 to the power 600 is 98, and the sum exceeds ten thousand; a thousand "
+         "separates it from bounded motion"},
+        Table{{"amplification after 600 steps", "1"}}.with_row(grown),
+        "measured is a thousand over the amplification"}}};
+}
+
+std::vector<NamedFinding> bdf2_growing_steps(const Subject& subject) {
+  std::vector<NamedFinding> findings = {zero_stability(subject)};
+  for (NamedFinding& finding : growing_steps("free-flight", bdf2_without_forces(subject)))
+    findings.push_back(std::move(finding));
+  for (NamedFinding& finding :
+       growing_steps("the-hinge", stepped_motion(subject, hinge_oscillator(0), "BDF2")))
+    findings.push_back(std::move(finding));
+  return findings;
+}
 
 constexpr double short_step = 0.69, long_step = 1.99;  // omega h of the worst pair of stable steps
 
@@ -81,8 +163,8 @@ double curing_ratio(const std::string& scheme, double first, double second) {
 Map ratio_map(const Subject& subject, const std::string& method, int fineness) {
   Map map{"pair-" + method,
           "Steps of 1.99/omega and shorter ones in turn, method " + method,
-          {"shorter step over longer one", "1", Scale::linear},
-          {"damping ratio", "1", Scale::linear},
+          {"shorter step over longer one", "1"},
+          {"damping ratio", "1"},
           linear_range(0.02, 1, 14 * fineness),
           linear_range(0, 0.6, 8 * fineness),
           {},
@@ -100,7 +182,7 @@ Map ratio_map(const Subject& subject, const std::string& method, int fineness) {
 }
 
 void add_border(const std::string& scheme, Map& map) {
-  Curve curve{"spectral radius 1, derived", {}, {}, nan, {}};
+  Curve curve{"spectral radius 1, derived"};
   for (const double ratio : linear_range(0.02, 1, 197)) {
     const double zeta = curing_ratio(scheme, ratio * long_step, long_step);
     curve.point(ratio, zeta > 0 ? zeta : nan);
@@ -130,8 +212,8 @@ NamedFinding map_finding(const std::string& scheme, const Map& map) {
 Map both_steps_map(const Subject& subject, int fineness) {
   Map map{"undamped-steps",
           "Two steps in turn without damping",
-          {"first step, omega h", "1", Scale::linear},
-          {"second step, omega h", "1", Scale::linear},
+          {"first step, omega h", "1"},
+          {"second step, omega h", "1"},
           linear_range(0.05, 2, 12 * fineness + 1),
           linear_range(0.05, 2, 12 * fineness + 1),
           {},
@@ -156,17 +238,14 @@ double sheet_growth(const Subject& subject, Scene scene, const std::string& sche
   scene.stretch = StretchMaterial{stretch, 0, 1};
   const double omega = fastest_mode(subject, scene).omega;
   scene.stretch->damping = 2 * zeta * stretch / omega;
-  scene.integrator = scheme;
-  const auto prepared = require_offered(subject.prepare, "prepare")(scene);
-  require_offered(subject.step, "step");
-  State s = start_state(scene);
+  Stepper stepper(subject, scene, scheme);
+  State s = stepper.start();
   s.x += small_disturbance * disturbance_shape(s.x.cols());
   const double start = (s.x - scene.x).norm();
   Worst worst;
-  Work uncounted;
   for (int i = 0; i < 2 * pairs && !(worst.value() >= enough); ++i) {
     const double h = (i % 2 == 0 ? short_step : long_step) / omega;
-    s = subject.step(*prepared, {&s, 1}, h, uncounted);
+    s = stepper.step(s, h);
     worst.observe((s.x - scene.x).norm() / start);
   }
   return worst.value();
@@ -202,8 +281,7 @@ StudyResult run_variable_step_stability(const Subject& subject, Tier tier,
   StudyResult result;
   double done = 0;
   for (const std::string scheme : {"A", "B", "C"}) {
-    result.findings.push_back(resonance_finding(subject, scheme));
-    result.findings.push_back(damped_finding(subject, scheme));
+    result.add({resonance_finding(subject, scheme), damped_finding(subject, scheme)});
     Map map = ratio_map(subject, scheme, fineness);
     result.findings.push_back(map_finding(scheme, map));
     add_border(scheme, map);
@@ -214,8 +292,7 @@ StudyResult run_variable_step_stability(const Subject& subject, Tier tier,
   result.maps.push_back(ratio_map(subject, "BDF2", fineness));
   result.maps.push_back(both_steps_map(subject, fineness));
   progress(++done / 5);
-  for (NamedFinding& finding : bdf2_growing_steps(subject))
-    result.findings.push_back(std::move(finding));
+  result.add(bdf2_growing_steps(subject));
   progress(1);
   return result;
 }
@@ -227,6 +304,8 @@ Study variable_step_stability_study() {
           "Steps that are stable alone can resonate when they alternate: undamped, a disturbance "
           "under A, B or C more than doubles in each pair of steps of 0.69/omega and 1.99/omega; a "
           "damping ratio of a half prevents this.",
+          {"alternating-steps-resonate", "damping-removes-resonance", "undamped-sheet-grows",
+           "damped-sheet-does-not-grow"},
           "BMF03 section 3",
           "The paper asks for a scheme whose step may vary. The matrix of two steps in turn is the "
           "product of their two matrices, which are found by stepping a hinge whose corner is an "

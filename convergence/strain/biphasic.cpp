@@ -1,14 +1,11 @@
 // biphasic: a strip under a growing load, of weak springs with strain limits and of
 // springs without.
-#include <algorithm>
 #include <chrono>
 #include <cmath>
 
-#include "convergence/strain/studies.h"
-#include "convergence/tables.h"
+#include "convergence/study.h"
 #include "reference/mesh/shapes.h"
 #include "reference/scene/scene.h"
-#include "verification/evidence.h"
 
 namespace foldproof {
 
@@ -153,8 +150,7 @@ NamedFinding bar_finding(const PulledStrip& run) {
           {{worst.value(), lag, 0, "of the limit",
             "the strip lags behind its load by the time a wave takes along it plus the damping "
             "time; in that time a bar stretches by this much"},
-           run.pulled,
-           ""}};
+           run.pulled}};
 }
 
 NamedFinding phases_finding(const PulledStrip& run) {
@@ -194,19 +190,16 @@ NamedFinding steps_finding(const PulledStrip& limited, const PulledStrip& stiff)
           {{std::abs(ratio / std::sqrt(most) - 1), 0.05, 0, "1",
             "the elastic limit is inversely proportional to the square root of the stiffness; "
             "steps are rounded to fit frames"},
-           both,
-           ""}};
+           both}};
 }
 
 Figure figure_of(const std::vector<PulledStrip>& runs) {
   Figure figure{"curve",
                 "Extension of a strip under a growing load",
-                {"load at the clamp", "N/m", Scale::linear},
-                {"mean extension", "1", Scale::linear},
-                nan,
+                {"load at the clamp", "N/m"},
+                {"mean extension", "1"},
                 "A strip pulled by one end, ever faster. The bar: its strain is proportional to "
-                "the load beyond each point, up to the limit.",
-                {}};
+                "the load beyond each point, up to the limit."};
   for (const PulledStrip& run : runs)
     figure.curves.push_back(curve_of(run.springs.name, run.pulled, "load", "extension"));
   figure.curves.push_back(curve_of("bar with a limit", runs.front().pulled, "load", "of the bar"));
@@ -248,6 +241,7 @@ Study biphasic_study() {
   return {"biphasic",
           "Weak springs with limits give way to a load at first and then at most an eighth as "
           "much; springs without limits that stretch as little take twice as many steps.",
+          {"gives-way-then-holds", "limits-allow-larger-steps"},
           "BMF03 section 3, after Provot 1995",
           "A weightless strip is pulled by one end with an acceleration that grows from zero; the "
           "load at its clamp is its mass times the acceleration. The largest load is four times "

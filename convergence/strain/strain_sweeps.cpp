@@ -3,12 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "convergence/order.h"
-#include "convergence/strain/studies.h"
-#include "convergence/tables.h"
+#include "convergence/study.h"
 #include "reference/dynamics/system.h"
 #include "reference/mesh/shapes.h"
-#include "verification/evidence.h"
 #include "verification/specimens/differences.h"
 #include "verification/specimens/strain_scenes.h"
 
@@ -124,8 +121,7 @@ NamedFinding mirror_finding(const Table& row) {
           {{row.worst("asymmetry") / epsilon, 64, 0, "epsilon of the largest correction",
             "the two sides differ only in the order in which a particle's impulses are added, and "
             "the limits damp its rounding errors from sweep to sweep"},
-           row,
-           ""}};
+           row}};
 }
 
 /// One order and its sweeps on all meshes.
@@ -167,8 +163,7 @@ NamedFinding energy(const std::vector<Row>& rows) {
           {{worst.value(), 1, 0, "of what there was",
             "springs start within their limits, and each impulse only removes relative motion "
             "beyond them"},
-           of_all_orders(rows),
-           ""}};
+           of_all_orders(rows)}};
 }
 
 /// What mirror symmetry costs: the fewest sweeps of all springs at once over the most of another
@@ -198,7 +193,7 @@ NamedFinding jacobi_is_dearer(const std::vector<Row>& rows) {
 
 Curve residuals(const NamedOrder& order, int cells) {
   const JerkedSheet sheet = jerked_sheet(cells);
-  Curve curve{order.name, {}, {}, nan, {}};
+  Curve curve{order.name};
   for (int sweeps = 1;; sweeps *= 2) {
     const StrainSweeps done = swept(sheet, order.order, sweeps).done;
     curve.point(done.sweeps, done.remaining_violation);
@@ -241,10 +236,8 @@ StudyResult run_strain_sweeps(const Subject&, Tier tier, const Progress& progres
                 "Largest violation of a limit against sweeps",
                 {"sweeps", "1", Scale::log},
                 {"violation left, over the rest length", "1", Scale::log},
-                nan,
                 "A sheet of 12 x 12 cells, held along its upper edge, falls by 8 % of its height "
-                "in a step; limits are +10 % and 0 %.",
-                {}};
+                "in a step; limits are +10 % and 0 %."};
   std::vector<Row> rows;
   for (const NamedOrder& order : sweep_orders()) {
     rows.push_back({order.name, refined(order, meshes)});
@@ -254,9 +247,7 @@ StudyResult run_strain_sweeps(const Subject&, Tier tier, const Progress& progres
     figure.curves.push_back(residuals(order, 12));
     progress(double(rows.size()) / double(sweep_orders().size()));
   }
-  result.findings.push_back(bias_finding(rows));
-  result.findings.push_back(jacobi_is_dearer(rows));
-  result.findings.push_back(energy(rows));
+  result.add({bias_finding(rows), jacobi_is_dearer(rows), energy(rows)});
   result.figures.push_back(std::move(figure));
   result.tables = {table_of(rows), recovery_table()};
   return result;
@@ -269,6 +260,8 @@ Study strain_sweeps_study() {
           "The number of strain-limiting sweeps grows nearly as the square of the number of cells "
           "along a side, in every order; only sweeps that correct all springs at once keep mirror "
           "symmetry, and more than three times as many of them are needed.",
+          {"grow-quadratically", "jacobi-is-mirror-symmetric",
+           "sequential-sweeps-break-mirror-symmetry", "jacobi-needs-more-than-three-times-as-many"},
           "BMF03 section 3, after Provot 1995",
           "A square sheet at rest is held along its upper edge. All particles below it get the "
           "velocity that lowers them by 8 % of the sheet's height in a step. Limits of 10 % allow "

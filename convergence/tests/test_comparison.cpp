@@ -35,7 +35,7 @@ TEST_CASE("findings of a validation say their kind") {
     return StudyResult{{{"loop.height", "", {{1, 2, 0, "1", "why"}, {}, ""}}}, {}, {}, {}};
   };
   for (const std::string kind : {"validation", "study"})
-    CHECK(run_study({"loop", "", "", "", run, kind}, {}, Tier::quick, [](double) {})
+    CHECK(run_study({"loop", "", {}, "", "", run, kind}, {}, Tier::quick, [](double) {})
               .first.at(0)
               .kind == kind);
 }

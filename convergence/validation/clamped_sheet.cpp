@@ -6,18 +6,15 @@
 #include <numbers>
 
 #include "convergence/validation/freedoms.h"
-#include "reference/mesh/shapes.h"
 #include "verification/oracles/exact_solutions.h"
-#include "verification/oracles/homogenised_bending.h"
 #include "verification/specimens/specimens.h"
 
 namespace foldproof {
 
 namespace {
 
-constexpr double some_density = 0.2;  // kg/m^2; sets the pace of the search alone
-constexpr int images = 2;             // rows and edges of images beyond the middle lines
-constexpr double clamp = 0.75;        // edges from the border
+constexpr int images = 2;       // rows and edges of images beyond the middle lines
+constexpr double clamp = 0.75;  // edges from the border
 
 /// A quarter of the sheet and images beyond its middle lines. x is along the tension, from the
 /// border at a clamp; y from the middle line.
@@ -26,7 +23,8 @@ class Quarter {
   Quarter(const Subject& subject, const ClampedSheet& sheet)
       : sheet_(sheet),
         edge_(edge_of(sheet)),
-        scene_(scene_of(sheet, edge_)),
+        scene_(equilateral_sheet(sheet.rigidity, sheet.young, edge_,
+                                 (sheet.half_edges + 1) / 2 + images + 1, sheet.rows + images)),
         probe_(subject, scene_) {
     const PerParticle3& rest = scene_.mesh.rest;
     for (int i = 0; i < int(rest.cols()); ++i) {
@@ -119,19 +117,6 @@ class Quarter {
 
  private:
   double row_height() const { return edge_ * std::numbers::sqrt3 / 2; }
-
-  static Scene scene_of(const ClampedSheet& sheet, double edge) {
-    const int columns = (sheet.half_edges + 1) / 2 + images + 1;
-    Scene scene = scene_at_rest(
-        make_sheet({SheetPattern::equilateral, columns * edge, 0, columns, sheet.rows + images}),
-        some_density);
-    const Eigen::Matrix3d R = oracles::relaxed_rigidity(oracles::equilateral_triangles(1));
-    scene.bending = BendingMaterial{sheet.rigidity / oracles::cylinder_rigidity(R, 0), 0,
-                                    Weighting::rest, DampingFactor::edge, "sine"};
-    scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
-    scene.stretch = StretchMaterial{sheet.young, 0, 1};
-    return scene;
-  }
 
   Freedoms freedoms_along(std::array<bool, 3> axes) const {
     const std::size_t n = row_.size();

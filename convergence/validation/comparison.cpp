@@ -58,4 +58,9 @@ Finding judge_comparisons(Table table, double resolution, std::string why_resolu
                      std::move(note));
 }
 
+Finding judge_comparison(const Comparison& comparison, double resolution,
+                         std::string why_resolution, std::string note) {
+  return judge_comparison(comparison, resolution, std::move(why_resolution), std::move(note));
+}
+
 }  // namespace foldproof

@@ -43,4 +43,8 @@ void add_comparison(Table& table, const Comparison& comparison, double resolutio
 Finding judge_comparisons(Table table, double resolution, std::string why_resolution,
                           std::string note);
 
+/// The same for one comparison by itself, in the unit 1.
+Finding judge_comparison(const Comparison& comparison, double resolution,
+                         std::string why_resolution, std::string note);
+
 }  // namespace foldproof

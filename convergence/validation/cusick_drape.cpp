@@ -8,7 +8,7 @@
 
 #include "convergence/validation/comparison.h"
 #include "convergence/validation/drape_test.h"
-#include "convergence/validation/studies.h"
+#include "convergence/study.h"
 
 namespace foldproof {
 
@@ -233,20 +233,16 @@ NamedFinding never_crosses_itself(const Table& drapes) {
 std::vector<Figure> outlines_of(const std::vector<Drape>& drapes) {
   Figure seen{"outlines",
               "Wool from above, at rest from several starts",
-              {"x", "m", Scale::linear},
-              {"y", "m", Scale::linear},
-              nan,
-              "The shadow's edge, to scale. Every one is stable.",
-              {}};
+              {"x", "m"},
+              {"y", "m"},
+              "The shadow's edge, to scale. Every one is stable."};
   Figure polar{"polar",
                "How far the shadow reaches around the plate",
-               {"direction", "degrees", Scale::linear},
-               {"distance from the axis", "m", Scale::linear},
-               nan,
-               "The plate's radius is 0.09 m, that of the level cloth 0.15 m.",
-               {}};
+               {"direction", "degrees"},
+               {"distance from the axis", "m"},
+               "The plate's radius is 0.09 m, that of the level cloth 0.15 m."};
   for (const Drape& one : drapes) {
-    Curve outline{fmt::format("{} folds", one.folds), {}, {}, nan, {}}, reach = outline;
+    Curve outline{fmt::format("{} folds", one.folds)}, reach = outline;
     const std::size_t n = one.outline.size();
     for (std::size_t k = 0; k <= n; k += 4) {
       const double angle = 2 * std::numbers::pi * double(k) / double(n), r = one.outline[k % n];
@@ -262,9 +258,8 @@ std::vector<Figure> outlines_of(const std::vector<Drape>& drapes) {
 Figure curve_over_bending_length(const Table& table) {
   return {"bending-length",
           "Drape coefficient by bending length",
-          {"bending length", "mm", Scale::linear},
-          {"drape coefficient", "1", Scale::linear},
-          nan,
+          {"bending length", "mm"},
+          {"drape coefficient", "1"},
           "One density and stretch stiffness; each start has eight waves.",
           {curve_of("simulated", table, "bending length", "drape coefficient")}};
 }
@@ -297,11 +292,10 @@ StudyResult run_cusick_drape(const Subject& subject, Tier tier, const Progress& 
   result.tables = {published_drapes(curve)};
   if (tier == Tier::full) result.tables.push_back(fabrics_and_stretch(drapes, ladder.error));
   if (tier == Tier::full) result.findings.push_back(error_is_below_the_tests(ladder));
-  for (NamedFinding finding :
-       {fold_number_follows_the_start(starts), folds_change_the_coefficient(starts, ladder.error),
-        coefficient_grows(curve, ladder.error), is_at_rest(drapes),
-        never_crosses_itself(drapes.table)})
-    result.findings.push_back(std::move(finding));
+  result.add({fold_number_follows_the_start(starts),
+              folds_change_the_coefficient(starts, ladder.error),
+              coefficient_grows(curve, ladder.error), is_at_rest(drapes),
+              never_crosses_itself(drapes.table)});
   result.figures = outlines_of(starts.drapes);
   result.figures.push_back(curve_over_bending_length(curve));
   return result;
@@ -313,6 +307,8 @@ Study cusick_drape_study() {
   return {"cusick-drape",
           "In the drape test the coefficient grows with the bending length. One fabric rests with "
           "several numbers of folds, depending on its start, and they change the coefficient.",
+          {"coefficient-grows-with-bending-length", "fold-number-follows-the-start",
+           "folds-change-the-coefficient"},
           "Cusick 1965; BS 5058; ISO 9073-9",
           "A disc of 30 cm is held between two plates of 18 cm, and its ring hangs. The drape "
           "coefficient is the area of the ring's shadow over that of the level ring. S is for the "

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "convergence/validation/equilibrium.h"
+#include "convergence/validation/freedoms.h"
 #include "verification/oracles/exact_crossings.h"
 #include "verification/specimens/specimens.h"
 
@@ -97,9 +97,7 @@ double weight_for(double rigidity, double bending_length) {
 Scene ring_of_cloth(const DrapeTest& test) {
   const Rings rings = rings_of(test.rows);
   Scene scene = scene_at_rest(ring_mesh(rings), test.fabric.density);
-  scene.bending = BendingMaterial{test.fabric.rigidity / rigidity_ratio(), 0, Weighting::rest,
-                                  DampingFactor::edge, "sine"};
-  scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
+  add_flat_hinges(scene, test.fabric.rigidity / rigidity_ratio(), 0);
   scene.stretch = StretchMaterial{test.stretch * test.fabric.density * g * ring_width, 0, 1};
   scene.gravity = Vector3(0, 0, -g);
   const double rim = rings.radius(rings.first + 1);

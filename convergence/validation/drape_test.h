@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "reference/scene/fabrics.h"
-#include "reference/scene/scene.h"
 #include "verification/oracles/sheets/drape_outline.h"
 #include "verification/subject.h"
 

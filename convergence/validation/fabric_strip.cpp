@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "convergence/validation/comparison.h"
-#include "convergence/validation/studies.h"
+#include "convergence/study.h"
 #include "reference/mesh/shapes.h"
 #include "reference/scene/fabrics.h"
 #include "verification/oracles/gsl.h"
@@ -38,8 +38,7 @@ Scene strip_of(const CutStrip& cut, const Fabric& fabric, double ke, int cells) 
   const double cell = length / (cells + 0.5);
   Scene scene = scene_at_rest(make_sheet({cut.pattern, cell * (cells + 1), 4 * cell, cells + 1, 4}),
                               fabric.density);
-  scene.bending = BendingMaterial{ke, 0, Weighting::rest, DampingFactor::edge, "sine"};
-  scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
+  add_flat_hinges(scene, ke, 0);
   const double weight = fabric.density * g * length;    // N/m
   scene.stretch = StretchMaterial{1e4 * weight, 0, 1};  // stretched by a ten-thousandth
   scene.gravity = Vector3(0, 0, -g);
@@ -142,6 +141,7 @@ Study fabric_strip_study() {
   return {"fabric-strip",
           "A strip cut from a simulated sheet of alternating diagonals measures in the "
           "laboratory's bending test what its fabric measured; on another pattern it may not.",
+          {"measures-as-asked", "other-patterns-differ"},
           "ASTM D1388; Peirce 1930",
           "The program gives a sheet of a measured fabric the ke for which narrow strips of that "
           "mesh have the measured rigidity. A strip of four cells' width is cut from it, clamped, "

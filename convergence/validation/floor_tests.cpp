@@ -6,7 +6,7 @@
 
 #include "convergence/validation/comparison.h"
 #include "convergence/validation/strip_ladder.h"
-#include "convergence/validation/studies.h"
+#include "convergence/study.h"
 #include "verification/oracles/folds.h"
 
 namespace foldproof {
@@ -37,16 +37,6 @@ struct FoldOnMesh {
   double unfinished;  // of the solve [1]
 };
 
-/// The highest row, by the parabola through it and its neighbours.
-double highest_of(const std::vector<oracles::StripPoint>& points) {
-  std::size_t top = 1;
-  for (std::size_t i = 1; i + 1 < points.size(); ++i)
-    if (points[i].up > points[top].up) top = i;
-  const double before = points[top - 1].up, after = points[top + 1].up;
-  const double bend = before - 2 * points[top].up + after;
-  return points[top].up - std::pow((after - before) / 2, 2) / (2 * bend);
-}
-
 /// Contact with the floor by its two conditions: no row is below it, and it pulls on none. A panel
 /// more lies flat where the first free one points down, one less where the floor would have to pull
 /// at the row where the strip lifts off.
@@ -64,7 +54,7 @@ FoldOnMesh fold_on_mesh(const Subject& subject, const FoldTest& test, int panels
     } else {
       FoldOnMesh fold{flat,
                       lift_off,
-                      share * highest_of(mesh.points),
+                      share * highest_row(mesh.points),
                       share * mesh.spacing,
                       {},
                       mesh.rest.strain + mesh.rest.last_step};
@@ -77,12 +67,12 @@ FoldOnMesh fold_on_mesh(const Subject& subject, const FoldTest& test, int panels
 }
 
 Curve shape_of(const FoldTest& test, double lift_off) {
-  Curve curve{std::string(test.words) + ", elastica", {}, {}, nan, {}};
-  std::vector<double> even;
-  for (int i = 0; i <= 100; ++i) even.push_back(i / 100.0);
+  Curve curve{std::string(test.words) + ", elastica"};
   curve.point(0, 0);
   for (const oracles::StripPoint& point :
-       oracles::strip_by_collocation(oracles::lifted_part(test.strip, lift_off), even).points)
+       oracles::strip_by_collocation(oracles::lifted_part(test.strip, lift_off),
+                                     linear_range(0, 1, 101))
+           .points)
     curve.point(lift_off + (1 - lift_off) * point.across, (1 - lift_off) * point.up);
   return curve;
 }
@@ -97,7 +87,7 @@ void add_fold(const Subject& subject, const FoldTest& test, StudyResult& result)
                {"flat panels", "1"},
                {"lift-off over L", "1"},
                {"height over L", "1"}};
-  Curve rows{std::string(test.words) + ", simulated", {}, {}, nan, {}};
+  Curve rows{std::string(test.words) + ", simulated"};
   for (const int count : panels) {
     const FoldOnMesh mesh = fold_on_mesh(subject, test, count);
     levels.row(mesh.spacing, mesh.flat, mesh.lift_off, mesh.height);
@@ -111,28 +101,24 @@ void add_fold(const Subject& subject, const FoldTest& test, StudyResult& result)
   result.figures.back().curves.push_back(rows);
   result.tables.push_back({test.name, "Meshes of the " + std::string(test.words), levels});
   const double scale = fold_resolution * fold.height.value;
-  Table table = no_comparisons("1");
-  add_comparison(table, compare_ladder("height of the fold over L", heights, fold.height), scale);
   result.findings.push_back(
       {fmt::format("fold-tests.height-agrees.{}", test.name),
        fmt::format("The height of a {} on a smooth floor is the elastica's within one percent.",
                    test.words),
-       judge_comparisons(std::move(table), scale,
-                         "a laboratory reads the height to one percent of it",
-                         "S at the finest of the meshes; it lies flat in whole panels, so that "
-                         "heights need not fall in order")});
+       judge_comparison(compare_ladder("height of the fold over L", heights, fold.height), scale,
+                        "a laboratory reads the height to one percent of it",
+                        "S at the finest of the meshes; it lies flat in whole panels, so that "
+                        "heights need not fall in order")});
 }
 
 StudyResult run_fold_tests(const Subject& subject, Tier, const Progress& progress) {
   StudyResult result;
   result.figures.push_back({"folds",
                             "Strips folded over on a floor",
-                            {"across from the first end", "L", Scale::linear},
-                            {"height over the floor", "L", Scale::linear},
-                            nan,
+                            {"across from the first end", "L"},
+                            {"height over the floor", "L"},
                             "Every fourth row of the finest mesh beside the elastica, to scale; L "
-                            "is the strip's length.",
-                            {}});
+                            "is the strip's length."});
   for (const FoldTest& test : fold_tests()) {
     add_fold(subject, test, result);
     progress(double(result.findings.size()) / double(fold_tests().size()));
@@ -178,29 +164,26 @@ NamedFinding threshold_agrees(const Subject& subject, double compression, Tier t
   exact.point(compression, should.value);
   simulated.point(compression, thresholds.values.back());
   const double scale = threshold_resolution * should.value;
-  Table table = no_comparisons("1");
-  add_comparison(table, compare_ladder("friction at which the tip slips", thresholds, should),
-                 scale);
   return {fmt::format("pressed-strip.threshold-agrees.eps-{:.2f}", compression),
           fmt::format("A strip that hangs from a clamp and is pressed on a floor by {:.0f} % of "
                       "its length slips at the elastica's friction, within two percent.",
                       100 * compression),
-          judge_comparisons(std::move(table), scale, "two percent of the threshold",
-                            "S is the ratio of the forces that hold the tip")};
+          judge_comparison(compare_ladder("friction at which the tip slips", thresholds, should),
+                           scale, "two percent of the threshold",
+                           "S is the ratio of the forces that hold the tip")};
 }
 
 StudyResult run_pressed_strip(const Subject& subject, Tier tier, const Progress& progress) {
   StudyResult result;
-  Curve exact{"elastica", {}, {}, nan, {}}, simulated{"simulated", {}, {}, nan, {}};
+  Curve exact{"elastica"}, simulated{"simulated"};
   for (const double compression : compressions) {
     result.findings.push_back(threshold_agrees(subject, compression, tier, exact, simulated));
     progress(double(result.findings.size()) / std::size(compressions));
   }
   result.figures.push_back({"thresholds",
                             "Friction at which the tip of a pressed strip slips",
-                            {"compression over L", "1", Scale::linear},
-                            {"threshold of Coulomb's coefficient", "1", Scale::linear},
-                            nan,
+                            {"compression over L", "1"},
+                            {"threshold of Coulomb's coefficient", "1"},
                             "The ratio of the tip's forces along and across the floor.",
                             {exact, simulated}});
   return result;
@@ -212,6 +195,7 @@ Study fold_tests_study() {
   return {"fold-tests",
           "A strip folded over on a smooth floor stands as high as the elastica with the mesh's "
           "own rigidity.",
+          {"height-agrees"},
           "Plaut 2015",
           "Both ends are held flat on the floor at one place, one on the other. The strip lies on "
           "the floor until it lifts off without a moment. On a mesh whole panels lie flat; how "
@@ -225,6 +209,7 @@ Study fold_tests_study() {
 Study pressed_strip_study() {
   return {"pressed-strip",
           "A strip pressed on a floor slips at the friction at which the elastica does.",
+          {"threshold-agrees"},
           "Romero et al. 2021 for the test",
           "A weightless strip hangs from a clamp and is pressed on a floor, so that it buckles. "
           "Its tip sticks as long as Coulomb's coefficient is above the ratio of the forces on it "

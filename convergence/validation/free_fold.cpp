@@ -1,12 +1,10 @@
 // free-fold: a strip that is folded back over itself and held by nothing, against the elastica.
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "convergence/validation/comparison.h"
-#include "convergence/order.h"
-#include "convergence/bending/row_strip.h"
-#include "convergence/validation/studies.h"
+#include "convergence/validation/strip_ladder.h"
+#include "convergence/study.h"
 #include "verification/oracles/folds.h"
 
 namespace foldproof {
@@ -66,15 +64,6 @@ double bend_at_lift_off(const StripAtRest& rest) {
   return 1.5 * at_row_1 - 0.5 * at_row_2;
 }
 
-double highest_row(const std::vector<oracles::StripPoint>& points) {
-  std::size_t top = 1;
-  for (std::size_t i = 1; i + 1 < points.size(); ++i)
-    if (points[i].up > points[top].up) top = i;
-  const double before = points[top - 1].up, after = points[top + 1].up;
-  return points[top].up -
-         std::pow((after - before) / 2, 2) / (2 * (before - 2 * points[top].up + after));
-}
-
 /// Numbers of a part that lifts off without a moment.
 LiftedPart lifted_part_of(const RestingPart& part, double gamma) {
   const double length = std::cbrt(gamma), unit = length / strip_length;
@@ -120,14 +109,12 @@ NamedFinding height_agrees(const Table& levels, double floor, const oracles::Fre
   heights.values = levels.numbers("height");
   heights.floor = floor;
   const double scale = resolution * fold.height.value;
-  Table table = no_comparisons("1");
-  add_comparison(table, compare_ladder("height of the fold", heights, fold.height), scale);
   return {"free-fold.height-agrees",
           "A long strip that is folded back over itself on a smooth floor, held by nothing, is as "
           "high as the elastica within one percent.",
-          judge_comparisons(std::move(table), scale,
-                            "a laboratory reads the height to one percent of it",
-                            "S at the finest mesh; heights in units of (B/(rho_A g))^(1/3)")};
+          judge_comparison(compare_ladder("height of the fold", heights, fold.height), scale,
+                           "a laboratory reads the height to one percent of it",
+                           "S at the finest mesh; heights in units of (B/(rho_A g))^(1/3)")};
 }
 
 NamedFinding order_of(const Table& levels, double floor, const oracles::FreeFold& fold) {
@@ -153,32 +140,27 @@ NamedFinding floor_only_pushes(const Table& levels, double floor) {
           "No row of a free fold is below the floor, and the floor pulls on none.",
           {{std::max(levels.worst("pull of the floor"), levels.worst("depth below the floor")),
             1e-6, floor, "1", "shares of the weight and of the length; Newton's steps end at 1e-7"},
-           levels,
-           ""}};
+           levels}};
 }
 
 NamedFinding comes_down(const Table& levels, double floor) {
   Convergence errors = convergence_of(levels, "end over the floor");
   errors.floor = floor;
-  const oracles::Estimate deviation = order_deviation(errors, 2, 1);
   return {"free-fold.comes-down-on-the-floor",
           "A free fold that lifts off without a moment, and ends flat without one, ends on the "
           "floor, to second order.",
-          {{deviation.value, 0.1, deviation.uncertainty, "1", "another order is off by 1"},
-           levels,
+          {order_verdict(errors, 2, 1, 0.1, "another order is off by 1"), levels,
            "its end's height is none of the conditions that the simulated strip is given"}};
 }
 
 Figure shape_of(const LiftedPart& finest, const oracles::FreeFold& fold) {
   Figure figure{"fold",
                 "A strip folded back over itself, held by nothing",
-                {"across from the lift-off", "(B/(rho_A g))^(1/3)", Scale::linear},
-                {"height over the floor", "(B/(rho_A g))^(1/3)", Scale::linear},
-                nan,
+                {"across from the lift-off", "(B/(rho_A g))^(1/3)"},
+                {"height over the floor", "(B/(rho_A g))^(1/3)"},
                 "Every second row of the finest mesh beside the elastica, to scale. The strip goes "
-                "on along the floor at both ends.",
-                {}};
-  Curve elastica{"elastica", {}, {}, nan, {}}, simulated{"simulated", {}, {}, nan, {}};
+                "on along the floor at both ends."};
+  Curve elastica{"elastica"}, simulated{"simulated"};
   for (std::size_t i = 0; i < fold.points.size(); i += 20)
     elastica.point(fold.points[i].across, fold.points[i].up);
   for (std::size_t i = 0; i < finest.points.size(); i += 2)
@@ -222,6 +204,7 @@ Study free_fold_study() {
   return {"free-fold",
           "A strip that is folded back over itself and held by nothing is as high as the elastica "
           "with the mesh's own rigidity, to second order.",
+          {"height-agrees", "is-second-order", "floor-only-pushes"},
           "Plaut 2015",
           "The strip lies on a smooth floor, lifts off without a moment, bends back, and comes "
           "down on its own lower half without one. It is long enough to lie flat on both sides; "

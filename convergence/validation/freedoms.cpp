@@ -1,5 +1,6 @@
 #include "convergence/validation/freedoms.h"
-
+#include "reference/mesh/shapes.h"
+#include "verification/oracles/homogenised_bending.h"
 #include "verification/specimens/specimens.h"
 
 namespace foldproof {
@@ -39,15 +40,12 @@ PerParticle3 Freedoms::moved(PerParticle3 x, const Eigen::VectorXd& by) const {
   return x;
 }
 
-Freedoms free_particles(const Scene& scene) {
+Freedoms freedoms_of(const Scene& scene) {
   const std::size_t particles = std::size_t(scene.mesh.particles());
   Freedoms freedoms{std::vector<std::array<Freedom, 3>>(particles),
                     std::vector<double>(particles, 1), 0};
-  std::vector<char> held(particles, 0);
-  for (const PrescribedParticle& one : scene.prescribed) held[std::size_t(one.particle)] = 1;
-  for (std::size_t i = 0; i < particles; ++i)
-    if (!held[i])
-      for (Freedom& freedom : freedoms.of[i]) freedom.unknown = freedoms.count++;
+  for (const int i : free_particles(scene))
+    for (Freedom& freedom : freedoms.of[std::size_t(i)]) freedom.unknown = freedoms.count++;
   return freedoms;
 }
 
@@ -116,6 +114,32 @@ Settled settle(const Settling& settling, PerParticle3 x) {
     if (far < settling.longest / 4) step *= 1.5;
   }
   return rest;
+}
+
+Equilibrium equilibrium_of(const Subject& subject, const Scene& scene) {
+  const Probe probe(subject, scene);
+  const Freedoms freedoms = freedoms_of(scene);
+  const Hessian hessian(scene, freedoms);
+  const Eigen::VectorXd masses =
+      freedoms.gather(lumped_masses(scene.mesh, scene.density).transpose().replicate(3, 1));
+  const Settled settled = settle({probe, hessian, freedoms, Eigen::VectorXd::Zero(freedoms.count),
+                                  masses * scene.gravity.value().norm(), 1e-8,
+                                  2 * smallest_height(scene.mesh.triangles, scene.mesh.rest)},
+                                 scene.x);
+  // a millionth of how strongly gravity holds a pendulum as long as the sheet
+  const double extent = scene.mesh.rest.colwise().norm().maxCoeff();
+  const double pendulum = scene.gravity.value().norm() / extent;  // 1/s^2
+  const SparseFactors factors(hessian.at(settled.x, Definiteness::exact, 1e-6 * pendulum));
+  return {settled.x, settled.unbalanced, settled.steps, positive_pivots(factors)};
+}
+
+Scene equilateral_sheet(double rigidity, double young, double edge, int columns, int rows) {
+  Scene scene =
+      scene_at_rest(make_sheet({SheetPattern::equilateral, columns * edge, 0, columns, rows}), 0.2);
+  const Eigen::Matrix3d R = oracles::relaxed_rigidity(oracles::equilateral_triangles(1));
+  add_flat_hinges(scene, rigidity / oracles::cylinder_rigidity(R, 0), 0);
+  scene.stretch = StretchMaterial{young, 0, 1};
+  return scene;
 }
 
 }  // namespace foldproof

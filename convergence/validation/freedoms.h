@@ -5,7 +5,6 @@
 #include <array>
 #include <vector>
 
-#include "reference/scene/scene.h"
 #include "verification/specimens/probe.h"
 
 namespace foldproof {
@@ -31,7 +30,7 @@ struct Freedoms {
 };
 
 /// All coordinates of the particles that the scene does not prescribe.
-Freedoms free_particles(const Scene& scene);
+Freedoms freedoms_of(const Scene& scene);
 
 /// The derivative of the energy's gradient by the unknowns. It is the reference's.
 class Hessian {
@@ -69,5 +68,25 @@ struct Settled {
 /// Follows the forces from x, without inertia: steps of backward Euler that forget their velocity,
 /// no longer than `longest`, which grow to Newton's. Unfinished after 600 steps.
 Settled settle(const Settling& settling, PerParticle3 x);
+
+struct Equilibrium {
+  PerParticle3 x;     // 3 x N [m]
+  double unbalanced;  // largest force on a free particle, over its weight [1]
+  int steps;
+  // all pivots of the energy's Hessian are positive: a minimum; a turn about the vertical, which
+  // costs a sheet that hangs from one particle nothing, does not count
+  bool stable;
+};
+
+/// Follows the forces from the scene's start, without inertia: steps of backward Euler that forget
+/// their velocity, no longer than twice the mesh's smallest height, which grow to Newton's. Forces
+/// are the subject's; their derivative is the reference's, and decides the way and the stability
+/// only. Unfinished after 600 steps. The scene has gravity, and no objects, limits or damping.
+Equilibrium equilibrium_of(const Subject& subject, const Scene& scene);
+
+/// A flat sheet of equilateral triangles of this edge [m], with rows along x, whose mesh has the
+/// rigidity D [J] and whose springs have Young's modulus Y [N/m]. Its density, 0.2 kg/m^2, only
+/// sets the pace of a search for rest.
+Scene equilateral_sheet(double rigidity, double young, double edge, int columns, int rows);
 
 }  // namespace foldproof

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "convergence/validation/comparison.h"
-#include "convergence/validation/studies.h"
+#include "convergence/study.h"
 #include "reference/mesh/shapes.h"
 #include "verification/specimens/contact_scenes.h"
 #include "verification/specimens/stepper.h"
@@ -58,14 +58,13 @@ NamedFinding threshold_agrees(const Subject& subject, double mu) {
   slopes.floor = mu * 1e-4;  // the last bracket of the bisection
   for (const double h : {2e-3, 1e-3, 5e-4}) slopes.values.push_back(slipping_slope(subject, mu, h));
   const double scale = resolution * mu;
-  Table table = no_comparisons("1");
-  add_comparison(table, compare_ladder("slope at which it slips", slopes, {mu, 0}), scale);
   return {fmt::format("friction-tests.threshold-agrees.mu-{:.2f}", mu),
           fmt::format("A cloth on an incline with friction {} slips where the slope is that "
                       "number, within two percent.",
                       mu),
-          judge_comparisons(std::move(table), scale, "two percent of the slope",
-                            "S by bisection, at the shortest of three steps; D is Coulomb's")};
+          judge_comparison(compare_ladder("slope at which it slips", slopes, {mu, 0}), scale,
+                           "two percent of the slope",
+                           "S by bisection, at the shortest of three steps; D is Coulomb's")};
 }
 
 NamedFinding slide_agrees(const Subject& subject, double mu) {
@@ -77,14 +76,13 @@ NamedFinding slide_agrees(const Subject& subject, double mu) {
   }
   const double should = std::sin(angle) - mu * std::cos(angle), scale = resolution * should;
   pulls.floor = 1e-9;
-  Table table = no_comparisons("1");
-  add_comparison(table, compare_ladder("acceleration over g", pulls, {should, 0}), scale);
   return {fmt::format("friction-tests.slide-agrees.mu-{:.2f}", mu),
           fmt::format("A cloth slides down an incline with friction {} as fast as Coulomb's law "
                       "says, within two percent.",
                       mu),
-          judge_comparisons(std::move(table), scale, "two percent of the acceleration",
-                            "S from the way after 0.32 s, at the shortest of three steps")};
+          judge_comparison(compare_ladder("acceleration over g", pulls, {should, 0}), scale,
+                           "two percent of the acceleration",
+                           "S from the way after 0.32 s, at the shortest of three steps")};
 }
 
 // ---- a belt on a drum
@@ -171,33 +169,30 @@ NamedFinding belt_agrees(const Subject& subject, const BeltTest& test, Tier tier
   const double should = std::exp(test.mu * test.wrap), scale = resolution * should;
   exact.point(test.mu * test.wrap, should);
   simulated.point(test.mu * test.wrap, ratios.values.back());
-  Table table = no_comparisons("1");
-  add_comparison(table, compare_ladder("ratio of the pulls", ratios, {should, 0}), scale);
   return {fmt::format("friction-tests.belt-agrees.mu-{:.2f}", test.mu),
           fmt::format("A belt wrapped by {:.0f} degrees about a turning drum with friction {} is "
                       "pulled at its ends in the capstan's ratio, within two percent.",
                       test.wrap * 180 / pi, test.mu),
-          judge_comparisons(std::move(table), scale, "two percent of the ratio",
-                            "S at the finest mesh, once the belt is at rest; D is exp(mu beta)")};
+          judge_comparison(compare_ladder("ratio of the pulls", ratios, {should, 0}), scale,
+                           "two percent of the ratio",
+                           "S at the finest mesh, once the belt is at rest; D is exp(mu beta)")};
 }
 
 StudyResult run_friction_tests(const Subject& subject, Tier tier, const Progress& progress) {
   StudyResult result;
   for (const double mu : {0.23, 0.61}) {
-    result.findings.push_back(threshold_agrees(subject, mu));
-    result.findings.push_back(slide_agrees(subject, mu));
+    result.add({threshold_agrees(subject, mu), slide_agrees(subject, mu)});
   }
   progress(0.3);
-  Curve exact{"exp(mu beta)", {}, {}, nan, {}}, simulated{"simulated", {}, {}, nan, {}};
+  Curve exact{"exp(mu beta)"}, simulated{"simulated"};
   for (const BeltTest& test : {BeltTest{0.19, 1.3}, BeltTest{0.33, 2.4}}) {
     result.findings.push_back(belt_agrees(subject, test, tier, exact, simulated));
     progress(0.3 + 0.35 * double(simulated.x.size()));
   }
   result.figures.push_back({"belts",
                             "Pulls at the ends of a belt on a turning drum",
-                            {"friction times angle of wrap", "1", Scale::linear},
+                            {"friction times angle of wrap", "1"},
                             {"ratio of the pulls", "1", Scale::log},
-                            nan,
                             "The finest meshes beside the capstan's formula.",
                             {exact, simulated}});
   return result;
@@ -208,6 +203,7 @@ StudyResult run_friction_tests(const Subject& subject, Tier tier, const Progress
 Study friction_tests_study() {
   return {"friction-tests",
           "Cloth slips on an incline, slides down it, and drags on a drum as Coulomb's law says.",
+          {"threshold-agrees", "slide-agrees", "belt-agrees"},
           "Coulomb; Euler and Eytelwein for the belt; Romero et al. 2021 for such tests",
           "A cloth lies on a plane whose slope is bisected until it slips, and slides down a "
           "steeper one; the error bar is that of a ladder of steps. A belt is held at both ends "

@@ -5,9 +5,8 @@
 #include <array>
 #include <cmath>
 
-#include "convergence/order.h"
 #include "convergence/validation/comparison.h"
-#include "convergence/validation/studies.h"
+#include "convergence/study.h"
 #include "reference/mesh/shapes.h"
 #include "verification/oracles/chains_and_ribbons.h"
 #include "verification/oracles/dense_algebra.h"
@@ -93,10 +92,8 @@ HungStrip hung(const Subject& subject, const HungTest& test, int cells) {
   Scene scene = limp_strip(cells);
   const oracles::HungChain& chain = test.chain;
   // starts as a parabola through the two points, of about the right length
-  std::vector<double> s;
-  for (int i = 0; i <= cells; ++i) s.push_back(double(i) / cells);
   for (Eigen::Index i = 0; i < scene.x.cols(); ++i) {
-    const double at = s[std::size_t(row_of(scene, i, cells))];
+    const double at = double(row_of(scene, i, cells)) / cells;
     scene.x(0, i) = chain.across * at * length;
     scene.x(2, i) = (chain.up * at - 1.2 * at * (1 - at)) * length;
     if (at == 0 || at == 1) scene.prescribed.push_back({int(i), scene.x.col(i), Motion{}});
@@ -127,9 +124,7 @@ NamedFinding shape_agrees(const Subject& subject, const HungTest& test, Tier tie
     up.values.push_back(strip.pull_up);
     for (Ladder* ladder : {&sags, &across, &up}) update_worst(ladder->floor, 1e3 * strip.speed);
   }
-  std::vector<double> even;
-  for (int i = 0; i <= 2000; ++i) even.push_back(i / 2000.0);
-  const oracles::Catenary catenary = oracles::catenary(test.chain, even);
+  const oracles::Catenary catenary = oracles::catenary(test.chain, linear_range(0, 1, 2001));
   double lowest = 0;
   for (const oracles::CatenaryPoint& point : catenary.points) lowest = std::min(lowest, point.up);
   Table table = no_comparisons("1");
@@ -140,8 +135,8 @@ NamedFinding shape_agrees(const Subject& subject, const HungTest& test, Tier tie
   compare("sag below the first end over L", sags, {-lowest, catenary.uncertainty + 1e-6});
   compare("pull across over the weight", across, catenary.pull_across);
   compare("pull up over the weight", up, catenary.pull_up);
-  Curve exact{std::string("catenary, ") + test.words, {}, {}, nan, {}},
-      simulated{std::string("simulated, ") + test.words, {}, {}, nan, {}};
+  Curve exact{std::string("catenary, ") + test.words},
+      simulated{std::string("simulated, ") + test.words};
   for (std::size_t i = 0; i < catenary.points.size(); i += 20)
     exact.point(catenary.points[i].across, catenary.points[i].up);
   for (Eigen::Index i = 0; i < strip.rows.cols(); i += 4)
@@ -219,16 +214,15 @@ std::vector<NamedFinding> frequencies_agree(const Subject& subject, Tier tier) {
   for (int k = 0; k < modes; ++k) {
     const oracles::Estimate should = oracles::chain_frequency_by_series(k + 1);
     const double scale = chain_resolution * should.value;
-    Table table = no_comparisons("1");
-    add_comparison(
-        table, compare_ladder("frequency over sqrt(g/L)", ladders[std::size_t(k)], should), scale);
     findings.push_back(
         {fmt::format("hanging-chain.frequency-agrees.mode-{}", k + 1),
          fmt::format("A limp strip that hangs from one end swings in mode {} as often as a chain, "
                      "within one percent.",
                      k + 1),
-         judge_comparisons(std::move(table), scale, "a hundredth of the frequency",
-                           "S from the forces' derivatives at the finest mesh, angular")});
+         judge_comparison(
+             compare_ladder("frequency over sqrt(g/L)", ladders[std::size_t(k)], should), scale,
+             "a hundredth of the frequency",
+             "S from the forces' derivatives at the finest mesh, angular")});
   }
   return findings;
 }
@@ -237,17 +231,14 @@ StudyResult run_hanging_chain(const Subject& subject, Tier tier, const Progress&
   StudyResult result;
   Figure shapes{"shapes",
                 "Limp strips between two points",
-                {"across from the first point", "L", Scale::linear},
-                {"height over the first point", "L", Scale::linear},
-                nan,
-                "Every fourth row of the finest mesh beside the catenary, to scale.",
-                {}};
+                {"across from the first point", "L"},
+                {"height over the first point", "L"},
+                "Every fourth row of the finest mesh beside the catenary, to scale."};
   for (const HungTest& test : hung_tests) {
     result.findings.push_back(shape_agrees(subject, test, tier, shapes));
     progress(double(result.findings.size()) / 3);
   }
-  for (NamedFinding& finding : frequencies_agree(subject, tier))
-    result.findings.push_back(std::move(finding));
+  result.add(frequencies_agree(subject, tier));
   progress(1);
   result.figures.push_back(std::move(shapes));
   return result;
@@ -260,6 +251,7 @@ Study hanging_chain_study() {
       "hanging-chain",
       "A strip without bending sags and pulls between two points as a catenary does, and swings "
       "from one point as often as a chain.",
+      {"sag-and-pull-agree", "frequency-agrees"},
       "our test of springs and gravity: catenary, and Bernoulli's hanging chain",
       "A strip two cells wide is held by its end rows and brought to rest by backward Euler. Its "
       "springs give by a ten-thousandth of its length per weight. S is the sag, the pull on a held "

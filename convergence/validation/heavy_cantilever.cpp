@@ -6,7 +6,7 @@
 
 #include "convergence/validation/comparison.h"
 #include "convergence/validation/strip_ladder.h"
-#include "convergence/validation/studies.h"
+#include "convergence/study.h"
 #include "verification/oracles/heavy_cantilever.h"
 
 namespace foldproof {
@@ -21,13 +21,6 @@ struct Weight {
 };
 constexpr Weight weights[] = {{"gamma-tenth", 0.1}, {"gamma-1", 1},      {"gamma-10", 10},
                               {"gamma-100", 100},   {"gamma-1000", 1e3}, {"gamma-10000", 1e4}};
-
-Ladder ladder_of(const StripLadder& levels, const char* column) {
-  Ladder ladder;
-  ladder.values = levels.levels.numbers(column);
-  ladder.floor = levels.floor;
-  return ladder;
-}
 
 /// A hundredth of the way that the tip has moved from where it is without weight, over L.
 double resolution(const StripLadder& levels) {
@@ -70,44 +63,32 @@ double resolution_of_shape(const StripLadder& levels) {
 }
 
 NamedFinding shape_agrees(const Weight& weight, const StripLadder& levels) {
-  const Verdict verdict{levels.levels.numbers(distance_column).back(), resolution_of_shape(levels),
-                        levels.floor, "1",
-                        "a hundredth of the way of the tip, for every point; where that is more, a "
-                        "tenth of the tip's reach: a limp thread has none"};
   return {fmt::format("heavy-cantilever.shape-agrees.{}", weight.name),
           fmt::format("At the finest mesh no row of a clamped strip of weight gamma = {} is "
                       "farther from the elastica than one percent of the tip's way from level, or "
                       "than a tenth of the tip's reach if that is less.",
                       weight.gamma),
-          {verdict, levels.levels, "D by collocation"}};
-}
-
-void show(const Weight& weight, const StripLadder& levels, Figure& figure) {
-  Curve elastica{fmt::format("elastica, gamma = {}", weight.gamma), {}, {}, nan, {}};
-  for (const oracles::StripPoint& point : levels.elastica.points)
-    elastica.point(point.across, point.up);
-  Curve simulated{fmt::format("simulated, gamma = {}", weight.gamma), {}, {}, nan, {}};
-  for (std::size_t i = 0; i < levels.points.size(); i += 4)
-    simulated.point(levels.points[i].across, levels.points[i].up);
-  figure.curves.push_back(elastica);
-  figure.curves.push_back(simulated);
+          shape_verdict(levels, resolution_of_shape(levels),
+                        "a hundredth of the way of the tip, for every point; where that is more, a "
+                        "tenth of the tip's reach: a limp thread has none",
+                        "D by collocation")};
 }
 
 StudyResult run_heavy_cantilever(const Subject& subject, Tier tier, const Progress& progress) {
   StudyResult result;
   Figure shapes{"shapes",
                 "A clamped strip under its own weight",
-                {"reach", "L", Scale::linear},
-                {"height", "L", Scale::linear},
-                nan,
-                "Every fourth row of the finest mesh beside the elastica.",
-                {}};
+                {"reach", "L"},
+                {"height", "L"},
+                "Every fourth row of the finest mesh beside the elastica."};
   for (const Weight& weight : weights) {
     const StripTest test{weight.name, "", "", {weight.gamma, 0, {}, 0}, 1};
     const StripLadder levels = strip_ladder(subject, test, panels_for(weight, tier));
-    result.findings.push_back(tip_agrees(weight, levels));
-    result.findings.push_back(shape_agrees(weight, levels));
-    show(weight, levels, shapes);
+    result.add({tip_agrees(weight, levels), shape_agrees(weight, levels)});
+    show(levels, levels.points.size(),
+         {fmt::format("elastica, gamma = {}", weight.gamma),
+          fmt::format("simulated, gamma = {}", weight.gamma)},
+         shapes);
     progress(double(result.findings.size()) / (2 * std::size(weights)));
   }
   result.figures.push_back(std::move(shapes));
@@ -121,6 +102,7 @@ Study heavy_cantilever_study() {
       "heavy-cantilever",
       "A clamped strip, from nearly weightless to nearly limp, hangs as the elastica with the "
       "mesh's own rigidity.",
+      {"tip-agrees", "shape-agrees"},
       "BMF03 section 4; Romero et al. 2021 for the test",
       "The strip is that of the study cantilever: rows move as one, so that its rigidity is the "
       "homogenised cell's. gamma is weight per area times L^3 over that rigidity. S is what is "

@@ -5,10 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "convergence/validation/clamped_findings.h"
+#include "convergence/validation/wrinkle_findings.h"
 #include "convergence/validation/comparison.h"
-#include "convergence/validation/deep_wrinkle_findings.h"
-#include "convergence/validation/studies.h"
 #include "convergence/validation/wrinkled_sheet.h"
 #include "verification/oracles/sheets/stretched_wrinkles.h"
 
@@ -184,18 +182,15 @@ NamedFinding prefactor_agrees(const SheetLadder& longest) {
   const oracles::Wrinkles law =
       oracles::wrinkles_by_scaling(reach_of(longest.sheet) / longest.sheet.length);
   const double u = law.wavelength.uncertainty / law.wavelength.value;
-  Table table = no_comparisons("1");
-  add_comparison(table,
-                 {"wavelength over (D/T)^(1/4) L^(1/2)",
-                  pi_root * longest.wavelength.simulated,
-                  pi_root * longest.wavelength.numerical,
-                  {pi_root, pi_root * u}},
-                 pi_root * resolution);
   return {"stretched-wrinkles.prefactor-agrees",
           "Where bending reaches least far against the length, the wavelength is 2 pi^(1/2) "
           "(D/T)^(1/4) L^(1/2), within one percent.",
-          judge_comparisons(std::move(table), pi_root * resolution, "one percent of a wavelength",
-                            words_of(longest.sheet))};
+          judge_comparison({"wavelength over (D/T)^(1/4) L^(1/2)",
+                            pi_root * longest.wavelength.simulated,
+                            pi_root * longest.wavelength.numerical,
+                            {pi_root, pi_root * u}},
+                           pi_root * resolution, "one percent of a wavelength",
+                           words_of(longest.sheet))};
 }
 
 /// Meshes whose edges are longer than bending reaches.
@@ -204,7 +199,7 @@ NamedFinding tension_stiffens(const Subject& subject, const Sheet& sheet, Tier t
   std::vector<double> edges{4, 8};
   if (tier == Tier::full) edges = {3, 4, 6, 8, 12, 16};
   Table table = no_comparisons("1");
-  Curve simulated{"simulated", {}, {}, nan, {}}, expected{"D + T edge^2/48", {}, {}, nan, {}};
+  Curve simulated{"simulated"}, expected{"D + T edge^2/48"};
   for (const double count : edges) {
     const int rows = rows_of(sheet, count);
     const WrinkledSheet found = on_mesh(subject, sheet, rows);
@@ -240,17 +235,16 @@ Figure wavelength_figure(const std::vector<SheetLadder>& ladders) {
                 {"(D/T)^(1/2) over the length", "1", Scale::log},
                 {"wavelength over the length", "1", Scale::log},
                 0.5,
-                "Sheets that differ in one number lie on one curve.",
-                {}};
+                "Sheets that differ in one number lie on one curve."};
   for (const Varied varied : {Varied::tension, Varied::length, Varied::rigidity}) {
-    Curve curve{fmt::format("simulated, other {}", name_of(varied)), {}, {}, nan, {}};
+    Curve curve{fmt::format("simulated, other {}", name_of(varied))};
     for (const SheetLadder& one : ladders)
       if (one.sheet.varied == varied || one.sheet.varied == Varied::nothing)
         curve.point(reach_of(one.sheet) / one.sheet.length,
                     one.finest.wavelength / one.sheet.length);
     figure.curves.push_back(std::move(curve));
   }
-  Curve plate{"plate under tension", {}, {}, nan, {}}, law{"law", {}, {}, nan, {}};
+  Curve plate{"plate under tension"}, law{"law"};
   for (double reach = 1e-4; reach < 0.1; reach *= 1.5) {
     plate.point(reach, oracles::wrinkles_by_functions(reach).wavelength.value);
     law.point(reach, 2 * std::sqrt(std::numbers::pi * reach));
@@ -263,22 +257,18 @@ Figure wavelength_figure(const std::vector<SheetLadder>& ladders) {
 Figure profile_figure(const SheetLadder& first) {
   Figure figure{"profile",
                 "A wrinkle along the tension",
-                {"place over the length", "1", Scale::linear},
-                {"height over the greatest", "1", Scale::linear},
-                nan,
-                "The first sheet on its finest mesh beside the plate, by functions.",
-                {}};
-  Curve simulated{"simulated", {}, {}, nan, {}}, plate{"plate under tension", {}, {}, nan, {}};
+                {"place over the length", "1"},
+                {"height over the greatest", "1"},
+                "The first sheet on its finest mesh beside the plate, by functions."};
+  Curve simulated{"simulated"};
   const std::vector<double>& rows = first.finest.profile;
   const std::size_t stride = std::max<std::size_t>(rows.size() / 40, 1);
   for (std::size_t i = 0; i < rows.size(); i += stride)
     // row 0 is half a row before the clamp's middle
     simulated.point((double(i) + 0.5) / double(rows.size()), rows[i]);
-  std::vector<double> places;
-  for (int i = 0; i <= 100; ++i) places.push_back(i / 100.0);
-  const std::vector<double> heights =
-      oracles::wrinkle_profile(reach_of(first.sheet) / first.sheet.length, places);
-  for (std::size_t i = 0; i < places.size(); ++i) plate.point(places[i], heights[i]);
+  const std::vector<double> places = linear_range(0, 1, 101);
+  const Curve plate{"plate under tension", places,
+                    oracles::wrinkle_profile(reach_of(first.sheet) / first.sheet.length, places)};
   figure.curves = {simulated, plate};
   return figure;
 }
@@ -287,10 +277,8 @@ Figure coarse_figure() {
   return {"coarse-meshes",
           "Wavelength on edges longer than bending reaches",
           {"edge over (D/T)^(1/2)", "1", Scale::log},
-          {"wavelength over the law's for D", "1", Scale::linear},
-          nan,
-          "A sheet needs edges below (D/T)^(1/2), not only below the wavelength.",
-          {}};
+          {"wavelength over the law's for D", "1"},
+          "A sheet needs edges below (D/T)^(1/2), not only below the wavelength."};
 }
 
 StudyResult run_stretched_wrinkles(const Subject& subject, Tier tier, const Progress& progress) {
@@ -311,8 +299,8 @@ StudyResult run_stretched_wrinkles(const Subject& subject, Tier tier, const Prog
   result.findings = {wavelength_agrees(ladders), compression_agrees(ladders)};
   for (const Varied varied : {Varied::tension, Varied::length, Varied::rigidity})
     result.findings.push_back(exponent_agrees(ladders, varied));
-  result.findings.push_back(prefactor_agrees(ladders.back()));
-  result.findings.push_back(tension_stiffens(subject, ladders.back().sheet, tier, coarse));
+  result.add({prefactor_agrees(ladders.back()),
+              tension_stiffens(subject, ladders.back().sheet, tier, coarse)});
   result.figures = {wavelength_figure(ladders), profile_figure(ladders.front()), coarse};
   result.tables.push_back({"meshes", "Every sheet on every mesh", levels});
   add_clamped_continuum(subject, result);
@@ -330,6 +318,8 @@ Study stretched_wrinkles_study() {
       "(D/T)^(1/4) L^(1/2) of Cerda and Mahadevan, with the mesh's own rigidity D, where edges are "
       "shorter than (D/T)^(1/2). On longer edges the tension stiffens the mesh. Beyond the onset "
       "its waves are as high as a plate's.",
+      {"wavelength-agrees", "exponent-agrees", "prefactor-agrees", "tension-stiffens-coarse-meshes",
+       "amplitude-agrees"},
       "Cerda and Mahadevan, Phys. Rev. Lett. 90 (2003) 074302",
       "A sheet is clamped at both ends, stretched, and compressed across by a force b per length; "
       "across it is endless. The wavelength is the one that leaves the plane under the least b. S "

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "convergence/ranges.h"
 #include "convergence/bending/row_strip.h"
 
 namespace foldproof {
@@ -82,6 +83,38 @@ double largest_distance(const std::vector<oracles::StripPoint>& one,
 
 }  // namespace
 
+Ladder ladder_of(const StripLadder& levels, const char* column) {
+  Ladder ladder;
+  ladder.values = levels.levels.numbers(column);
+  ladder.floor = levels.floor;
+  return ladder;
+}
+
+Finding shape_verdict(const StripLadder& levels, double bound, std::string why, std::string note) {
+  return {{levels.levels.numbers(distance_column).back(), bound, levels.floor, "1", std::move(why)},
+          levels.levels,
+          std::move(note)};
+}
+
+void show(const StripLadder& levels, std::size_t rows, const std::array<std::string, 2>& labels,
+          Figure& figure) {
+  Curve elastica{labels[0]}, simulated{labels[1]};
+  for (const oracles::StripPoint& point : levels.elastica.points)
+    elastica.point(point.across, point.up);
+  for (std::size_t i = 0; i < rows; i += 4)
+    simulated.point(levels.points[i].across, levels.points[i].up);
+  figure.curves.insert(figure.curves.end(), {elastica, simulated});
+}
+
+double highest_row(const std::vector<oracles::StripPoint>& points) {
+  std::size_t top = 1;
+  for (std::size_t i = 1; i + 1 < points.size(); ++i)
+    if (points[i].up > points[top].up) top = i;
+  const double before = points[top - 1].up, after = points[top + 1].up;
+  const double bend = before - 2 * points[top].up + after;
+  return points[top].up - std::pow((after - before) / 2, 2) / (2 * bend);
+}
+
 StripOnMesh strip_on_mesh(const Subject& subject, const StripTest& test, int panels) {
   const RowStrip strip = row_strip(subject, test, panels);
   StripOnMesh mesh;
@@ -97,9 +130,7 @@ StripOnMesh strip_on_mesh(const Subject& subject, const StripTest& test, int pan
 StripLadder strip_ladder(const Subject& subject, const StripTest& test,
                          const std::vector<int>& panels) {
   StripLadder ladder;
-  std::vector<double> even;
-  for (int i = 0; i <= 200; ++i) even.push_back(i / 200.0);
-  ladder.elastica = oracles::strip_by_collocation(test.strip, even);
+  ladder.elastica = oracles::strip_by_collocation(test.strip, linear_range(0, 1, 201));
   const oracles::StripPoint should =
       ladder.elastica.points[std::size_t(std::lround(200 * test.measured_at))];
   ladder.height = {should.up, ladder.elastica.uncertainty};

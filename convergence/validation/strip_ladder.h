@@ -1,13 +1,14 @@
 // One test of a strip on finer and finer meshes, beside the elastica.
 #pragma once
 
-#include <string>
+#include <array>
+
 #include <vector>
 
+#include "convergence/any_case/error_bar.h"
 #include "convergence/bending/row_strip.h"
 #include "convergence/order.h"
 #include "verification/oracles/elastica.h"
-#include "verification/subject.h"
 
 namespace foldproof {
 
@@ -31,6 +32,19 @@ struct StripLadder {
 
 constexpr const char *height_column = "height over L", *reach_column = "reach over L",
                      *distance_column = "largest distance from the elastica over L";
+
+/// A column of its numbers, with the floor.
+Ladder ladder_of(const StripLadder& levels, const char* column);
+
+/// No row of the finest mesh is farther from the elastica than the bound, over L.
+Finding shape_verdict(const StripLadder& levels, double bound, std::string why, std::string note);
+
+/// Adds the elastica, and every fourth of the first `rows` rows of the finest mesh.
+void show(const StripLadder& levels, std::size_t rows, const std::array<std::string, 2>& labels,
+          Figure& figure);
+
+/// How high the highest row is, by the parabola through it and its neighbours.
+double highest_row(const std::vector<oracles::StripPoint>& points);
 
 /// One mesh of a strip at rest.
 struct StripOnMesh {

@@ -5,7 +5,7 @@
 
 #include "convergence/validation/comparison.h"
 #include "convergence/validation/strip_ladder.h"
-#include "convergence/validation/studies.h"
+#include "convergence/study.h"
 
 namespace foldproof {
 
@@ -26,69 +26,46 @@ std::vector<StripTest> strip_tests() {
   };
 }
 
-Ladder height_ladder(const StripLadder& levels) {
-  Ladder ladder;
-  ladder.values = levels.levels.numbers(height_column);
-  ladder.floor = levels.floor;
-  return ladder;
-}
-
 NamedFinding height_agrees(const StripTest& test, const StripLadder& levels) {
   const double scale = std::abs(levels.height.value) * resolution;
-  Table table = no_comparisons("1");
-  add_comparison(
-      table, compare_ladder("height of the middle over L", height_ladder(levels), levels.height),
-      scale);
   return {fmt::format("strip-tests.height-agrees.{}", test.name),
           fmt::format("The height of a {} is the elastica's within one percent.", test.words),
-          judge_comparisons(table, scale, "a laboratory reads the height to one percent of it",
-                            "S at the finest mesh")};
+          judge_comparison(compare_ladder("height of the middle over L",
+                                          ladder_of(levels, height_column), levels.height),
+                           scale, "a laboratory reads the height to one percent of it",
+                           "S at the finest mesh")};
 }
 
 NamedFinding shape_agrees(const StripTest& test, const StripLadder& levels) {
-  const Verdict verdict{levels.levels.numbers(distance_column).back(), resolution, levels.floor,
-                        "1", "a hundredth of the strip's length, for every point"};
-  return {fmt::format("strip-tests.shape-agrees.{}", test.name),
-          fmt::format("At the finest mesh no row of a {} is farther than one percent of the "
-                      "strip's length from the elastica.",
-                      test.words),
-          {verdict, levels.levels, ""}};
+  return {
+      fmt::format("strip-tests.shape-agrees.{}", test.name),
+      fmt::format("At the finest mesh no row of a {} is farther than one percent of the "
+                  "strip's length from the elastica.",
+                  test.words),
+      shape_verdict(levels, resolution, "a hundredth of the strip's length, for every point", "")};
 }
 
 NamedFinding order_of(const StripTest& test, const StripLadder& levels) {
   Convergence errors = convergence_of(levels.levels, distance_column);
   errors.floor = levels.floor;
-  const oracles::Estimate deviation = order_deviation(errors, 2, 1);
   Table evidence = levels.levels;
   evidence.add({"order", "1", row_orders(errors)});
-  const Verdict verdict{deviation.value, 0.1, deviation.uncertainty, "1",
-                        "another order, as with a clamp on the hinge line, is off by 1; the third "
-                        "term of the error is smaller than the second by the number of panels"};
+  const Verdict verdict =
+      order_verdict(errors, 2, 1, 0.1,
+                    "another order, as with a clamp on the hinge line, is off by 1; the third "
+                    "term of the error is smaller than the second by the number of panels");
   return {fmt::format("strip-tests.is-second-order.{}", test.name),
           fmt::format("The shape of a {} tends to the elastica's with second order.", test.words),
-          {verdict, std::move(evidence), ""}};
-}
-
-void show(const StripTest& test, const StripLadder& levels, Figure& figure) {
-  Curve elastica{test.words + ", elastica", {}, {}, nan, {}};
-  for (const oracles::StripPoint& point : levels.elastica.points)
-    elastica.point(point.across, point.up);
-  Curve simulated{test.words + ", simulated", {}, {}, nan, {}};
-  for (std::size_t i = 0; i + 1 < levels.points.size(); i += 4)
-    simulated.point(levels.points[i].across, levels.points[i].up);
-  figure.curves.push_back(elastica);
-  figure.curves.push_back(simulated);
+          {verdict, std::move(evidence)}};
 }
 
 Figure shapes_of(const std::string& kind) {
-  return {
-      kind,
-      "Strips as a laboratory bends them: " + kind,
-      {"across from the first clamp", "L", Scale::linear},
-      {"height over the first clamp", "L", Scale::linear},
-      nan,
-      "Every fourth row of the finest mesh beside the elastica, to scale; L is the strip's length.",
-      {}};
+  return {kind,
+          "Strips as a laboratory bends them: " + kind,
+          {"across from the first clamp", "L"},
+          {"height over the first clamp", "L"},
+          "Every fourth row of the finest mesh beside the elastica, to scale; L is the strip's "
+          "length."};
 }
 
 StudyResult run_strip_tests(const Subject& subject, Tier tier, const Progress& progress) {
@@ -98,12 +75,12 @@ StudyResult run_strip_tests(const Subject& subject, Tier tier, const Progress& p
   const std::vector<StripTest> tests = strip_tests();
   for (std::size_t i = 0; i < tests.size(); ++i) {
     const StripLadder levels = strip_ladder(subject, tests[i], panels);
-    result.findings.push_back(height_agrees(tests[i], levels));
-    result.findings.push_back(shape_agrees(tests[i], levels));
-    result.findings.push_back(order_of(tests[i], levels));
+    result.add({height_agrees(tests[i], levels), shape_agrees(tests[i], levels),
+                order_of(tests[i], levels)});
     if (result.figures.empty() || result.figures.back().name != tests[i].kind)
       result.figures.push_back(shapes_of(tests[i].kind));
-    show(tests[i], levels, result.figures.back());
+    show(levels, levels.points.size() - 1,
+         {tests[i].words + ", elastica", tests[i].words + ", simulated"}, result.figures.back());
     progress(double(i + 1) / double(tests.size()));
   }
   return result;
@@ -116,6 +93,7 @@ Study strip_tests_study() {
       "strip-tests",
       "Strips that are bent as in a textile laboratory take the shape of the elastica with the "
       "mesh's own rigidity, to second order.",
+      {"height-agrees", "shape-agrees", "is-second-order"},
       "Peirce 1930; Plaut 2015",
       "Each strip is clamped at both ends, half a cell inside its held rows; a ring is a strip "
       "whose ends are clamped level at one place. Rows across move as one, so that the rigidity is "

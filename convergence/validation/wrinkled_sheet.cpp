@@ -1,24 +1,17 @@
 #include "convergence/validation/wrinkled_sheet.h"
 
-#include <Eigen/SparseCholesky>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
 
-#include "reference/mesh/shapes.h"
-#include "reference/scene/scene.h"
+#include "convergence/validation/freedoms.h"
 #include "verification/oracles/exact_solutions.h"
-#include "verification/oracles/homogenised_bending.h"
-#include "verification/specimens/probe.h"
 #include "verification/specimens/specimens.h"
 
 namespace foldproof {
 
 namespace {
 
-using Sparse = Eigen::SparseMatrix<double>;
-
-constexpr double density = 0.2;          // kg/m^2; its weight is not asked for
 constexpr double tension_strain = 1e-7;  // T over Young's modulus [1]
 constexpr int columns = 6;               // of triangles; the middle feels two edges to either side
 constexpr int apart = 5;                 // rows at which two particles move the same ones no more
@@ -36,7 +29,7 @@ class Patch {
   Patch(const Subject& subject, const StretchedSheet& sheet)
       : sheet_(sheet),
         young_(sheet.tension / tension_strain),
-        scene_(scene_of(sheet, young_)),
+        scene_(equilateral_sheet(sheet.rigidity, young_, edge_of(sheet), columns, sheet.rows + 1)),
         probe_(subject, scene_) {
     const PerParticle3& rest = scene_.mesh.rest;
     const double edge = edge_of(sheet), middle = columns * edge / 2;
@@ -72,17 +65,6 @@ class Patch {
   }
 
  private:
-  static Scene scene_of(const StretchedSheet& sheet, double young) {
-    Scene scene = scene_at_rest(make_sheet({SheetPattern::equilateral, columns * edge_of(sheet), 0,
-                                            columns, sheet.rows + 1}),
-                                density);
-    scene.bending =
-        BendingMaterial{stiffness_of(sheet), 0, Weighting::rest, DampingFactor::edge, "sine"};
-    scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
-    scene.stretch = StretchMaterial{young, 0, 1};
-    return scene;
-  }
-
   /// The row of first, first + apart, ... that is at most two rows away.
   static int nearest(int row, int first) {
     return first + apart * int(std::floor(double(row - first + 2) / apart));
@@ -106,14 +88,14 @@ class Patch {
 };
 
 /// K(k) of the free rows.
-Sparse stiffness_against_waves(const std::vector<Influence>& influences, int free, double k) {
+SparseMatrix stiffness_against_waves(const std::vector<Influence>& influences, int free, double k) {
   std::vector<Eigen::Triplet<double>> entries;
   for (const Influence& one : influences) {
     const int row = one.row - 2, moved = one.moved_row - 2;
     if (row >= 0 && row < free && moved >= 0 && moved < free)
       entries.emplace_back(row, moved, one.stiffness * std::cos(k * one.across));
   }
-  Sparse K(free, free);
+  SparseMatrix K(free, free);
   K.setFromTriplets(entries.begin(), entries.end());
   return K;
 }
@@ -124,8 +106,8 @@ struct Onset {
   Eigen::VectorXd profile;
 };
 
-Onset onset_of(const Sparse& K, const Sparse& G) {
-  const Eigen::SimplicialLDLT<Sparse> factors(K);
+Onset onset_of(const SparseMatrix& K, const SparseMatrix& G) {
+  const SparseFactors factors(K);
   if (factors.info() != Eigen::Success || !(factors.vectorD().array() > 0).all())
     throw std::runtime_error("wrinkled: the sheet under tension alone is not stable");
   const Eigen::Index n = K.rows();
@@ -175,19 +157,14 @@ double edge_of(const StretchedSheet& sheet) {
   return sheet.length / sheet.rows / (std::numbers::sqrt3 / 2);
 }
 
-double stiffness_of(const StretchedSheet& sheet) {
-  const Eigen::Matrix3d R = oracles::relaxed_rigidity(oracles::equilateral_triangles(1));
-  return sheet.rigidity / oracles::cylinder_rigidity(R, 0);
-}
-
 WrinkledSheet wrinkled(const Subject& subject, const StretchedSheet& sheet) {
   const Patch patch(subject, sheet);
   const double some = sheet.tension / 10;
   const std::vector<Influence> compressed = patch.influences(some),
                                pulled = patch.influences(-some);
   const auto onset_at = [&](double k) {
-    const Sparse more = stiffness_against_waves(compressed, sheet.rows - 2, k),
-                 less = stiffness_against_waves(pulled, sheet.rows - 2, k);
+    const SparseMatrix more = stiffness_against_waves(compressed, sheet.rows - 2, k),
+                       less = stiffness_against_waves(pulled, sheet.rows - 2, k);
     return onset_of((more + less) / 2, (more - less) / (2 * some));
   };
   // wavelengths from three edges to twice the length

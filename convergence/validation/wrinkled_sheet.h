@@ -25,8 +25,7 @@ struct WrinkledSheet {
   double unfinished = 0;  // relative change of b in the last turn [1]
 };
 
-double edge_of(const StretchedSheet& sheet);       // m
-double stiffness_of(const StretchedSheet& sheet);  // ke [J]
+double edge_of(const StretchedSheet& sheet);  // m
 
 /// A wave across the flat sheet moves row m by X_m cos(k x). Its forces are K(k) X, with K read
 /// from the forces on all particles when one particle a row moves. K is that under T alone plus b

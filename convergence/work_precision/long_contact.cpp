@@ -8,7 +8,7 @@
 
 #include "convergence/work_precision/longer_run.h"
 #include "convergence/work_precision/precision_problem.h"
-#include "convergence/work_precision/studies.h"
+#include "convergence/study.h"
 #include "reference/dynamics/integrator.h"
 #include "reference/mesh/shapes.h"
 #include "verification/specimens/contact_scenes.h"
@@ -205,6 +205,7 @@ Study long_contact_study() {
       "On cloth that falls on a ball and hangs from it, steps of the elastic limit last with A, B "
       "and C; twice that does not last with A and B. Linearised backward Euler allows longer steps "
       "than C, but takes more work.",
+      {"limit-lasts", "twice-the-limit-does-not-last", "longer-steps-cost-more"},
       "BMF03 section 3",
       "A square of cloth falls on a ball that lies on a floor, slides with friction, folds and "
       "hangs from the ball: 100 particles (2,025 in the full tier) over 1.5 s. Each method runs "

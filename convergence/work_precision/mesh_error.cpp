@@ -6,7 +6,7 @@
 #include "convergence/order.h"
 #include "convergence/tables.h"
 #include "convergence/work_precision/precision_problem.h"
-#include "convergence/work_precision/studies.h"
+#include "convergence/study.h"
 #include "reference/mesh/shapes.h"
 
 namespace foldproof {
@@ -196,6 +196,7 @@ Study mesh_error_study() {
   return {"mesh-error",
           "On a smoothly swinging sheet a step of C of half the elastic limit errs less than a "
           "tenth as much as the mesh does.",
+          {"usual-step-error-is-below-a-tenth-of-it"},
           "ours",
           "How fine should the step be for my mesh? A sheet held along its upper edge swings by a "
           "smooth velocity, on meshes that each halve the cells of the one before. Errors of the "

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "convergence/work_precision/studies.h"
+#include "convergence/study.h"
 
 namespace foldproof {
 
@@ -50,6 +50,7 @@ Study work_precision_study() {
       "At one percent of error on a heavily damped sheet, the steps of schemes A and B exceed "
       "those of explicit methods by the ratio of the elastic limit to the damping limit, within a "
       "factor of two; C needs shorter steps to be as accurate.",
+      {"mixed-steps-are-larger", "C-needs-shorter-steps", "cheapest-steps-last"},
       "BMF03 section 3",
       "Which integrator should I use for my scene, at which step, and at what cost? Every method "
       "of the table runs four motions over a range of constant steps. The error is the largest "

@@ -141,6 +141,20 @@ Scene hinge_scene(const Corners& rest, double rest_angle) {
   return scene;
 }
 
+void add_flat_hinges(Scene& scene, double stiffness, double damping) {
+  scene.bending = BendingMaterial{stiffness, damping};
+  scene.rest_angles.assign(scene.mesh.hinges.size(), 0);
+}
+
+std::vector<int> free_particles(const Scene& scene) {
+  std::vector<char> held(size_t(scene.mesh.particles()), 0);
+  for (const PrescribedParticle& one : scene.prescribed) held[size_t(one.particle)] = 1;
+  std::vector<int> free;
+  for (int i = 0; i < scene.mesh.particles(); ++i)
+    if (!held[size_t(i)]) free.push_back(i);
+  return free;
+}
+
 State resting_state(PerParticle3 x) {
   PerParticle3 v = PerParticle3::Zero(3, x.cols());
   return {0, std::move(x), std::move(v)};

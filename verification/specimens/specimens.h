@@ -23,6 +23,12 @@ struct Specimen {
 /// x1, x2, x3, x4 of a hinge [m].
 using Corners = std::array<Vector3, 4>;
 
+/// Adds hinges that are flat at rest, damped with the factor |E|: ke [J], kd [N s].
+void add_flat_hinges(Scene& scene, double stiffness, double damping);
+
+/// The particles that the scene does not prescribe, ascending.
+std::vector<int> free_particles(const Scene& scene);
+
 /// Sheets of six patterns, a disc and a sphere, 80 triangles or so each, with random displacements
 /// (normal and in-plane, up to 0.35 and 0.2 of an edge), random velocities (up to 1.5 m/s) and
 /// random rest angles (up to 0.9 rad).
