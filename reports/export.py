@@ -11,7 +11,6 @@ by: speed [m/s], strain [1], angle [rad], phi [m].
 """
 from __future__ import annotations
 
-import argparse
 import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -139,8 +138,7 @@ def write_xdmf(case: Case, bodies: list[Body], folder: Path) -> list[Path]:
     """An XDMF for the cloth and for each object, a collection in time,
     and the one HDF5 that they name."""
     data, partial = (
-        folder / f"{case.path.stem}.data.h5",
-        folder / f"{case.path.stem}.data.h5.partial",
+        folder / f"{case.path.stem}.data.h5", folder / f"{case.path.stem}.data.h5.partial"
     )
     with h5py.File(partial, "w", track_order=True) as file:
         for body in bodies:

@@ -3,7 +3,6 @@ by outcome, each fault with the digest of its edit. An outcome counts for as lon
 the same edit and names the same findings and tests."""
 from __future__ import annotations
 
-import json
 from collections import Counter
 from collections.abc import Iterable
 from dataclasses import replace
@@ -12,7 +11,7 @@ from typing import NamedTuple
 
 from data.edit_digest import edit_digest
 from data.results import Fault
-from data.unreadable import reading
+from data.unreadable import read_json
 
 RECORD = Path(__file__).resolve().parents[2] / "verification" / "faults" / "outcomes.json"
 
@@ -27,11 +26,8 @@ class Known(NamedTuple):
 def with_record(faults: list[Fault], record: Path = RECORD) -> list[Fault]:
     """The faults; those that were not run with the results as they are recorded. Throws Unreadable
     if the record is damaged."""
-    if not record.is_file():
-        return faults
-    with reading(record):
-        known = outcomes_by_name(json.loads(record.read_text(encoding="utf-8")))
-        return [_recorded(fault, known.get(fault.name)) for fault in faults]
+    known = read_json(record, outcomes_by_name) or {}
+    return [_recorded(fault, known.get(fault.name)) for fault in faults]
 
 
 def outcomes_by_name(stored: dict[str, dict[str, dict[str, str]]]) -> dict[str, Known]:
