@@ -11,7 +11,6 @@ by: speed [m/s], strain [1], angle [rad], phi [m].
 """
 from __future__ import annotations
 
-import argparse
 import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -20,7 +19,7 @@ from xml.sax.saxutils import escape, quoteattr
 
 sys.dont_write_bytecode = True
 
-from data.command_line import OneLineParser, require_modules  # noqa: E402
+from data.command_line import OneLineParser, refusing_damage, require_modules  # noqa: E402
 
 require_modules("export", "numpy", "h5py")
 import h5py  # noqa: E402
@@ -28,7 +27,6 @@ import numpy as np  # noqa: E402
 
 from data.cloth_values import all_values  # noqa: E402
 from data.results import Case, load_case  # noqa: E402
-from data.unreadable import Unreadable, one_line  # noqa: E402
 from data.whole_file import write_whole  # noqa: E402
 
 
@@ -51,15 +49,9 @@ def main() -> int:
         help="folder for the files; made if it is not there"
     )
     options = parser.parse_args()
-    try:
+    with refusing_damage("export", options.case):
         options.out.mkdir(parents=True, exist_ok=True)
         files = export(load_case(options.case), options.format, options.out)
-    except (OSError, Unreadable) as error:
-        print(f"export: {error}", file=sys.stderr)
-        return 2
-    except Exception as error:  # a damaged file may hold anything
-        print(f"export: {options.case}: {one_line(error)}", file=sys.stderr)
-        return 2
     print(f"{options.out}: {len(files)} files")
     return 0
 
@@ -139,8 +131,7 @@ def write_xdmf(case: Case, bodies: list[Body], folder: Path) -> list[Path]:
     """An XDMF for the cloth and for each object, a collection in time,
     and the one HDF5 that they name."""
     data, partial = (
-        folder / f"{case.path.stem}.data.h5",
-        folder / f"{case.path.stem}.data.h5.partial",
+        folder / f"{case.path.stem}.data.h5", folder / f"{case.path.stem}.data.h5.partial"
     )
     with h5py.File(partial, "w", track_order=True) as file:
         for body in bodies:

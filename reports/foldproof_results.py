@@ -18,7 +18,8 @@ from typing import Any, TypeVar
 import numpy as np
 
 from data.hdf5_values import Column
-from data.results import CaseEntry, Claim, Finding, OnAxes, Study, StudyMap, load_case, load_run
+from data.results import CaseEntry, Claim, Finding, load_case, load_run
+from data.studies import OnAxes, Study, StudyMap
 from data.unreadable import Unreadable
 
 __all__ = [

@@ -17,7 +17,9 @@ from pathlib import Path
 
 sys.dont_write_bytecode = True
 
-from data.command_line import OneLineParser, require_modules, require_program  # noqa: E402
+from data.command_line import (  # noqa: E402
+    OneLineParser, refusing_damage, require_modules, require_program
+)
 
 require_modules("make_film", "numpy", "h5py", "matplotlib", "PIL")
 import numpy as np  # noqa: E402
@@ -25,7 +27,7 @@ from PIL import Image, ImageDraw, ImageFont  # noqa: E402
 
 from data.quantities import number_text  # noqa: E402
 from data.results import Case, load_case  # noqa: E402
-from data.unreadable import Unreadable, one_line  # noqa: E402
+from data.unreadable import Unreadable  # noqa: E402
 from pictures.case_fields import Field, fields_of  # noqa: E402
 from pictures.case_pictures import length_text, nice_length, select_frames  # noqa: E402
 from pictures.case_scene import CaseScene, slowdown  # noqa: E402
@@ -54,26 +56,16 @@ def main() -> int:
     """Returns 0 when the films are written, 2 when they cannot be."""
     options = arguments()
     require_program("make_film", "ffmpeg")
-    try:
-        outs = (
-            [options.out]
-            if options.out
-            else [options.run.with_suffix(".mp4"), options.run.with_suffix(".gif")]
-        )
+    both = [options.run.with_suffix(kind) for kind in (".mp4", ".gif")]
+    with refusing_damage("make_film", options.run):
         film = film_of(load_case(options.run), options)
-        for out in outs:
+        for out in [options.out] if options.out else both:
             write_film(film, out)
             print(out)
-    except (FilmError, OSError, Unreadable) as error:
-        print(f"make_film: {error}", file=sys.stderr)
-        return 2
-    except Exception as error:  # a damaged file may hold anything
-        print(f"make_film: {options.run}: {one_line(error)}", file=sys.stderr)
-        return 2
     return 0
 
 
-class FilmError(Exception):
+class FilmError(Unreadable):
     """Why there is no film, in one line."""
 
 

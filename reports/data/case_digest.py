@@ -52,3 +52,17 @@ def case_files(cases: Path) -> dict[str, str]:
         for file in sorted(cases.glob("**/*.toml"))
         if file.stem != "fabrics" and not file.name.endswith(".campaign.toml")
     }
+
+
+def has_changed(row: dict[str, Any], cases: Path) -> bool:
+    """Whether the case of a row of a record in the folder `cases` is another scene by now."""
+    file = case_files(cases).get(row["case"])
+    return file is None or (
+        case_digest(file, lambda name: (cases / name).read_bytes()) != row["digest"]
+    )
+
+
+def part_of_time(row: dict[str, Any]) -> str:
+    """"first 1 of 3 s" where not the whole run was asked, else ""."""
+    asked, end = row["asked_end"], row["end"]
+    return f"first {asked:g} of {end:g} s" if asked != end else ""

@@ -10,14 +10,7 @@ HEADING = re.compile(r"^## `\[+(\w+)")
 KEY = re.compile(r"`(\w+)`")
 # keys of shapes, which the page lists with "lengths in m"
 LENGTHS = (
-    "drawn_width",
-    "height",
-    "length",
-    "radius",
-    "ring_radius",
-    "size",
-    "tube_radius",
-    "width",
+    "drawn_width", "height", "length", "radius", "ring_radius", "size", "tube_radius", "width"
 )
 NO_UNIT = ("", "1", "rest lengths", "units of the file")
 

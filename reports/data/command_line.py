@@ -7,7 +7,12 @@ import importlib.util
 import shutil
 import signal
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
 from typing import NoReturn
+
+from data.unreadable import Unreadable, one_line
 
 # Ctrl-C ends a script, and the processes that it starts, as it ends other programs. What they write
 # appears whole or not at all (whole_file.py).
@@ -31,6 +36,17 @@ def refuse(script: str, why: str) -> NoReturn:
     """Ends the program."""
     print(f"{script}: {why}", file=sys.stderr)
     sys.exit(2)
+
+
+@contextmanager
+def refusing_damage(script: str, file: Path) -> Iterator[None]:
+    """Whatever goes wrong inside ends the program in one line: a damaged file may hold anything."""
+    try:
+        yield
+    except (OSError, Unreadable) as error:
+        refuse(script, str(error))
+    except Exception as error:
+        refuse(script, f"{file}: {one_line(error)}")
 
 
 def require_modules(script: str, *modules: str) -> None:

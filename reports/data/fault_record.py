@@ -3,7 +3,6 @@ its commit and the digest of the edit. An outcome counts for as long as the faul
 edit and names the same findings and tests."""
 from __future__ import annotations
 
-import json
 from collections import Counter
 from collections.abc import Iterable
 from dataclasses import replace
@@ -12,7 +11,7 @@ from typing import NamedTuple
 
 from data.edit_digest import edit_digest
 from data.results import Fault
-from data.unreadable import reading
+from data.unreadable import read_json
 
 RECORD = Path(__file__).resolve().parents[2] / "verification" / "faults" / "outcomes.json"
 
@@ -27,12 +26,8 @@ class Known(NamedTuple):
 def with_record(faults: list[Fault], record: Path = RECORD) -> list[Fault]:
     """The faults; those that were not run with the results as they are recorded. Throws Unreadable
     if the record is damaged."""
-    if not record.is_file():
-        return faults
-    with reading(record):
-        stored = json.loads(record.read_text(encoding="utf-8"))
-        known = {name: Known(*row) for name, row in stored.items()}
-        return [_recorded(fault, known.get(fault.name)) for fault in faults]
+    known = read_json(record, lambda stored: {name: Known(*row) for name, row in stored.items()})
+    return [_recorded(fault, (known or {}).get(fault.name)) for fault in faults]
 
 
 def _recorded(fault: Fault, known: Known | None) -> Fault:

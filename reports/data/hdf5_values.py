@@ -4,10 +4,15 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
-from typing import Any
+from math import isnan
+from typing import Any, TypeVar
 
 import h5py
 import numpy as np
+
+from data.records import types_of
+
+T = TypeVar("T")
 
 
 @dataclass
@@ -35,6 +40,11 @@ def _values(data: h5py.Dataset) -> np.ndarray:
     if np.asarray(values).dtype.kind in "OSU":
         return np.array([_decode(value) for value in np.atleast_1d(values)], dtype=object)
     return np.atleast_1d(np.asarray(values, dtype=float))
+
+
+def numbers_of(group: h5py.Group, key: str) -> np.ndarray | None:
+    """An array of numbers; None if there is none."""
+    return np.asarray(group[key], dtype=float) if key in group else None
 
 
 def in_order(group: h5py.Group, key: str) -> list[tuple[str, h5py.Group]]:
@@ -96,3 +106,18 @@ def number_of(attributes: dict[str, Any], key: str, absent: float = float("nan")
         return float(np.ravel(value)[0])
     except (TypeError, ValueError, IndexError):
         return absent
+
+
+def from_attributes(kind: type[T], said: dict[str, Any], **known: Any) -> T:
+    """A dataclass, each field from the attribute of its name: texts, lists of texts and numbers; an
+    absent one is "", [] or NaN, an absent whole number 0. All other fields are `known`."""
+    readers = {str: text_of, float: number_of, int: _whole_number, list[str]: texts_of}
+    for name, of in types_of(kind).items():
+        if name not in known and of in readers:
+            known[name] = readers[of](said, name)
+    return kind(**known)
+
+
+def _whole_number(said: dict[str, Any], name: str) -> int:
+    value = number_of(said, name)
+    return 0 if isnan(value) else int(value)

@@ -20,6 +20,7 @@ from pathlib import Path
 from typing import Any
 
 from data.quantities import ratio_of
+from data.records import record
 from data.results import load_run
 from data.unreadable import Unreadable
 
@@ -56,6 +57,11 @@ class RunRow:
     def key(self) -> tuple[str, ...]:
         """Two rows with the same key are of the same run."""
         return tuple(self.about[name] for name in ("date", "commit", "command", "cpu"))
+
+    @property
+    def outcomes(self) -> dict[str, str]:
+        """By finding."""
+        return {name: judged.outcome for name, judged in self.findings.items()}
 
     @property
     def label(self) -> str:
@@ -101,13 +107,10 @@ def row_of(path: Path) -> RunRow:
     try:
         written = json.loads(file.read_text(encoding="utf-8"))
         about = {name: str(written["program"].get(name, "")) for name in ABOUT}
-        rows = [row for row in written["findings"] if row["kind"] != RULED]
         findings = {
-            row["name"]: Judged(
-                row["outcome"] or "did not run",
-                *(_number(row[key]) for key in ("measured", "bound", "seconds")),
-            )
-            for row in rows
+            row["name"]: record(Judged, row, outcome=row["outcome"] or "did not run")
+            for row in written["findings"]
+            if row["kind"] != RULED
         }
         rulings = {row["id"]: row["ruling"] for row in written["findings"] if row["kind"] == RULED}
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
@@ -134,10 +137,6 @@ def _costs(file: Path, about: dict[str, str]) -> dict[str, float]:
     return {what: seconds for what, seconds in costs.items() if isfinite(seconds)}
 
 
-def _number(value: Any) -> float:
-    return nan if value is None else float(value)
-
-
 def read_log(path: Path) -> list[RunRow]:
     """The rows of a log, in its order; none if there is no such file. A last line that was cut off
     is left out. Throws Unreadable naming file and line for any other line that is no row."""
@@ -162,12 +161,12 @@ def read_log(path: Path) -> list[RunRow]:
 
 def _row_of_line(line: str) -> RunRow:
     said = json.loads(line)
-    findings = {name: Judged(str(outcome), *(_number(value) for value in numbers))
-                for name, (outcome, *numbers) in said["findings"].items()}
-    return RunRow(
-        {name: str(said[name]) for name in ABOUT}, said["counts"], said["rulings"], said["costs"],
-        findings
-    )
+    keys = ("outcome", "measured", "bound", "seconds")
+    findings = {
+        name: record(Judged, dict(zip(keys, row, strict=True)))
+        for name, row in said["findings"].items()
+    }
+    return record(RunRow, said, about={name: str(said[name]) for name in ABOUT}, findings=findings)
 
 
 def append_to_log(path: Path, rows: list[RunRow]) -> int:
@@ -227,12 +226,8 @@ def changes(rows: list[RunRow]) -> list[Change]:
     for before, run in _neighbours(rows):
         asked_all = is_whole(run) and is_whole(before)
         of_run: list[Change] = []
-        for old, new in ((_outcomes(before), _outcomes(run)), (before.rulings, run.rulings)):
-            names = (
-                list(old.keys() | new.keys())
-                if asked_all
-                else [name for name in new if name in old]
-            )
+        for old, new in ((before.outcomes, run.outcomes), (before.rulings, run.rulings)):
+            names = old.keys() | new.keys() if asked_all else old.keys() & new.keys()
             of_run += [
                 Change(run, name, old.get(name, ""), new.get(name, ""))
                 for name in sorted(names)
@@ -255,16 +250,8 @@ def margin_changes(rows: list[RunRow]) -> list[MarginChange]:
         for name, judged in run.findings.items()
         if name in before.findings
     ]
-    found = [
-        change for change in found if change.after >= CLOSER * change.before and change.after > 0.01
-    ]
-    return sorted(
-        found, key=lambda change: -(change.after / change.before if change.before > 0 else inf)
-    )
-
-
-def _outcomes(row: RunRow) -> dict[str, str]:
-    return {name: judged.outcome for name, judged in row.findings.items()}
+    closer = [one for one in found if one.after >= CLOSER * one.before and one.after > 0.01]
+    return sorted(closer, key=lambda one: -(one.after / one.before if one.before > 0 else inf))
 
 
 def _neighbours(rows: list[RunRow]) -> list[tuple[RunRow, RunRow]]:

@@ -4,13 +4,13 @@ them. The score of a sample is that of slips for which nobody has mended anythin
 from __future__ import annotations
 
 import itertools
-import json
 import math
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from data.unreadable import reading
+from data.records import record
+from data.unreadable import read_json, reading
 
 FAULTS = Path(__file__).resolve().parents[2] / "verification" / "faults"
 SCORES = FAULTS / "scores.json"
@@ -89,24 +89,18 @@ class MutationPage:
 
 def read_scores(path: Path = SCORES) -> Scores:
     """Throws Unreadable if the file is damaged; without a file, no scores."""
-    if not path.is_file():
-        return Scores()
-    with reading(path):
-        stored = json.loads(path.read_text(encoding="utf-8"))
+    def scores(stored: dict[str, Any]) -> Scores:
         samples = [
-            Sample(row["commit"], row["date"], [Score(**folder) for folder in row["folders"]])
+            record(Sample, row, folders=[Score(**folder) for folder in row["folders"]])
             for row in stored["samples"]
         ]
         return Scores(samples, stored["open"])
+    return read_json(path, scores) or Scores()
 
 
 def read_answers(path: Path = EXPLAINED_ASKED) -> list[Row]:
     """Of edits that were explained when they were put to the checks; none without a file."""
-    if not path.is_file():
-        return []
-    with reading(path):
-        rows: list[Row] = json.loads(path.read_text(encoding="utf-8"))["mutants"]
-        return rows
+    return read_json(path, lambda said: said["mutants"]) or []
 
 
 def key_of_row(row: Row) -> Key:

@@ -8,7 +8,6 @@ becomes "" or NaN, an absent group an empty list. Nothing large is read before i
 """
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
@@ -20,9 +19,11 @@ import numpy as np
 
 from data.damage import why_unreadable
 from data.hdf5_values import (
-    Column, attributes_of, columns_of, in_order, number_of, text_of, texts_of
+    Column, attributes_of, columns_of, from_attributes, in_order, numbers_of, text_of, texts_of
 )
-from data.unreadable import Unreadable, reading
+from data.records import record
+from data.studies import Study, study_of
+from data.unreadable import Unreadable, read_json, reading
 
 
 @dataclass
@@ -51,72 +52,6 @@ class Finding:
     # "estimated" | "counted" | "within bound" | "computed" | "timed once" | "structural"
     certainty: str = ""
     headline: str = ""   # what was measured, in words and units, where the judged number is another
-
-
-@dataclass
-class Curve:
-    """y against x; points below `floor` mean nothing (NaN: no floor). pair_orders has one entry
-    less than x, or is None. `slope` is the one expected in log-log axes (NaN: none). marks has one
-    entry for each point, or is None."""
-    label: str
-    x: np.ndarray
-    y: np.ndarray
-    floor: float
-    pair_orders: np.ndarray | None
-    slope: float
-    marks: np.ndarray | None    # "measured" | "unfinished" | "diverged"
-
-
-@dataclass
-class OnAxes:
-    """Fields common to figures and maps."""
-    name: str
-    title: str
-    caption: str
-    x_label: str
-    x_unit: str
-    y_label: str
-    y_unit: str
-    x_scale: str       # "linear" | "log"
-    y_scale: str
-    curves: list[Curve]
-
-
-@dataclass
-class StudyFigure(OnAxes):
-    """One set of axes. `slope` is the expected slope in log-log axes (NaN: none)."""
-    slope: float
-
-
-@dataclass
-class StudyMap(OnAxes):
-    """A quantity over two parameters, with limits known beforehand as curves over it."""
-    quantity: str
-    unit: str          # of the values
-    scale: str         # of the values
-    x: np.ndarray      # n
-    y: np.ndarray      # m
-    values: np.ndarray  # m x n; NaN where there is none, as the caption says
-
-
-@dataclass
-class Table:
-    """A titled table of columns of equal length."""
-    title: str
-    columns: list[Column]
-
-
-@dataclass
-class Study:
-    """A measured rate or cost, with its curves and tables."""
-    name: str
-    claim: str
-    source: str
-    about: str
-    seconds: float
-    figures: list[StudyFigure]
-    tables: list[Table]
-    maps: list[StudyMap] = field(default_factory=list)
 
 
 @dataclass
@@ -219,8 +154,7 @@ class Case:
         """The "positions" [m] or "velocities" [m/s] of all particles in all frames, T x N x 3, or
         their "object_distance" [m], T x N; None if the file has none."""
         with h5py.File(self.path, "r") as file:
-            data = file.get(f"frames/{quantity}")
-            return None if data is None else np.asarray(data, dtype=float)
+            return numbers_of(file, f"frames/{quantity}")
 
     def stuck(self, frame: int) -> np.ndarray | None:
         """N, true for particles that stick to something in one frame; None if
@@ -238,11 +172,7 @@ class Case:
     def rest_positions(self) -> np.ndarray | None:
         """Rest positions of all particles, N x 3 [m]; None if the file has none."""
         with h5py.File(self.path, "r") as file:
-            return (
-                np.asarray(file["mesh/rest_positions"], dtype=float)
-                if "mesh/rest_positions" in file
-                else None
-            )
+            return numbers_of(file, "mesh/rest_positions")
 
 
 @dataclass
@@ -275,12 +205,13 @@ def load_run(path: str | Path) -> Run:
             path=path,
             provenance=attributes_of(file),
             findings=[_finding(name, group) for name, group in in_order(file, "findings")],
-            studies=[_study(name, group) for name, group in in_order(file, "studies")],
+            studies=[study_of(name, group) for name, group in in_order(file, "studies")],
             cases=[
-                _case_entry(name, group, path.parent) for name, group in in_order(file, "cases")
+                _case_entry(attributes_of(group), name, path.parent)
+                for name, group in in_order(file, "cases")
             ],
             faults=_with_outcomes(_faults(file), path.parent / "faults.json"),
-            claims=[_claim(name, group) for name, group in in_order(file, "claims")],
+            claims=[_claim(name, attributes_of(group)) for name, group in in_order(file, "claims")],
         )
 
 
@@ -294,34 +225,15 @@ def load_case(path: str | Path) -> Case:
                 raise Unreadable(f"{path}: no simulation of foldproof: it has no /{needed}")
         nobody = np.zeros(file["frames/positions"].shape[1], bool)
         held = np.asarray(file["mesh/held"], dtype=bool) if "mesh/held" in file else nobody
+        gravity = numbers_of(file, "gravity")
         return Case(
             path=path, about_run=attributes_of(file), held=held,
-            triangles=np.asarray(file["mesh/triangles"], dtype=np.int64).reshape(-1, 3),
-            frame_times=np.asarray(file["frames/time"], dtype=float),
+            triangles=_triangles(file["mesh"]), frame_times=numbers_of(file, "frames/time"),
             objects=[_object(group) for group in file.get("objects", {}).values()],
             findings=[_finding(name, group) for name, group in file.get("findings", {}).items()],
             diagnostics={column.name: column for column in columns_of(file.get("diagnostics"))},
-            gravity=_gravity(file)
+            gravity=None if gravity is None else gravity.reshape(3)
         )
-
-
-def _gravity(file: h5py.File) -> np.ndarray | None:
-    return np.asarray(file["gravity"], dtype=float).reshape(3) if "gravity" in file else None
-
-
-def _object(group: h5py.Group) -> CaseObject:
-    names = {
-        "vertices": "vertices", "rotation": "rotation", "translation": "translation",
-        "positions": "deformed"
-    }
-    arrays = {
-        field: np.asarray(group[key], dtype=float) for key, field in names.items() if key in group
-    }
-    attributes = attributes_of(group)
-    return CaseObject(
-        name=text_of(attributes, "name"), shape=text_of(attributes, "shape"), **arrays,
-        triangles=np.asarray(group["triangles"], dtype=np.int64).reshape(-1, 3)
-    )
 
 
 def case_entry_of_file(path: Path) -> CaseEntry | None:
@@ -333,146 +245,66 @@ def case_entry_of_file(path: Path) -> CaseEntry | None:
             attributes = attributes_of(file)
     except Unreadable:
         return None
-    return CaseEntry(
-        name=text_of(attributes, "case_name") or path.stem,
-        title=text_of(attributes, "title") or path.stem, about=text_of(attributes, "about"),
-        seconds=number_of(attributes, "seconds"), stopped=text_of(attributes, "stopped"), path=path
+    name = text_of(attributes, "case_name") or path.stem
+    return from_attributes(
+        CaseEntry, attributes, name=name, title=text_of(attributes, "title") or path.stem, path=path
+    )
+
+
+def _case_entry(attributes: dict[str, Any], name: str, folder: Path) -> CaseEntry:
+    file = Path(text_of(attributes, "file") or f"{name}.h5").name
+    return from_attributes(
+        CaseEntry, attributes, name=name, title=text_of(attributes, "title") or name,
+        path=folder / file
+    )
+
+
+def _triangles(group: h5py.Group) -> np.ndarray:
+    return np.asarray(group["triangles"], dtype=np.int64).reshape(-1, 3)
+
+
+def _object(group: h5py.Group) -> CaseObject:
+    arrays = {key: numbers_of(group, key) for key in ("vertices", "rotation", "translation")}
+    return from_attributes(
+        CaseObject, attributes_of(group), **arrays, deformed=numbers_of(group, "positions"),
+        triangles=_triangles(group)
     )
 
 
 def _finding(name: str, group: h5py.Group) -> Finding:
-    attributes = attributes_of(group)
-    texts = {
-        key: text_of(attributes, key)
-        for key in (
-            "kind", "study", "claim", "source", "unit", "why_bound", "outcome", "note", "better",
-            "basis", "scope", "certainty", "headline"
-        )
-    }
-    numbers = {
-        key: number_of(attributes, key) for key in ("measured", "bound", "uncertainty", "seconds")
-    }
-    return Finding(name=name, **texts, **numbers, faults=texts_of(attributes, "faults"),
-                   evidence=columns_of(group.get("evidence")))
-
-
-def _study(name: str, group: h5py.Group) -> Study:
-    attributes = attributes_of(group)
-    return Study(
-        name=name,
-        claim=text_of(attributes, "claim"),
-        source=text_of(attributes, "source"),
-        about=text_of(attributes, "about"),
-        seconds=number_of(attributes, "seconds"),
-        figures=[_figure(key, figure) for key, figure in in_order(group, "figures")],
-        maps=[_map(key, group) for key, group in in_order(group, "maps")],
-        tables=[
-            Table(text_of(attributes_of(table), "title") or key, columns_of(table))
-            for key, table in in_order(group, "tables")
-        ],
+    return from_attributes(
+        Finding, attributes_of(group), name=name, evidence=columns_of(group.get("evidence"))
     )
 
 
-def _figure(name: str, group: h5py.Group) -> StudyFigure:
-    attributes = attributes_of(group)
-    return StudyFigure(
-        name=name, **_axes(attributes), slope=number_of(attributes, "slope"), curves=_curves(group)
-    )
-
-
-def _map(name: str, group: h5py.Group) -> StudyMap:
-    attributes = attributes_of(group)
-    x, y = (np.asarray(group[key], dtype=float) for key in "xy")
-    return StudyMap(
-        name=name, **_axes(attributes), quantity=text_of(attributes, "quantity"),
-        unit=text_of(attributes, "unit"), scale=text_of(attributes, "scale") or "linear", x=x, y=y,
-        curves=_curves(group),
-        values=np.asarray(group["values"], dtype=float).reshape(len(y), len(x))
-    )
-
-
-def _axes(attributes: dict[str, Any]) -> dict[str, str]:
-    texts = {
-        key: text_of(attributes, key)
-        for key in ("title", "caption", "x_label", "x_unit", "y_label", "y_unit")
-    }
-    return texts | {key: text_of(attributes, key) or "linear" for key in ("x_scale", "y_scale")}
-
-
-def _curves(group: h5py.Group) -> list[Curve]:
-    return [_curve(key, curve) for key, curve in in_order(group, "curves")]
-
-
-def _curve(name: str, group: h5py.Group) -> Curve:
-    attributes = attributes_of(group)
-    orders = np.asarray(group["pair_orders"], dtype=float) if "pair_orders" in group else None
-    x, y = (np.asarray(group[key], dtype=float) for key in "xy")
-    marks = group["marks"].asstr()[:] if "marks" in group else None
-    return Curve(
-        label=text_of(attributes, "label") or name, floor=number_of(attributes, "floor"),
-        pair_orders=orders, slope=number_of(attributes, "slope"), x=x, y=y, marks=marks
-    )
-
-
-def _claim(name: str, group: h5py.Group) -> Claim:
-    attributes = attributes_of(group)
-    texts = {
-        key: text_of(attributes, key)
-        for key in (
-            "section", "statement", "ruling", "recorded", "condition", "why", "begins", "printed",
-            "restored", "paper", "paper_title", "missing"
-        )
-    }
+def _claim(name: str, attributes: dict[str, Any]) -> Claim:
     names, roles = texts_of(attributes, "decided_by"), texts_of(attributes, "roles")
-    paragraph = number_of(attributes, "paragraph")
-    return Claim(name=name, **texts, decided_by=list(zip(names, roles + [""] * len(names))),
-                 paragraph=0 if np.isnan(paragraph) else int(paragraph))
-
-
-def _case_entry(name: str, group: h5py.Group, folder: Path) -> CaseEntry:
-    attributes = attributes_of(group)
-    return CaseEntry(
-        name=name, title=text_of(attributes, "title") or name, about=text_of(attributes, "about"),
-        seconds=number_of(attributes, "seconds"), stopped=text_of(attributes, "stopped"),
-        path=folder / Path(text_of(attributes, "file") or f"{name}.h5").name
-    )
+    decided_by = list(zip(names, roles + [""] * len(names)))
+    return from_attributes(Claim, attributes, name=name, decided_by=decided_by)
 
 
 def _with_outcomes(faults: list[Fault], file: Path) -> list[Fault]:
     """Outcomes of `scripts/faults --out DIR/faults.json`, if that was run for this folder."""
-    if not file.is_file():
-        return faults
-    with reading(file):
-        rows = {row["name"]: row for row in json.loads(file.read_text(encoding="utf-8"))["faults"]}
-        return [
-            _with_outcome(fault, rows[fault.name]) if fault.name in rows else fault
-            for fault in faults
-        ]
-
-
-def _with_outcome(fault: Fault, row: dict[str, Any]) -> Fault:
-    def number(value: float | None) -> float:
-        return float("nan") if value is None else value
-    checks = [
-        FaultCheck(
-            attributes["name"], attributes["outcome"],
-            *(number(attributes[key]) for key in ("measured", "bound", "margin"))
-        )
-        for attributes in row.get("checks", [])
-    ]
-    return replace(fault, outcome=row["outcome"], checks=checks)
+    def outcomes(said: dict[str, Any]) -> dict[str, dict[str, Any]]:
+        return {
+            row["name"]: {
+                "outcome": row["outcome"],
+                "checks": [record(FaultCheck, check) for check in row.get("checks", [])]
+            }
+            for row in said["faults"]
+        }
+    known = read_json(file, outcomes) or {}
+    return [replace(fault, **known.get(fault.name, {})) for fault in faults]
 
 
 def _faults(file: h5py.File) -> list[Fault]:
-    columns = {column.name: [str(value) for value in column.values]
-               for column in columns_of(file.get("faults"))}
-    keys = ("name", "file", "find", "replace", "law", "caught_by", "outcome", "caught_by_tests")
-    rows = zip(*(columns.get(key, [""] * len(columns.get("name", []))) for key in keys))
+    columns = {column.name: map(str, column.values) for column in columns_of(file.get("faults"))}
+    rows = [dict(zip(columns, row)) for row in zip(*columns.values())]
     return [
-        Fault(
-            name, where, find, replace, law,
-            [part.strip() for part in caught.split(",") if part.strip()], outcome,
-            [test for test in tests.split("\n") if test]
+        record(
+            Fault, row,
+            caught_by=[part.strip() for part in row["caught_by"].split(",") if part.strip()],
+            caught_by_tests=[test for test in row.get("caught_by_tests", "").split("\n") if test]
         )
-        for name, where, find, replace, law, caught, outcome, tests in rows
+        for row in rows
     ]

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass
-from math import nan
 from pathlib import Path
 from typing import Any
 
+from data.records import record
 from data.results import Run
 from data.unreadable import Unreadable, reading
 
@@ -34,7 +34,7 @@ class Answer:
     unit: str
     why_bound: str
     note: str
-    headline: str  # what was measured where the judged number is another; may be empty
+    headline: str = ""  # what was measured where the judged number is another
 
 
 @dataclass(frozen=True)
@@ -65,8 +65,8 @@ def read_trial(folder: Path) -> Trial:
             subject=str(program["subject"]),
             facts=facts,
             program={key: str(program[key]) for key in ABOUT},
-            laws=[Law(row["name"], row["claim"], row["source"]) for row in rows],
-            answers={row["name"]: _answer(row) for row in rows},
+            laws=[record(Law, row) for row in rows],
+            answers={row["name"]: record(Answer, row) for row in rows},
         )
 
 
@@ -134,12 +134,3 @@ def _evidence(table: dict[str, Any]) -> dict[str, Any]:
         for one in table["columns"]
     ]
     return {"law": str(table["law"]), "columns": columns}
-
-
-def _answer(row: dict[str, Any]) -> Answer:
-    def number(key: str) -> float:
-        return nan if row[key] is None else float(row[key])
-
-    texts = {key: str(row[key]) for key in ("outcome", "unit", "why_bound", "note")}
-    return Answer(measured=number("measured"), bound=number("bound"),
-                  headline=str(row.get("headline", "")), **texts)

@@ -1,9 +1,13 @@
-"""The error for a file that cannot be read."""
+"""The error for a file that cannot be read, and files of JSON."""
 from __future__ import annotations
 
-from collections.abc import Iterator
+import json
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any, TypeVar
+
+T = TypeVar("T")
 
 
 class Unreadable(Exception):
@@ -27,3 +31,12 @@ def reading(path: Path) -> Iterator[None]:
         raise Unreadable(f"{path}: there is no such file") from error
     except Exception as error:
         raise Unreadable(f"{path}: {one_line(error)}") from error
+
+
+def read_json(path: Path, make: Callable[[Any], T]) -> T | None:
+    """The content of a file of JSON, as `make` takes it; None if there is no such file. Throws
+    Unreadable, which names the file, also for what `make` cannot take."""
+    if not path.is_file():
+        return None
+    with reading(path):
+        return make(json.loads(path.read_text(encoding="utf-8")))

@@ -6,7 +6,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from math import isclose, isnan
 
-from data.results import Column, Study, Table
+from data.results import Column
+from data.studies import Study, Table
 
 NEEDED = ("scene", "error wanted", "by", "cheapest method")
 # of every method's price, the cheapest of a scene and an error first
@@ -14,14 +15,12 @@ PRICED = ("scene", "error wanted", "method", "over the cheapest", "tied with it"
 PER_ONE = {"1": 1, "%": 100}                   # units of errors
 # the key of each number of a method that was asked how long its step may be
 LASTING = {
-    "method": "method", "step": "longest step that lasts",
-    "over_limit": "over the elastic limit", "beyond": "the next step, twice as long",
-    "over_c": "over those of C"
+    "method": "method", "step": "longest step that lasts", "over_limit": "over the elastic limit",
+    "beyond": "the next step, twice as long", "over_c": "over those of C"
 }
 # Columns that name a method, or None for scheme C, and the column of the factor that it costs more.
 OTHERS = (
-    ("next best", "it costs this many times as much"),
-    (None, "C costs this many times as much"),
+    ("next best", "it costs this many times as much"), (None, "C costs this many times as much")
 )
 
 
@@ -96,7 +95,7 @@ def _first_table(
     """The study's name, the table and its rows."""
     for study in studies:
         for table in study.tables:
-            rows = _rows(table)
+            rows = rows_of(table)
             if rows and all(key in rows[0] for key in columns):
                 return study.name, table, rows
     return None
@@ -139,7 +138,8 @@ def _cheapest_row(prices: list[dict[str, object]]) -> Choice | None:
     )
 
 
-def _rows(table: Table) -> list[dict[str, object]]:
+def rows_of(table: Table) -> list[dict[str, object]]:
+    """A table as rows, keyed by the names of columns with blanks."""
     names = [_name(column) for column in table.columns]
     return [
         dict(zip(names, values)) for values in zip(*(column.values for column in table.columns))

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from data.campaign_table import CampaignFigure, CampaignTable, figures_of, require_columns
-from pages.page import new_environment
+from pages.render import new_environment
 from plots.campaign_plots import figure_notes, plot_campaign_figure
 from plots.plot_style import Plot, use_style
 

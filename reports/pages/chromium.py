@@ -1,5 +1,4 @@
-"""Chromium without a window, driven over a pipe: prints a page, takes its picture, asks it
-questions. No network.
+"""Chromium without a window, driven over a pipe: prints a page, asks it questions. No network.
 
     with Browser() as browser:
         browser.open(page, width=390, dark=True)
@@ -116,10 +115,6 @@ class Browser:
                 "Input.dispatchKeyEvent", type=kind, key=key, windowsVirtualKeyCode=code,
                 text=text if kind == "keyDown" else ""
             )
-
-    def picture(self) -> bytes:
-        """Screenshot of the window, as PNG."""
-        return b64decode(self._call("Page.captureScreenshot", format="png")["data"])
 
     def pdf(self, head: str, foot: str) -> bytes:
         """The page on A4 paper with an outline; `head` and `foot` are HTML with a style of its own,

@@ -9,7 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from data.quantities import ratio_of
-from data.results import CaseEntry, Claim, Finding, Run, Study, load_case, load_run
+from data.results import CaseEntry, Claim, Finding, Run, load_case, load_run
+from data.studies import Study
 from data.unreadable import Unreadable
 
 # columns of studies that count work
@@ -137,8 +138,7 @@ def compare(a: Side, b: Side) -> Comparison:
 
 
 def read_side(letter: str, given: Path) -> Side:
-    """A run from its folder or its file.
-    Throws Unreadable if it is none."""
+    """A run from its folder or its file. Throws Unreadable if it is none."""
     file = given / "run.h5" if given.is_dir() else given
     bench = file.parent / "bench.h5"
     run = load_run(file)

@@ -6,8 +6,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from math import isfinite
 
-from data.results import Finding, Study, Table
-from pages.answers import cheapest_of
+from data.results import Finding
+from data.studies import Study
+from pages.answers import cheapest_of, rows_of
 from pages.ledger import ClaimView, count_rulings
 from pages.sentences import Conclusion, Number, Piece, Quoted, in_words
 
@@ -60,14 +61,6 @@ class Results:
         return Quoted(
             finding.name, f"finding {finding.name}", self.anchor(finding.name), is_name=True
         )
-
-
-def rows_of(table: Table) -> list[dict[str, object]]:
-    """A table as rows."""
-    names = [column.name.replace("_", " ") for column in table.columns]
-    return [
-        dict(zip(names, values)) for values in zip(*(column.values for column in table.columns))
-    ]
 
 
 def conclusions_of(results: Results, is_brief: bool = False) -> list[Conclusion]:

@@ -7,7 +7,7 @@ import numpy as np
 from markupsafe import Markup
 
 from data import quantities
-from data.results import StudyFigure
+from data.studies import StudyFigure
 from plots.plot_style import level_text
 from plots.point_marks import has_mark, is_marked
 from plots.study_plots import choose_pens, floors_below, key_svg, points_left_out

@@ -9,7 +9,8 @@ from typing import Protocol
 
 from markupsafe import Markup
 
-from data.results import Finding, Study
+from data.results import Finding
+from data.studies import Study
 from pages.conclusions import Results
 from pages.sentences import Number, Piece
 from plots.plot_style import Plot

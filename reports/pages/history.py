@@ -4,11 +4,13 @@ from __future__ import annotations
 import json
 from collections import Counter
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from math import isfinite
+from typing import Any
 
 from data.history import Change, MarginChange, RunRow, changes, margin_changes
-from pages.page import OUTCOMES, new_environment
+from pages.counts import OUTCOMES
+from pages.render import new_environment
 
 MOST = 30                  # lines of a list in the text
 SLOWER = 1.5               # costs that grew by this factor between first and last run are listed
@@ -73,31 +75,25 @@ def as_text(history: History) -> str:
         ]
         for row in history.rows
     ]
-    parts = [_table(heads, rows)]
-    parts.append(
+    parts = [
+        _table(heads, rows),
         _list(
             "changed, by the first run that has it:",
             (_change_line(one) for one in history.changes), "No verdict and no ruling changed."
-        )
-    )
-    parts.append(
+        ),
         _list(
             "closer to their bound (measured/bound):",
             (
                 f"{one.run.label}  {one.name}: {one.before:.3g} -> {one.after:.3g}"
                 for one in history.margins
-            ),
-        )
-    )
-    parts.append(
+            )
+        ),
         _list(
-            (
-                "slower than in the first run on this processor (the clock; repeat before you"
-                " believe it):"
-            ),
-            (f"{one.what}: {one.first:.3g} s -> {one.last:.3g} s" for one in history.slower),
-        )
-    )
+            "slower than in the first run on this processor (the clock; repeat before you believe"
+            " it):",
+            (f"{one.what}: {one.first:.3g} s -> {one.last:.3g} s" for one in history.slower)
+        ),
+    ]
     return "\n\n".join(part for part in parts if part)
 
 
@@ -135,30 +131,21 @@ def _list(head: str, lines: Iterable[str], nothing: str = "") -> str:
 
 def as_json(history: History) -> str:
     """The same for programs."""
+    def change(one: Change | MarginChange) -> dict[str, Any]:
+        about = {key: one.run.about[name] for key, name in (("run", "date"), ("commit", "commit"))}
+        return about | {"name": one.name, "before": one.before, "after": one.after}
     runs = [
         row.about
         | {"counts": row.counts, "rulings": dict(Counter(row.rulings.values())), "costs": row.costs}
         for row in history.rows
     ]
-    changed = [
-        {
-            "run": one.run.about["date"], "commit": one.run.about["commit"], "name": one.name,
-            "before": one.before, "after": one.after, "worse": one.is_regression
-        }
-        for one in history.changes
-    ]
-    margins = [
-        {
-            "run": one.run.about["date"], "commit": one.run.about["commit"], "name": one.name,
-            "before": one.before, "after": one.after
-        }
-        for one in history.margins
-        if isfinite(one.after)
-    ]
-    slower = [{"what": one.what, "first": one.first, "last": one.last} for one in history.slower]
-    return json.dumps(
-        {"runs": runs, "changes": changed, "margins": margins, "slower": slower}, indent=1
-    )
+    said = {
+        "runs": runs,
+        "changes": [change(one) | {"worse": one.is_regression} for one in history.changes],
+        "margins": [change(one) for one in history.margins if isfinite(one.after)],
+        "slower": [asdict(one) for one in history.slower],
+    }
+    return json.dumps(said, indent=1)
 
 
 def render_history(history: History) -> str:

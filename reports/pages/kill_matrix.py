@@ -1,14 +1,10 @@
-"""Which checks notice which faults: the rows that scripts/faults and
-scripts/mutate wrote, arranged for the page."""
+"""Which checks notice which faults: the rows that scripts/faults wrote, arranged for the page."""
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass
-from pathlib import Path
-from typing import Any
 
 from data.results import Fault, FaultCheck
-from data.unreadable import reading
+from pages.counts import faults_by_file
 
 
 @dataclass
@@ -38,10 +34,7 @@ class KillTable:
 def kill_tables(faults: list[Fault]) -> list[KillTable]:
     """One table for each file, in the order of the faults; none where no
     outcomes with checks are known."""
-    by_file: dict[str, list[Fault]] = {}
-    for fault in faults:
-        if fault.checks:
-            by_file.setdefault(fault.file, []).append(fault)
+    by_file = faults_by_file(fault for fault in faults if fault.checks)
     return [_table(file, of_file) for file, of_file in by_file.items()]
 
 
@@ -71,23 +64,3 @@ def _cell(fault: Fault, group: str) -> Cell | None:
     return Cell(
         sum(check.outcome == "fails" for check in named), max(margins, default=float("nan")), named
     )
-
-
-@dataclass
-class Mutation:
-    """Results of scripts/mutate: a row for each file, and the mutants that no finding caught."""
-    seed: int
-    rows: list[dict[str, Any]]
-    survivors: list[dict[str, Any]]
-
-
-def load_mutation(path: Path) -> Mutation | None:
-    """Reads mutation.json; None if it is not there. Throws Unreadable for another file."""
-    if not path.is_file():
-        return None
-    with reading(path):
-        said = json.loads(path.read_text(encoding="utf-8"))
-        return Mutation(
-            said["seed"], said["files"],
-            [row for row in said["mutants"] if row["outcome"] == "SURVIVED"]
-        )

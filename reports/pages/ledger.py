@@ -1,11 +1,11 @@
 """The ledger of claims as the page shows it: sorted by section. Rulings are the program's."""
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
 
 from data.results import Claim, Finding
+from pages.counts import counted, grouped
 
 RULINGS = ("confirmed", "confirmed under a condition", "refuted", "undecided")
 
@@ -33,7 +33,10 @@ class ClaimView:
 def claim_views(claims: Iterable[Claim], findings: Iterable[Finding]) -> list[ClaimView]:
     """All rows of the ledger."""
     known = {finding.name: finding for finding in findings}
-    return [_view(claim, known) for claim in claims]
+    return [
+        ClaimView(claim, [Deciding(name, role, known.get(name)) for name, role in claim.decided_by])
+        for claim in claims
+    ]
 
 
 def ruling_counts(views: Iterable[ClaimView]) -> list[tuple[str, int]]:
@@ -43,29 +46,18 @@ def ruling_counts(views: Iterable[ClaimView]) -> list[tuple[str, int]]:
 
 def count_rulings(claims: Iterable[Claim]) -> list[tuple[str, int]]:
     """The same of claims themselves."""
-    counted = Counter(claim.ruling for claim in claims)
-    others = sorted(set(counted) - set(RULINGS))
-    return [(ruling, counted[ruling]) for ruling in (*RULINGS, *others) if counted[ruling]]
+    rulings = counted((claim.ruling for claim in claims), RULINGS)
+    return [(ruling, count) for ruling, count in rulings if count]
 
 
-def by_paper(views: Iterable[ClaimView]) -> list[tuple[str, list[ClaimView]]]:
-    """Rows by paper, in the order of their first row, each under "BMF03: its title (2003)"."""
-    grouped: dict[str, list[ClaimView]] = {}
-    for view in views:
-        grouped.setdefault(
-            ": ".join(part for part in (view.claim.paper, view.claim.paper_title) if part), []
-        ).append(view)
-    return list(grouped.items())
+def by_paper(views: Iterable[ClaimView]) -> dict[str, list[ClaimView]]:
+    """Rows by paper, each under "BMF03: its title (2003)"."""
+    return grouped(
+        views,
+        lambda view: ": ".join(part for part in (view.claim.paper, view.claim.paper_title) if part)
+    )
 
 
-def by_section(views: Iterable[ClaimView]) -> list[tuple[str, list[ClaimView]]]:
-    """Rows by the section of the paper, in the order of their first row."""
-    grouped: dict[str, list[ClaimView]] = {}
-    for view in views:
-        grouped.setdefault(view.claim.section, []).append(view)
-    return list(grouped.items())
-
-
-def _view(claim: Claim, known: dict[str, Finding]) -> ClaimView:
-    deciding = [Deciding(name, role, known.get(name)) for name, role in claim.decided_by]
-    return ClaimView(claim, deciding)
+def by_section(views: Iterable[ClaimView]) -> dict[str, list[ClaimView]]:
+    """Rows by the section of the paper."""
+    return grouped(views, lambda view: view.claim.section)

@@ -2,42 +2,37 @@
 Reads and counts; decides nothing."""
 from __future__ import annotations
 
-import json
 from collections import Counter
 from dataclasses import dataclass
 from math import nan
 from pathlib import Path
 from typing import Any
 
-from data.case_digest import case_digest, case_files
-from data.unreadable import reading
+from data.case_digest import has_changed, part_of_time
+from data.records import record
+from data.unreadable import read_json
+from pages.section import Section
 
 NO_EFFECT = "no effect if added"
 CANNOT_TELL = "cannot tell"
-NEEDS = ("needed", "kept for a reason", "left out for a reason", "not needed here", "missing here",
-         NO_EFFECT, CANNOT_TELL)
+# how a part stands: its mark, and words after "2 parts are"
+NEEDS = {
+    "needed": ("\u25cf", "needed"),
+    "kept for a reason": ("\u25d0", "not needed, and kept for a reason that the case gives"),
+    "left out for a reason": ("\u25cb", "missing, and left out for a reason that the case gives"),
+    "not needed here": ("", "not needed, without a reason"),
+    "missing here": ("", "missing, without a reason"),
+    NO_EFFECT: ("\u00b7", "absent, and of no effect if added"),
+    CANNOT_TELL: ("?", "undecided: the change is within the error bar"),
+}
 # if the case gives one
 REASONED = {"not needed here": "kept for a reason", "missing here": "left out for a reason"}
-MARKS = {
-    "needed": "\u25cf", "kept for a reason": "\u25d0", "left out for a reason": "\u25cb",
-    NO_EFFECT: "\u00b7", CANNOT_TELL: "?"
-}
 WRONG = "\u2715"                # not needed, or missing, without a reason; or a reason for nothing
+# of parts, in the order of the paper
 KINDS = (
-    "gravity",
-    "springs",
-    "damping of springs",
-    "bending",
-    "damping of bending",
-    "rest angles",
-    "held particles",
-    "objects",
-    "friction of objects",
-    # of parts, in the order of the paper
-    "points between particles",
-    "sticky parts",
-    "strain limits",
-    "self-collision",
+    "gravity", "springs", "damping of springs", "bending", "damping of bending", "rest angles",
+    "held particles", "objects", "friction of objects", "points between particles",
+    "sticky parts", "strain limits", "self-collision"
 )
 COUNTED = {
     "steps": "steps", "elastic_evaluations": "force evaluations", "cg_iterations": "CG iterations",
@@ -56,13 +51,13 @@ class PartNeed:
     declared: str              # why the case has it, or leaves it out, all the same; or ""
     # as the program says: needed, or of no effect if added, or a reason is given, and only then;
     # or it cannot tell
-    fits: bool
-    moved: float               # by how much positions differ [m]
-    energy: float              # by how much the energy differs [J]
+    as_it_should_be: bool
+    position_difference: float  # by how much positions differ [m]
+    energy_difference: float   # by how much the energy differs [J]
     # pairs of an edge and a triangle that meet, most of a frame, in that run
     crossings: float
     deepest: float             # inside an object, in that run [m]
-    seconds: float             # that run over the scene's own [1]
+    time: float                # seconds of that run over the scene's own [1]
     # counted work of that run over the scene's own, where that is not nothing [1]
     work: list[tuple[str, float]]
 
@@ -74,7 +69,8 @@ class PartNeed:
     @property
     def mark(self) -> str:
         """One letter for how it stands."""
-        return MARKS.get(self.standing, WRONG) if self.fits else WRONG
+        mark = NEEDS[self.standing][0] if self.standing in NEEDS else ""
+        return mark if mark and self.as_it_should_be else WRONG
 
     @property
     def kind(self) -> str:
@@ -92,12 +88,11 @@ class CaseNeeds:
     overrides: list[str]       # "table.key=value", by which it was another than the shipped one
     part_of_time: str          # "first 1 of 3 s" where not the whole run was asked, else ""
     wrong: str                 # why nothing can be said of it; or ""
-    steps: str                 # what the steps' own error comes from, in words
-    mesh: str                  # what the mesh's own error comes from, in words
-    own_error: float           # with its error bar [m]
-    without_bar: float         # m; NaN: of an earlier record
-    time_error: float          # with its error bar [m]; NaN: not known
-    mesh_error: float          # m; NaN: not known
+    other_mesh: str            # what the mesh's own error comes from, in words
+    value: float               # own error, with its error bar [m]
+    without_bar: float         # m
+    time: float                # of the steps, with its error bar [m]; NaN: not known
+    mesh: float                # m; NaN: not known
     unknown: str               # why one of them is not known
     seconds: float
     crossings: float
@@ -125,7 +120,7 @@ class Needs:
 
     def commits(self, recorded: bool) -> list[str]:
         """Of the programs that were asked, recorded cases or those beside the run, each once."""
-        return list(dict.fromkeys(case.commit for case in self.cases if case.recorded == recorded))
+        return list(dict.fromkeys(case.commit for case in self.of_origin(recorded)))
 
     def of_origin(self, recorded: bool) -> list[CaseNeeds]:
         """The cases that are recorded, or those asked beside the run."""
@@ -134,30 +129,16 @@ class Needs:
     def kinds(self) -> list[str]:
         """Of parts that any case has or lacks, those of KINDS first."""
         found = {part.kind: None for case in self.cases for part in case.parts}
-        return [kind for kind in KINDS if kind in found] + [
-            kind for kind in found if kind not in KINDS
-        ]
-
-    def count(self, standing: str) -> int:
-        """Parts of all cases that stand so, one of NEEDS."""
-        return sum(part.standing == standing for case in self.cases for part in case.parts)
+        known = [kind for kind in KINDS if kind in found]
+        return known + [kind for kind in found if kind not in KINDS]
 
     def in_words(self) -> str:
         """How many parts stand how, one sentence for each kind that there is."""
-        said = {
-            "needed": "needed",
-            "kept for a reason": "not needed, and kept for a reason that the case gives",
-            "left out for a reason": "missing, and left out for a reason that the case gives",
-            "not needed here": "not needed, without a reason",
-            "missing here": "missing, without a reason",
-            NO_EFFECT: "absent, and of no effect if added",
-            CANNOT_TELL: "undecided: the change is within the error bar"
-        }
-        counts = {standing: self.count(standing) for standing in NEEDS}
+        counts = Counter(part.standing for case in self.cases for part in case.parts)
         return " ".join(
-            f"{count} part{'s are' if count != 1 else ' is'} {said[standing]}."
-            for standing, count in counts.items()
-            if count
+            f"{counts[standing]} part{'s are' if counts[standing] != 1 else ' is'} {words}."
+            for standing, (_, words) in NEEDS.items()
+            if counts[standing]
         )
 
     def of(self, name: str) -> CaseNeeds | None:
@@ -169,62 +150,32 @@ def load_needs(file: Path, cases: Path | None = None) -> Needs | None:
     """The outcomes of `foldproof ablate --out DIR`, and of cases that it does not speak of those
     that are recorded in the folder `cases`; None if there are none.
     Throws Unreadable for other files."""
-    found: list[CaseNeeds] = []
-    if file.is_file():
-        with reading(file):
-            here = json.loads(file.read_text(encoding="utf-8"))
-            found = [
-                _case(row, here["program"], recorded=False, changed=False) for row in here["cases"]
-            ]
-    known, kept = {case.name for case in found}, cases / "needs.json" if cases else None
-    if cases and kept and kept.is_file():
-        with reading(kept):
-            rows = json.loads(kept.read_text(encoding="utf-8"))["cases"]
-            found += [
-                _case(row, row["program"], recorded=True, changed=_has_changed(row, cases))
-                for row in rows
-                if row["case"] not in known
-            ]
+    found = read_json(file, lambda said: [
+        _case(row, said["program"], recorded=False, changed=False) for row in said["cases"]
+    ]) or []
+    known = {case.name for case in found}
+    if cases:
+        found += read_json(cases / "needs.json", lambda said: [
+            _case(row, row["program"], recorded=True, changed=has_changed(row, cases))
+            for row in said["cases"]
+            if row["case"] not in known
+        ]) or []
     return Needs(found) if found else None
 
 
-def _has_changed(row: dict[str, Any], cases: Path) -> bool:
-    files = case_files(cases)
-    return (
-        row["case"] not in files
-        or case_digest(files[row["case"]], lambda name: (cases / name).read_bytes())
-        != row["digest"]
-    )
-
-
-def _case(
-    row: dict[str, Any], program: dict[str, Any], *, recorded: bool, changed: bool
-) -> CaseNeeds:
+def _case(row: dict[str, Any], program: dict[str, Any], **origin: bool) -> CaseNeeds:
     own, scene = row["own_error"], row["run"]
-    part_of_time = (
-        f"first {row['asked_end']:g} of {row['end']:g} s"
-        if row.get("asked_end") != row.get("end")
-        else ""
-    )
-    kind, mesh = (
+    kind, other_mesh = (
         ("coarser mesh", f"from a coarser mesh, {', '.join(own['coarser_mesh'])},")
-        if own.get("coarser_mesh")
+        if own["coarser_mesh"]
         else ("finer mesh", "finer mesh")
     )
-    # earlier records have the change from one halving of the step
-    steps = "its steps" if own.get("levels") else "half the step"
-    unknown = "; ".join(
-        f"{other}: {why}"
-        for other, why in ((steps, own["without_time"]), (kind, own["without_mesh"]))
-        if why
-    )
-    return CaseNeeds(
-        row["case"], row.get("overrides", []), part_of_time, row["wrong"], steps, mesh,
-        _number(own["value"]), _number(own.get("without_bar")), _number(own["time"]),
-        _number(own["mesh"]), unknown,
-        scene["seconds"], _number(scene["crossings"]), _number(scene["deepest"]),
-        [_part(part, scene) for part in row["parts"]], program["commit"],
-        program.get("tree") == "dirty", recorded, changed
+    reasons = (("its steps", own["without_time"]), (kind, own["without_mesh"]))
+    return record(
+        CaseNeeds, scene | own | row, **origin, name=row["case"], part_of_time=part_of_time(row),
+        other_mesh=other_mesh, unknown="; ".join(f"{of}: {why}" for of, why in reasons if why),
+        parts=[_part(part, scene) for part in row["parts"]], commit=program["commit"],
+        uncommitted=program.get("tree") == "dirty"
     )
 
 
@@ -235,13 +186,11 @@ def _part(part: dict[str, Any], scene: dict[str, Any]) -> PartNeed:
         for key, words in COUNTED.items()
         if scene[key] and run[key] != scene[key]
     ]
-    return PartNeed(
-        part["name"], part["present"], part["need"], part["because"],
-        part["declared"], part["as_it_should_be"], _number(part["position_difference"]),
-        _number(part["energy_difference"]), _number(run["crossings"]), _number(run["deepest"]),
-        run["seconds"] / scene["seconds"] if scene["seconds"] else nan, work
-    )
+    time = run["seconds"] / scene["seconds"] if scene["seconds"] else nan
+    return record(PartNeed, run | part, time=time, work=work)
 
 
-def _number(value: float | None) -> float:
-    return nan if value is None else float(value)
+SECTION = Section(
+    "needs", "What each scene needs", lambda page: page.parts["needs"], "Needs",
+    lambda source: load_needs(source.folder / "ablation.json", source.shipped)
+)

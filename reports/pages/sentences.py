@@ -34,6 +34,11 @@ class Quoted:
 Piece = str | Number | Quoted
 
 
+def count_of(value: int, source: str) -> Number:
+    """How many of something there are."""
+    return Number(value, "1", source)
+
+
 @dataclass(frozen=True)
 class Conclusion:
     """What a run shows, in plain words: the answer, what it rests on, what to do."""

@@ -8,7 +8,7 @@ from collections.abc import Iterable
 
 from data.results import Finding
 from data.trials import Trial
-from pages.sentences import Number, Piece, Quoted, in_words
+from pages.sentences import Piece, Quoted, count_of, in_words
 
 DECLINED = "the subject does not offer "  # begins the note of a law that does not apply
 APART = ("not applicable", "did not run")  # outcomes of what was not judged
@@ -83,8 +83,8 @@ def verdict_on(trial: Trial, findings: list[Finding], quoted: dict[str, Quoted])
     judged = [one for one in findings if one.outcome not in APART]
     counted = Counter(one.outcome for one in findings)
     laws = "findings" if is_of_frames(trial) else "laws"
-    said: list[Piece] = [_count(counted["holds"], f"{laws} that hold"), " of ",
-                         _count(len(judged), f"{laws} that were judged"), f" judged {laws} hold"]
+    said: list[Piece] = [count_of(counted["holds"], f"{laws} that hold"), " of ",
+                         count_of(len(judged), f"{laws} that were judged"), f" judged {laws} hold"]
     for outcome, one, many in (("fails", "fails", "fail"),
                                ("inconclusive", "is inconclusive", "are inconclusive")):
         if counted[outcome]:
@@ -118,7 +118,7 @@ def _why(outcome: str, note: str) -> list[Piece]:
 def _names(names: list[Quoted]) -> list[Piece]:
     shown = in_words([[name] for name in names[:MOST_NAMED]], last=", ")
     rest = len(names) - MOST_NAMED
-    return [*shown, " and ", _count(rest, "further laws"), " more"] if rest > 0 else shown
+    return [*shown, " and ", count_of(rest, "further laws"), " more"] if rest > 0 else shown
 
 
 def repeats(trial: Trial, program: str, law: str) -> str:
@@ -134,8 +134,4 @@ def repeats(trial: Trial, program: str, law: str) -> str:
 
 
 def _told(count: int, laws: str, one: str, many: str) -> list[Piece]:
-    return [_count(count, f"{laws}, counted"), f" {one if count == 1 else many}"]
-
-
-def _count(value: int, source: str) -> Number:
-    return Number(value, "1", source)
+    return [count_of(count, f"{laws}, counted"), f" {one if count == 1 else many}"]

@@ -8,26 +8,24 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from data.fault_record import commits_of
-from data.history import Change, MarginChange, RunRow, changes, in_order, margin_changes
+from data.history import Change, RunRow, changes, in_order, margin_changes
 from data.results import Fault, Finding
 from data.trials import Trial
 from pages.conclusions import Results, conclusions_of
-from pages.sentences import Conclusion, Number, Piece, Quoted, in_words
+from pages.counts import all_hold
+from pages.hard_cases import is_of_case
+from pages.sentences import Conclusion, Number, Piece, Quoted, count_of, in_words
 from pages.solver_words import declined_by, details_of, facts_of, is_of_frames, verdict_on
-from pages.trust import Tolerances
+from pages.trust import Tolerance, Tolerances
 
 MARGINS = 5  # bounds shown
 # used of a bound; from here on bounds are sharp or count exactly, so that no margin is expected
 ATTAINED = 0.999
 MOST_NAMED = 3  # findings or changes that are named
 REFERENCE = "foldproof reference"
-TESTED = (
-    ("subject", "subject"),
-    ("commit", "commit"),
-    ("tier", "tier"),
-    ("date", "date"),
-    ("machine", "cpu"),
-)
+TESTED = {
+    "subject": "subject", "commit": "commit", "tier": "tier", "date": "date", "machine": "cpu"
+}
 
 
 @dataclass(frozen=True)
@@ -63,7 +61,6 @@ class Judged:
 
     provenance: dict[str, Any]
     findings: list[Finding]  # all but rates of work
-    studies: int
     faults: list[Fault]
     tolerances: Tolerances
     results: Results
@@ -75,11 +72,25 @@ class Judged:
 
 def summary_of(judged: Judged) -> Summary:
     """The summary of one run."""
-    summary = _summary_of_run(judged)
-    return _summary_of_solver(judged, judged.trial, summary) if judged.trial else summary
+    holding = [entry for entry in judged.tolerances.ranked if entry.finding.outcome == "holds"]
+    ranked = [entry for entry in holding if entry.used < ATTAINED]
+    summary = Summary(
+        tested=_tested(judged.provenance),
+        verdict=_verdict(judged),
+        holds=all_hold(judged.findings),
+        asked=_asked(judged),
+        scope=_scope(judged),
+        conclusions=conclusions_of(judged.results, judged.is_brief),
+        limits=_limits(judged),
+        margins=[_margin(entry) for entry in ranked[:MARGINS]],
+        attained=_attained(len(holding) - len(ranked)),
+        faults=_faults(judged.faults),
+        since=judged.since,
+    )
+    return _of_solver(judged, judged.trial, summary) if judged.trial else summary
 
 
-def _summary_of_solver(judged: Judged, trial: Trial, summary: Summary) -> Summary:
+def _of_solver(judged: Judged, trial: Trial, summary: Summary) -> Summary:
     """The same of another solver: what it says of itself instead of what a verification has."""
     quoted = {one.name: judged.results.quoted(one) for one in judged.findings}
     return replace(
@@ -94,32 +105,14 @@ def _summary_of_solver(judged: Judged, trial: Trial, summary: Summary) -> Summar
     )
 
 
-def _summary_of_run(judged: Judged) -> Summary:
-    holding = [entry for entry in judged.tolerances.ranked if entry.finding.outcome == "holds"]
-    ranked = [entry for entry in holding if entry.used < ATTAINED]
-    return Summary(
-        tested=_tested(judged.provenance),
-        verdict=_verdict(judged),
-        holds=all(one.outcome in ("holds", "not applicable") for one in judged.findings),
-        asked=_asked(judged),
-        scope=_scope(judged),
-        conclusions=conclusions_of(judged.results, judged.is_brief),
-        limits=_limits(judged),
-        margins=[
-            Margin(
-                entry.finding, Number(100 * (1 - entry.used), "%", f"finding {entry.finding.name}")
-            )
-            for entry in ranked[:MARGINS]
-        ],
-        attained=_attained(len(holding) - len(ranked)),
-        faults=_faults(judged.faults),
-        since=judged.since,
-    )
+def _margin(entry: Tolerance) -> Margin:
+    left = Number(100 * (1 - entry.used), "%", f"finding {entry.finding.name}")
+    return Margin(entry.finding, left)
 
 
 def _tested(said: dict[str, Any]) -> list[tuple[str, str]]:
     """Labels and words of what was tested, those that the run stored."""
-    known = {key: str(said[key]) for _, key in TESTED if said.get(key) not in (None, "")}
+    known = {key: str(said[key]) for key in TESTED.values() if said.get(key) not in (None, "")}
     if "subject" in known:
         known["subject"] += f" {said.get('subject_version', '')}".rstrip()
     elif said.get("program"):
@@ -128,27 +121,23 @@ def _tested(said: dict[str, Any]) -> list[tuple[str, str]]:
         known["commit"] = f"{known['commit'][:10]} {said.get('tree', '')}".rstrip()
     if "cpu" in known and said.get("cores") not in (None, ""):
         known["cpu"] += f", {said['cores']} cores"
-    return [(label, known[key]) for label, key in TESTED if key in known]
+    return [(label, known[key]) for label, key in TESTED.items() if key in known]
 
 
 def _verdict(judged: Judged) -> list[Piece]:
     """How many findings hold, and which do not."""
     counted = Counter(finding.outcome for finding in judged.findings)
-    total = Number(len(judged.findings), "1", "findings")
     said: list[Piece] = [
-        _count(counted["holds"], "findings that hold"),
-        " of ",
-        total,
-        " findings hold",
+        count_of(counted["holds"], "findings that hold"), " of ",
+        count_of(len(judged.findings), "findings"), " findings hold"
     ]
     generic = sum(one.scope == "generic" and one.outcome == "holds" for one in judged.findings)
     if generic:
-        said += [", ", _count(generic, "generic findings that hold"), " of them generic"]
+        said += [", ", count_of(generic, "generic findings that hold"), " of them generic"]
     others = [
         [
-            _count(count, f"findings: {outcome}"),
-            " ",
-            "fail" if outcome == "fails" and count > 1 else Quoted(outcome, "outcomes"),
+            count_of(count, f"findings: {outcome}"), " ",
+            "fail" if outcome == "fails" and count > 1 else Quoted(outcome, "outcomes")
         ]
         for outcome, count in counted.items()
         if outcome != "holds"
@@ -161,25 +150,17 @@ def _verdict(judged: Judged) -> list[Piece]:
     return [*said, ". Look first at ", *names, "."]
 
 
-def _count(value: int, source: str) -> Number:
-    return Number(value, "1", source)
-
-
 def _asked(judged: Judged) -> list[Piece]:
     """How much was asked."""
-    cases = {one.name.split(".")[1] for one in judged.findings if one.name.startswith("case.")}
-    checks = [
-        one for one in judged.findings if one.kind == "check" and not one.name.startswith("case.")
-    ]
+    cases = {one.name.split(".")[1] for one in judged.findings if is_of_case(one)}
+    checks = [one for one in judged.findings if one.kind == "check" and not is_of_case(one)]
     counted = [
-        (len(checks), "check", "checks"),
-        (judged.studies, "study", "studies"),
-        (len(cases), "case", "cases"),
-        (len(judged.results.claims), "claim", "claims"),
+        (len(checks), "check", "checks"), (len(judged.results.studies), "study", "studies"),
+        (len(cases), "case", "cases"), (len(judged.results.claims), "claim", "claims"),
     ]
     return in_words(
         [
-            [_count(count, many), f" {one if count == 1 else many}"]
+            [count_of(count, many), f" {one if count == 1 else many}"]
             for count, one, many in counted
             if count
         ]
@@ -195,11 +176,9 @@ def _scope(judged: Judged) -> list[Piece]:
         ]
     if judged.provenance.get("subject") == REFERENCE:
         return [
-            (
-                "This tells whether the program does what the paper describes, and where the method"
-                " errs. It tells neither whether real cloth moves like this nor whether your own"
-                " solver is right: for that, run "
-            ),
+            "This tells whether the program does what the paper describes, and where the method"
+            " errs. It tells neither whether real cloth moves like this nor whether your own solver"
+            " is right: for that, run ",
             Quoted("foldproof judge", "command", is_name=True),
             ".",
         ]
@@ -219,50 +198,36 @@ def _limits(judged: Judged) -> list[list[Piece]]:
     limits: list[list[Piece]] = []
     apart = sum(one.outcome == "not applicable" for one in judged.findings)
     if apart:
-        limits.append(
-            [
-                _count(apart, "findings that do not apply"),
-                " finding does" if apart == 1 else " findings do",
-                " not apply to this subject or mesh.",
-            ]
-        )
-    ends = [row for row in judged.results.rows("work-precision", "end", "particles")]
+        limits.append([
+            count_of(apart, "findings that do not apply"),
+            " finding does" if apart == 1 else " findings do",
+            " not apply to this subject or mesh."
+        ])
+    ends = judged.results.rows("work-precision", "end", "particles")
     if ends:
         source = "study work-precision"
-        last, particles = ([float(row[key]) for row in ends] for key in ("end", "particles"))
-        limits.append(
-            [
-                "Integrators were priced on runs of at most ",
-                Number(max(last), "s", source),
-                " and ",
-                Number(max(particles), "1", source),
-                " particles; other runs may rank them differently.",
-            ]
-        )
+        last, particles = (max(float(row[key]) for row in ends) for key in ("end", "particles"))
+        limits.append([
+            "Integrators were priced on runs of at most ", Number(last, "s", source), " and ",
+            Number(particles, "1", source), " particles; other runs may rank them differently."
+        ])
     if judged.provenance.get("subject") == REFERENCE:
         if judged.provenance.get("tier") == "quick":
-            limits.append(
-                [
-                    "The longest cases and finest meshes need ",
-                    Quoted("verify --tier full", "command", is_name=True),
-                    ".",
-                ]
-            )
+            full = Quoted("verify --tier full", "command", is_name=True)
+            limits.append(["The longest cases and finest meshes need ", full, "."])
         limits.append(["Not modelled: air drag, several fabrics in one case."])
     return limits
 
 
 def _attained(count: int) -> list[Piece]:
-    return (
-        [
-            _count(count, "bounds that are attained"),
-            " more have less than " if count > 1 else " more has less than ",
-            Number(100 * (1 - ATTAINED), "%", "this page"),
-            " left, as is usual for sharp bounds and exact counts.",
-        ]
-        if count
-        else []
-    )
+    if not count:
+        return []
+    return [
+        count_of(count, "bounds that are attained"),
+        " more have less than " if count > 1 else " more has less than ",
+        Number(100 * (1 - ATTAINED), "%", "this page"),
+        " left, as is usual for sharp bounds and exact counts.",
+    ]
 
 
 def _faults(faults: list[Fault]) -> list[Piece]:
@@ -272,36 +237,30 @@ def _faults(faults: list[Fault]) -> list[Piece]:
     counted = Counter(fault.outcome for fault in faults)
     recorded = commits_of(faults)
     run = sum(counted[outcome] for outcome in ("caught", "SURVIVED", "equivalent", "ERROR"))
-    total = _count(len(faults), "faults")
+    total = count_of(len(faults), "faults")
     if not run:
         return [
-            total,
-            " are" if len(faults) != 1 else " is",
+            total, " are" if len(faults) != 1 else " is",
             " listed; none was run with these results. Run ",
-            Quoted("scripts/faults --out DIR/faults.json", "command", is_name=True),
-            ".",
+            Quoted("scripts/faults --out DIR/faults.json", "command", is_name=True), "."
         ]
     said: list[Piece] = [
-        "Of ",
-        total,
-        " seeded faults " if len(faults) != 1 else " seeded fault ",
-        _count(counted["caught"], "faults caught"),
+        "Of ", total, " seeded faults " if len(faults) != 1 else " seeded fault ",
+        count_of(counted["caught"], "faults caught"),
         " was caught, " if counted["caught"] == 1 else " were caught, ",
-        _count(counted["SURVIVED"], "faults that survived"),
-        " survived",
+        count_of(counted["SURVIVED"], "faults that survived"), " survived"
     ]
     if recorded:
         said += [
             " (recorded on commit ",
             Quoted(recorded[0][0][:10], "record of faults", is_name=True),
-            *([" and others"] if recorded[1:] else []),
-            ", not with these results)",
+            *([" and others"] if recorded[1:] else []), ", not with these results)"
         ]
     rest = len(faults) - run
     if counted["equivalent"]:
-        said += ["; ", _count(counted["equivalent"], "equivalent faults"), " change no result"]
+        said += ["; ", count_of(counted["equivalent"], "equivalent faults"), " change no result"]
     if rest:
-        said += ["; ", _count(rest, "other faults"), " were not run since they were written"]
+        said += ["; ", count_of(rest, "other faults"), " were not run since they were written"]
     return [*said, "."]
 
 
@@ -312,16 +271,12 @@ def since_last(before: RunRow, now: RunRow, anchor: Callable[[str], str]) -> lis
     rows = in_order([before, now])
     if len(rows) < 2:
         return ["The two runs are the same run."]
+    halved = margin_changes(rows)
+    closer = [count_of(len(halved), "margins that halved")] if halved else ["no"]
     return [
-        *_label(rows[0]),
-        ": ",
-        *_changed(changes(rows), anchor),
-        *_closer(margin_changes(rows)),
+        "Since ", Quoted(rows[0].label, "the earlier run"), ": ", *_changed(changes(rows), anchor),
+        "; ", *closer, " margins halved." if halved else " margin halved."
     ]
-
-
-def _label(row: RunRow) -> list[Piece]:
-    return ["Since ", Quoted(row.label, "the earlier run")]
 
 
 def _changed(found: list[Change], anchor: Callable[[str], str]) -> list[Piece]:
@@ -329,30 +284,13 @@ def _changed(found: list[Change], anchor: Callable[[str], str]) -> list[Piece]:
         return ["no verdict and no ruling changed"]
     worse = [change for change in found if change.is_regression]
     said: list[Piece] = [
-        _count(len(worse), "changes for the worse"),
-        " worse, ",
-        _count(len(found) - len(worse), "other changes"),
-        " new or changed otherwise",
+        count_of(len(worse), "changes for the worse"), " worse, ",
+        count_of(len(found) - len(worse), "other changes"), " new or changed otherwise"
     ]
     if not worse:
         return said
-    named = in_words(
-        [
-            [
-                Quoted(
-                    change.name,
-                    f"finding {change.name}",
-                    anchor(change.name) if change.after else "",
-                    is_name=True,
-                )
-            ]
-            for change in worse[:MOST_NAMED]
-        ]
-    )
-    return [*said, "; worse: ", *named]
-
-
-def _closer(found: list[MarginChange]) -> list[Piece]:
-    if not found:
-        return ["; no margin halved."]
-    return ["; ", _count(len(found), "margins that halved"), " margins halved."]
+    named = [
+        Quoted(one.name, f"finding {one.name}", anchor(one.name) if one.after else "", is_name=True)
+        for one in worse[:MOST_NAMED]
+    ]
+    return [*said, "; worse: ", *in_words([[name] for name in named])]

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from markupsafe import Markup
 
-from data.results import Curve, StudyFigure
+from data.studies import Curve, StudyFigure
 from data.trials import Trial
 from pages.figure_words import figure_keys, figure_notes
 from plots.plot_style import Plot, use_style
@@ -47,17 +47,10 @@ def costs_of(trials: list[Trial], labels: list[str], folder: Path) -> Costs | No
     if not curves:
         return None
     figure = StudyFigure(
-        name="error_against_cost",
-        title="Error against cost",
-        caption=CAPTION,
-        x_label="seconds of the solver, by the clock",
-        x_unit="s",
-        y_label="error of the time step, over the motion",
-        y_unit="1",
-        x_scale="log",
-        y_scale="log",
-        curves=curves,
-        slope=nan,
+        name="error_against_cost", title="Error against cost", caption=CAPTION,
+        x_label="seconds of the solver, by the clock", x_unit="s",
+        y_label="error of the time step, over the motion", y_unit="1", x_scale="log", y_scale="log",
+        curves=curves, slope=nan
     )
     use_style()
     plot = plot_study_figure(figure, "error-against-cost", folder)

@@ -10,7 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from data.trials import Answer, Law, Trial
-from pages.page import OUTCOMES, new_environment
+from pages.counts import count_outcomes
+from pages.render import new_environment
 from pages.solver_words import APART, DECLINED, is_of_frames
 from pages.portraits import portraits_of
 from pages.trial_costs import cost_rows, costs_of
@@ -105,13 +106,6 @@ def reason(answer: Answer) -> str:
     return "does not offer " + answer.note.removeprefix(DECLINED)
 
 
-def count(trial: Trial) -> list[tuple[str, int]]:
-    """How many laws have each outcome."""
-    counted = Counter(answer.outcome for answer in trial.answers.values())
-    others = sorted(set(counted) - set(OUTCOMES))
-    return [(outcome, counted[outcome]) for outcome in (*OUTCOMES, *others)]
-
-
 @dataclass(frozen=True)
 class Measured:
     """What one law measured, solver by solver."""
@@ -143,11 +137,9 @@ def trials_json(said: Trials) -> str:
                 "schema": 1,
                 "solvers": [
                     {
-                        "name": label,
-                        "folder": trial.folder,
-                        **trial.facts,
+                        "name": label, "folder": trial.folder, **trial.facts,
                         "judged_by": trial.program,
-                        "counts": dict(count(trial)),
+                        "counts": dict(count_outcomes(trial.answers.values()))
                     }
                     for trial, label in zip(said.trials, said.labels)
                 ],
@@ -176,9 +168,9 @@ def _answer_json(answer: Answer | None) -> dict[str, Any] | None:
 def render_trials(said: Trials, figures: Path) -> str:
     """The page as one HTML text; its figure is also a file in the folder."""
     environment = new_environment()
-    environment.globals.update(count=count, reason=reason, measured_tables=measured_tables)
+    all_frames = all(is_of_frames(trial) for trial in said.trials)
     environment.globals.update(
-        is_of_frames=is_of_frames, all_frames=all(is_of_frames(trial) for trial in said.trials)
+        reason=reason, measured_tables=measured_tables, all_frames=all_frames
     )
     costs = costs_of(said.trials, said.labels, figures)
     portraits = portraits_of(said.trials, said.labels)

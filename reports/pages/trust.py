@@ -1,16 +1,20 @@
-"""How far to trust the run: margins of all bounds, lines that the run reaches.
-Sorts and counts; decides nothing."""
+"""How far to trust the run: margins of all bounds, and what scripts beside the run found: lines
+that are reached, correct variants, other machines, random slips. Sorts and counts; decides
+nothing."""
 from __future__ import annotations
 
-import json
 from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
 from math import isfinite
 from pathlib import Path
+from typing import Any
 
+from data.mutation_scores import MutationPage, load_mutation_page
+from data.records import record
 from data.results import Finding
-from data.unreadable import reading
+from data.unreadable import read_json
+from pages.section import Section, Source
 
 JUDGED = ("holds", "fails", "inconclusive")
 TIGHTEST = 10     # findings shown unasked
@@ -42,14 +46,25 @@ class Tolerances:
 
 
 @dataclass
-class CoveredFile:
-    """One source file of the method: lines and branches, and which lines never ran."""
-    name: str
+class Covered:
+    """Lines and branches of one source file of the method, or of all."""
     lines: int
     lines_reached: int
     branches: int
     branches_taken: int
-    missed: str
+    file: str = ""
+    lines_missed: list[int] | tuple[()] = ()
+
+    @property
+    def missed(self) -> str:
+        """Lines that never ran: "1–3, 7"."""
+        runs: list[list[int]] = []
+        for number in self.lines_missed:
+            if runs and number == runs[-1][1] + 1:
+                runs[-1][1] = number
+            else:
+                runs.append([number, number])
+        return ", ".join(str(first) if first == last else f"{first}–{last}" for first, last in runs)
 
 
 @dataclass
@@ -58,15 +73,15 @@ class Coverage:
     commit: str
     ran: str
     least: float               # percent of lines
-    total: CoveredFile
-    files: list[CoveredFile]   # the least covered first
+    total: Covered
+    files: list[Covered]       # the least covered first
 
 
 @dataclass
 class VariantRun:
     """One correct variant of the program, and how many of its findings did not hold."""
     variant: str               # "clang", "fma", "seeds", ...
-    asked: str                 # what was asked of it
+    options: list[str]         # what was asked of it
     findings: int
     alarms: list[str]          # names of those that did not hold
 
@@ -86,19 +101,16 @@ class Variants:
 
 @dataclass
 class Apart:
-    """A case whose last state has other bits on another machine; of the cloth's size [1]."""
+    """A case whose last state has other bits on another machine."""
     case: str
     seconds: float             # when [s]
-    distance: float
-    bound: float | None        # what a rounding a step explains; None: not judged
-
-    def is_explained(self) -> bool:
-        return self.bound is None or self.distance <= self.bound
+    apart: float               # of the cloth's size [1]
+    bound: float | None        # what a rounding a step explains, likewise; None: not judged
 
 
 @dataclass
 class Machine:
-    name: str
+    machine: str               # its name
     cases: int
     apart: list[Apart]
 
@@ -115,7 +127,15 @@ class Machines:
 
     def unexplained(self) -> int:
         every = [case for machine in self.machines for case in machine.apart]
-        return sum(not case.is_explained() for case in every)
+        return sum(case.bound is not None and not case.apart <= case.bound for case in every)
+
+
+@dataclass
+class Mutation:
+    """Results of scripts/mutate: a row for each file, and the mutants that no finding caught."""
+    seed: int
+    rows: list[dict[str, Any]]
+    survivors: list[dict[str, Any]]
 
 
 @dataclass
@@ -130,8 +150,19 @@ class Kinds:
         return 100 * len(self.empirical) / self.judged if self.judged else 0.0
 
 
+@dataclass
+class Trust:
+    """What the section shows beside the faults and bounds of the run; None: it is not there."""
+    coverage: Coverage | None
+    variants: Variants | None
+    machines: Machines | None
+    mutation: Mutation | None
+    mutants: MutationPage | None  # random slips, from the shipped scores
+    kinds: Kinds
+
+
 def kinds_of(findings: Iterable[Finding]) -> Kinds:
-    """Labels of all findings that were judged against a bound; those of old files have none."""
+    """Labels of all findings that were judged against a bound."""
     judged = [finding for finding in findings if finding.outcome in JUDGED]
     return Kinds(
         _counts(finding.scope for finding in judged),
@@ -165,93 +196,69 @@ def used_share(finding: Finding) -> float:
     return (finding.measured + finding.uncertainty) / finding.bound
 
 
-def load_coverage(file: Path) -> Coverage | None:
-    """The counts of `scripts/coverage --out DIR/coverage.json`; None if there are none. Throws
-    Unreadable for another file."""
-    if not file.is_file():
-        return None
-    with reading(file):
-        content = json.loads(file.read_text(encoding="utf-8"))
-        files = [
-            _coverage_of(row["file"], row, _ranges(row["lines_missed"]))
-            for row in content["files"]
-            if row["lines"]
-        ]
-        files.sort(key=lambda row: row.lines_reached / max(row.lines, 1))
-        return Coverage(
-            content["commit"], content["ran"], content["least"],
-            _coverage_of("all", content["total"], ""), files
-        )
+def read_trust(source: Source) -> Trust:
+    """Throws Unreadable for a file that is not what its name says."""
+    def beside(name: str, make: Any) -> Any:
+        return read_json(source.folder / f"{name}.json", make)
+    return Trust(
+        beside("coverage", _coverage), beside("variants", _variants), beside("machines", _machines),
+        beside("mutation", _mutation), load_mutation_page() if source.shipped else None,
+        kinds_of(source.run.findings)
+    )
 
 
-def load_variants(file: Path) -> Variants | None:
-    """The outcomes of `scripts/variants --out DIR/variants.json`; None if there are none. Throws
-    Unreadable for another file."""
-    if not file.is_file():
-        return None
-    with reading(file):
-        content = json.loads(file.read_text(encoding="utf-8"))
-        runs = [
-            VariantRun(
-                row["variant"], " ".join(row["options"]), row["findings"],
-                [alarm["name"] for alarm in row["false_alarms"]]
-            )
-            for row in content["runs"]
-        ]
-        return Variants(content.get("commit", "not recorded"), runs)
+def _coverage(said: dict[str, Any]) -> Coverage:
+    files = [record(Covered, row, lines_missed=row["lines_missed"]) for row in said["files"]]
+    files = sorted(
+        (row for row in files if row.lines), key=lambda row: row.lines_reached / row.lines
+    )
+    return record(Coverage, said, total=record(Covered, said["total"]), files=files)
 
 
-def load_machines(file: Path) -> Machines | None:
-    """The outcomes of `scripts/machines --out DIR/machines.json`; None if there are none. Throws
-    Unreadable for another file."""
-    if not file.is_file():
-        return None
-    with reading(file):
-        content = json.loads(file.read_text(encoding="utf-8"))
-        machines = [
-            Machine(
-                row["machine"], row["cases"],
-                [
-                    Apart(case["case"], case["seconds"], case["apart"], case["bound"])
-                    for case in row["apart"]
-                ]
-            )
-            for row in content["machines"]
-        ]
-        return Machines(content["commit"], content["seconds"], machines)
+def _variants(said: dict[str, Any]) -> Variants:
+    return Variants(
+        said.get("commit", "not recorded"),
+        [
+            record(VariantRun, row, alarms=[alarm["name"] for alarm in row["false_alarms"]])
+            for row in said["runs"]
+        ],
+    )
+
+
+def _machines(said: dict[str, Any]) -> Machines:
+    return record(
+        Machines, said,
+        machines=[
+            record(Machine, row, apart=[record(Apart, case) for case in row["apart"]])
+            for row in said["machines"]
+        ],
+    )
+
+
+def _mutation(said: dict[str, Any]) -> Mutation:
+    survivors = [row for row in said["mutants"] if row["outcome"] == "SURVIVED"]
+    return Mutation(said["seed"], said["files"], survivors)
 
 
 def note_on_unfinished_run(file: Path) -> str:
     """A warning if the last run into this folder did not finish; "" if it did, or if there is no
     file. Throws Unreadable for another file."""
-    if not file.is_file():
-        return ""
-    with reading(file):
-        content = json.loads(file.read_text(encoding="utf-8"))
-        waiting, begun = (
-            sum(finding["outcome"] == "did not run" for finding in content["findings"]),
-            content["program"]["date"],
+    def note(said: dict[str, Any]) -> str:
+        waiting = sum(finding["outcome"] == "did not run" for finding in said["findings"])
+        begun = said["program"]["date"]
+        if not waiting:
+            return ""
+        return (
+            f"The last run into this folder, begun {begun}, did not finish: {waiting} checks,"
+            " studies and cases of it have no result. What is shown here is older."
         )
-    if not waiting:
-        return ""
-    return (
-        f"The last run into this folder, begun {begun}, did not finish: {waiting} checks,"
-        " studies and cases of it have no result. What is shown here is older."
-    )
+    return read_json(file, note) or ""
 
 
-def _coverage_of(name: str, row: dict, missed: str) -> CoveredFile:
-    return CoveredFile(
-        name, row["lines"], row["lines_reached"], row["branches"], row["branches_taken"], missed
-    )
+def _is_shown(page: Any) -> bool:
+    trust = page.parts["faults"]
+    found = (trust.mutants, trust.mutation, trust.variants, trust.machines, trust.coverage)
+    return not page.trial and bool(page.faults or page.tolerances.ranked or any(found))
 
 
-def _ranges(numbers: list[int]) -> str:
-    """1, 2, 3, 7 as "1–3, 7"."""
-    runs: list[list[int]] = []
-    for number in numbers:
-        if runs and number == runs[-1][1] + 1:
-            runs[-1][1] = number
-        else:
-            runs.append([number, number])
-    return ", ".join(str(first) if first == last else f"{first}–{last}" for first, last in runs)
+SECTION = Section("faults", "Faults, bounds, coverage", _is_shown, "Faults", read_trust)

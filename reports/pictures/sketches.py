@@ -2,7 +2,7 @@
 to scale and show no result. Lengths are those of a box of 200 x 110."""
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from dataclasses import dataclass
 from math import cos, hypot, pi, sin
 
@@ -24,14 +24,9 @@ def sketch_of(study: str) -> Sketch | None:
     """The drawing of a study's set-up; None if it has none."""
     if study not in _DRAWN:
         return None
-    words, draw = _DRAWN[study]
-    marks = "".join(draw())
-    return Sketch(
-        Markup(
-            '<svg class="sketch" viewBox="0 0 {} {}" role="img" aria-label="{}">{}</svg>'
-        ).format(WIDTH, HEIGHT, words, Markup(marks)),
-        words,
-    )
+    words, marks = _DRAWN[study]
+    svg = '<svg class="sketch" viewBox="0 0 {} {}" role="img" aria-label="{}">{}</svg>'
+    return Sketch(Markup(svg).format(WIDTH, HEIGHT, words, Markup("".join(marks))), words)
 
 
 def drawn_studies() -> list[str]:
@@ -109,182 +104,6 @@ def _grid(left: float, top: float, right: float, bottom: float, cells: int) -> s
     )
 
 
-# ---- set-ups ----
-
-
-def _hinge() -> list[str]:
-    top, bottom, held, free = (100.0, 14.0), (100.0, 96.0), (34.0, 62.0), (160.0, 44.0)
-    return [
-        _line([top, bottom, held], closed=True),
-        _line([top, bottom, free], closed=True),
-        *map(_dot, (top, bottom, held)),
-        _dot(free, "free"),
-    ]
-
-
-def _driven_hinge() -> list[str]:
-    return [
-        *_hinge(),
-        _line(_arc((34, 62), 15, 0.6, 1.4), "path"),
-        _arrow((29.4, 48), (36, 46)),
-        _label((2, 34), "prescribed", "start"),
-        _label((160, 34), "free"),
-        _gravity((184, 70)),
-    ]
-
-
-def _oscillator() -> list[str]:
-    return [
-        *_hinge(),
-        _arrow((160, 44), (160, 16)),
-        _arrow((160, 44), (160, 72)),
-        _label((182, 48), "free"),
-    ]
-
-
-def _hung_by_corners() -> list[str]:
-    return [
-        _grid(56, 26, 136, 98, 5),
-        _dot((56, 26)),
-        _dot((136, 26)),
-        _arrow((56, 18), (40, 18)),
-        _arrow((56, 18), (72, 18)),
-        _arrow((136, 18), (120, 18)),
-        _arrow((136, 18), (152, 18)),
-        _gravity((176, 46)),
-    ]
-
-
-def _hung_by_edge(arrow: bool) -> list[str]:
-    edge = [56 + 16 * k for k in range(6)]
-    push = [_arrow((x, 104 - 24), (x, 104)) for x in (72, 96, 120)] if arrow else []
-    swing = [] if arrow else [_arrow((142, 84), (168, 76))]
-    return [_grid(56, 14, 136, 80, 5), *[_dot((x, 14)) for x in edge], *push, *swing]
-
-
-def _cantilever() -> list[str]:
-    strip = [(30 + 110 * s, 26 + 58 * s * s * (1.5 - 0.5 * s)) for s in (k / 30 for k in range(31))]
-    return [
-        _clamp(22, 8, 46, -1),
-        _line([(22, 26), *strip]),
-        _dot((22, 26)),
-        _dot((30, 26)),
-        _gravity((170, 30)),
-        _label((96, 18), "weight or tip load"),
-        _line([(22, 26), (150, 26)], "path"),
-    ]
-
-
-def _buckling() -> list[str]:
-    return [
-        _clamp(24, 30, 76, -1),
-        _line(_wave(24, 176, 53, 16, 1.5)),
-        _clamp(176, 30, 76, 1),
-        _arrow((194, 92), (168, 92)),
-        _arrow((6, 92), (32, 92)),
-        _line([(24, 53), (176, 53)], "path"),
-    ]
-
-
-def _pulled_strip() -> list[str]:
-    return [
-        _clamp(24, 30, 76, -1),
-        _line([(24, 44), (150, 44), (150, 62), (24, 62)], closed=True),
-        *[_line([(x, 44), (x, 62)], "mesh") for x in range(45, 150, 21)],
-        _arrow((154, 53), (190, 53)),
-        _label((88, 92), "largest load at the clamp"),
-    ]
-
-
-def _forecast() -> list[str]:
-    body = _arc((88, 150), 84, 0.82, 0.18)
-    return [
-        _line(body, "body"),
-        _dot((64, 36), "free"),
-        _arrow((64, 36), (104, 52)),
-        _line([(104, 52), (130, 62)], "path"),
-        _arrow((88, 66), (88, 40)),
-        _label((96, 44), "N", "start"),
-        _label((84, 26), "v, over τ", "start"),
-        _label((88, 96), "φ < 0"),
-    ]
-
-
-def _pointwise() -> list[str]:
-    points = [(30.0, 60.0), (70.0, 34.0), (130.0, 34.0), (170.0, 60.0)]
-    return [
-        _line([(100, 24), (190, 110), (10, 110)], "body", closed=True),
-        _line(points),
-        *[_dot(at, "free") for at in points],
-        _label((100, 100), "object"),
-    ]
-
-
-def _wrinkles() -> list[str]:
-    return [
-        _line([(10, 60), (190, 60), (190, 104), (10, 104)], "body", closed=True),
-        _line(_wave(20, 180, 60, 18, 3)),
-        _label((100, 98), "half inside"),
-    ]
-
-
-def _on_cylinder() -> list[str]:
-    return [
-        _line(_arc((100, 150), 92, 0.8, 0.2), "body"),
-        _line(_arc((100, 150), 97, 0.8, 0.2)),
-        _arrow((100, 110), (164, 68)),
-        _label((140, 104), "radius R"),
-    ]
-
-
-def _bond() -> list[str]:
-    zigzag = [
-        (50.0, 60.0),
-        (62.0, 60.0),
-        *[(66.0 + 8 * k, 60.0 + (9 if k % 2 else -9)) for k in range(8)],
-        (128.0, 60.0),
-        (140.0, 60.0),
-    ]
-    return [
-        _line(zigzag, "mesh"),
-        _dot((50, 60), "free"),
-        _dot((140, 60)),
-        _arrow((140, 40), (178, 40)),
-        _label((50, 82), "particle"),
-        _label((140, 82), "target"),
-        _label((158, 30), "moves"),
-    ]
-
-
-def _falls_on_ball() -> list[str]:
-    return [
-        _line(_arc((100, 78), 28, 0, 2, 60), "body", closed=True),
-        _line([(30, 18), (170, 18)]),
-        _arrow((56, 24), (56, 44)),
-        _arrow((144, 24), (144, 44)),
-        _line([(52, 100), *_arc((100, 78), 32, 0.9, 0.1), (148, 100)], "path"),
-    ]
-
-
-def _free_flight() -> list[str]:
-    corners = [(62.0, 34.0), (134.0, 24.0), (146.0, 80.0), (54.0, 88.0)]
-    return [
-        _line(
-            [
-                corners[0],
-                *_bent(corners[0], corners[1], -8),
-                *_bent(corners[1], corners[2], 7),
-                *_bent(corners[2], corners[3], 9),
-                *_bent(corners[3], corners[0], 6),
-            ],
-            closed=True,
-        ),
-        _line(_arc((100, 56), 46, 0.15, 0.62), "motion"),
-        _arrow((92.6, 10.6), (80, 14.3)),
-        _label((100, 62), "no outer force"),
-    ]
-
-
 def _bent(a: Point, b: Point, bow: float) -> list[Point]:
     length = hypot(b[0] - a[0], b[1] - a[1])
     normal = (-(b[1] - a[1]) / length, (b[0] - a[0]) / length)
@@ -297,53 +116,134 @@ def _bent(a: Point, b: Point, bow: float) -> list[Point]:
     ]
 
 
-_DRAWN: dict[str, tuple[str, Callable[[], list[str]]]] = {
+# ---- set-ups ----
+
+_HINGE = [
+    _line([(100, 14), (100, 96), (34, 62)], closed=True),
+    _line([(100, 14), (100, 96), (160, 44)], closed=True),
+    _dot((100, 14)), _dot((100, 96)), _dot((34, 62)), _dot((160, 44), "free")
+]
+_OSCILLATOR = (
+    "Three corners of a hinge are held; the fourth moves across its plane.",
+    [*_HINGE, _arrow((160, 44), (160, 16)), _arrow((160, 44), (160, 72)), _label((182, 48), "free")]
+)
+_HUNG_BY_EDGE = [_grid(56, 14, 136, 80, 5), *[_dot((56 + 16 * k, 14)) for k in range(6)]]
+_BUCKLING = (
+    "A strip between two clamps that approach each other.",
+    [
+        _clamp(24, 30, 76, -1), _line(_wave(24, 176, 53, 16, 1.5)), _clamp(176, 30, 76, 1),
+        _arrow((194, 92), (168, 92)), _arrow((6, 92), (32, 92)),
+        _line([(24, 53), (176, 53)], "path")
+    ],
+)
+_ON_CYLINDER = [
+    _line(_arc((100, 150), 92, 0.8, 0.2), "body"), _line(_arc((100, 150), 97, 0.8, 0.2)),
+    _arrow((100, 110), (164, 68)), _label((140, 104), "radius R")
+]
+_STRIP = [(30 + 110 * s, 26 + 58 * s * s * (1.5 - 0.5 * s)) for s in (k / 30 for k in range(31))]
+_ON_WEDGE = [(30.0, 60.0), (70.0, 34.0), (130.0, 34.0), (170.0, 60.0)]
+_FREE = [(62.0, 34.0), (134.0, 24.0), (146.0, 80.0), (54.0, 88.0)]
+_SPRING = [(66.0 + 8 * k, 60.0 + (9 if k % 2 else -9)) for k in range(8)]
+
+# what a study sets up, in words and marks
+_DRAWN: dict[str, tuple[str, list[str]]] = {
     "time-order.hinge": (
         "Two triangles share an edge that is held; one corner is moved, the other is free.",
-        _driven_hinge,
+        [
+            *_HINGE, _line(_arc((34, 62), 15, 0.6, 1.4), "path"), _arrow((29.4, 48), (36, 46)),
+            _label((2, 34), "prescribed", "start"), _label((160, 34), "free"), _gravity((184, 70))
+        ],
     ),
-    "stability-oscillator": (
-        "Three corners of a hinge are held; the fourth moves across its plane.",
-        _oscillator,
-    ),
-    "variable-step-stability": (
-        "Three corners of a hinge are held; the fourth moves across its plane.",
-        _oscillator,
-    ),
+    "stability-oscillator": _OSCILLATOR,
+    "variable-step-stability": _OSCILLATOR,
     "time-order.sheet": (
         "A sheet hangs by its two upper corners, which are moved to and fro.",
-        _hung_by_corners,
+        [
+            _grid(56, 26, 136, 98, 5), _dot((56, 26)), _dot((136, 26)), _arrow((56, 18), (40, 18)),
+            _arrow((56, 18), (72, 18)), _arrow((136, 18), (120, 18)), _arrow((136, 18), (152, 18)),
+            _gravity((176, 46))
+        ],
     ),
     "mesh-error": (
         "A sheet held along its upper edge swings out of its plane.",
-        lambda: _hung_by_edge(arrow=False),
+        [*_HUNG_BY_EDGE, _arrow((142, 84), (168, 76))],
     ),
     "strain-sweeps": (
         "A sheet held along its upper edge; all below starts downwards.",
-        lambda: _hung_by_edge(arrow=True),
+        [*_HUNG_BY_EDGE, *[_arrow((x, 104 - 24), (x, 104)) for x in (72, 96, 120)]],
     ),
     "cantilever": (
         "A strip is clamped level at one end and bends under its weight, or a load at its tip.",
-        _cantilever,
+        [
+            _clamp(22, 8, 46, -1), _line([(22, 26), *_STRIP]), _dot((22, 26)), _dot((30, 26)),
+            _gravity((170, 30)), _label((96, 18), "weight or tip load"),
+            _line([(22, 26), (150, 26)], "path")
+        ],
     ),
-    "buckling": ("A strip between two clamps that approach each other.", _buckling),
-    "folding": ("A strip between two clamps that approach each other.", _buckling),
-    "biphasic": ("A strip is clamped at one end and pulled by the other.", _pulled_strip),
+    "buckling": _BUCKLING,
+    "folding": _BUCKLING,
+    "biphasic": (
+        "A strip is clamped at one end and pulled by the other.",
+        [
+            _clamp(24, 30, 76, -1),
+            _line([(24, 44), (150, 44), (150, 62), (24, 62)], closed=True),
+            *[_line([(x, 44), (x, 62)], "mesh") for x in range(45, 150, 21)],
+            _arrow((154, 53), (190, 53)), _label((88, 92), "largest load at the clamp")
+        ],
+    ),
     "forecast-time": (
         "A point above a curved body, its velocity and the body's normal.",
-        _forecast,
+        [
+            _line(_arc((88, 150), 84, 0.82, 0.18), "body"), _dot((64, 36), "free"),
+            _arrow((64, 36), (104, 52)), _line([(104, 52), (130, 62)], "path"),
+            _arrow((88, 66), (88, 40)), _label((96, 44), "N", "start"),
+            _label((84, 26), "v, over τ", "start"), _label((88, 96), "φ < 0")
+        ],
     ),
     "pointwise-contact": (
         "Particles stay outside; triangles between them may still cut an edge of the object.",
-        _pointwise,
+        [
+            _line([(100, 24), (190, 110), (10, 110)], "body", closed=True), _line(_ON_WEDGE),
+            *[_dot(at, "free") for at in _ON_WEDGE], _label((100, 100), "object")
+        ],
     ),
     "wrinkle-preservation": (
         "A wrinkled strip lies half inside a body before it is projected.",
-        _wrinkles,
+        [
+            _line([(10, 60), (190, 60), (190, 104), (10, 104)], "body", closed=True),
+            _line(_wave(20, 180, 60, 18, 3)), _label((100, 98), "half inside")
+        ],
     ),
-    "bending-rigidity": ("A flat sheet is laid on a cylinder.", _on_cylinder),
-    "bending-scaling": ("A sheet is rolled on a cylinder whose curvature grows.", _on_cylinder),
-    "sticking-lag": ("A particle is bound to a moving target by a spring without length.", _bond),
-    "resting-contact": ("A sheet falls on a ball and hangs over it.", _falls_on_ball),
-    "momentum-drift": ("A bent, spinning sheet flies freely.", _free_flight),
+    "bending-rigidity": ("A flat sheet is laid on a cylinder.", _ON_CYLINDER),
+    "bending-scaling": ("A sheet is rolled on a cylinder whose curvature grows.", _ON_CYLINDER),
+    "sticking-lag": (
+        "A particle is bound to a moving target by a spring without length.",
+        [
+            _line([(50, 60), (62, 60), *_SPRING, (128, 60), (140, 60)], "mesh"),
+            _dot((50, 60), "free"), _dot((140, 60)), _arrow((140, 40), (178, 40)),
+            _label((50, 82), "particle"), _label((140, 82), "target"), _label((158, 30), "moves")
+        ],
+    ),
+    "resting-contact": (
+        "A sheet falls on a ball and hangs over it.",
+        [
+            _line(_arc((100, 78), 28, 0, 2, 60), "body", closed=True), _line([(30, 18), (170, 18)]),
+            _arrow((56, 24), (56, 44)), _arrow((144, 24), (144, 44)),
+            _line([(52, 100), *_arc((100, 78), 32, 0.9, 0.1), (148, 100)], "path")
+        ],
+    ),
+    "momentum-drift": (
+        "A bent, spinning sheet flies freely.",
+        [
+            _line(
+                [
+                    _FREE[0], *_bent(_FREE[0], _FREE[1], -8), *_bent(_FREE[1], _FREE[2], 7),
+                    *_bent(_FREE[2], _FREE[3], 9), *_bent(_FREE[3], _FREE[0], 6)
+                ],
+                closed=True
+            ),
+            _line(_arc((100, 56), 46, 0.15, 0.62), "motion"), _arrow((92.6, 10.6), (80, 14.3)),
+            _label((100, 62), "no outer force")
+        ],
+    ),
 }

@@ -5,12 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-from matplotlib.colorbar import Colorbar
 from matplotlib.tri import Triangulation
 
 from data.quantities import number_text
 from data.results import Case
-from plots.plot_style import INK, Plot, finish, label_axes, new_figure, scale_axis, with_unit
+from plots.plot_style import (
+    Plot, draw_colour_bar, finish, label_axes, new_figure, scale_axis, with_unit
+)
 
 WIDTH, HEIGHT = 5.3, 3.6            # [inch]
 COLOURS_OF_SIDES = "RdBu"           # red inside, blue outside
@@ -105,12 +106,6 @@ def _map(flat: np.ndarray, triangles: np.ndarray, distances: np.ndarray, limit: 
         cmap=COLOURS_OF_SIDES, vmin=-limit, vmax=limit, rasterized=True
     )
     bar_axes = canvas.add_axes((0.84, 0.13, 0.03, 0.76))
-    bar = Colorbar(bar_axes, colours, ticklocation="right")
-    bar.outline.set_visible(False)
-    bar.solids.set_rasterized(True)
+    draw_colour_bar(bar_axes, colours, with_unit("distance", "m"), 30)
     scale_axis(bar_axes, "y", "linear", np.array([-limit, limit]))
-    bar_axes.annotate(
-        with_unit("distance", "m"), (1.0, 1.0), xycoords="axes fraction", xytext=(30, 6),
-        textcoords="offset points", ha="right", va="bottom", fontsize=8.0, color=INK
-    )
     return finish(canvas, name, folder, "Distance of the cloth to the objects, over its rest shape")

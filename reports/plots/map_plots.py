@@ -9,26 +9,15 @@ from textwrap import fill
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
-from matplotlib.colorbar import Colorbar
 from matplotlib.colors import LogNorm, Normalize
 from matplotlib.figure import Figure
 
 from data.quantities import number_text
 from data.formulas import formula_text
-from data.results import Curve, StudyMap
+from data.studies import Curve, StudyMap
 from plots.plot_style import (
-    INK,
-    MUTED,
-    PAPER,
-    Plot,
-    finish,
-    hatch,
-    label_axes,
-    level_text,
-    new_figure,
-    say_in_the_middle,
-    scale_axis,
-    with_unit,
+    INK, PAPER, Plot, draw_colour_bar, finish, hatch, label_axes, level_text, new_figure,
+    say_in_the_middle, scale_axis, with_unit
 )
 
 WIDTH, HEIGHT = 5.6, 4.0  # [inch]
@@ -50,8 +39,7 @@ def plot_study_map(study_map: StudyMap, name: str, folder: Path) -> Plot:
         say_in_the_middle(axes, "no values to draw")
         return finish(canvas, name, folder, study_map.title)
     for which, scale, places in (
-        ("x", study_map.x_scale, study_map.x),
-        ("y", study_map.y_scale, study_map.y),
+        ("x", study_map.x_scale, study_map.x), ("y", study_map.y_scale, study_map.y)
     ):
         scale_axis(axes, which, scale, places)
     if len(study_map.y) <= MOST_ROWS:
@@ -113,13 +101,8 @@ def _draw_values(axes: Axes, study_map: StudyMap, drawable: np.ndarray) -> Scala
         hatch(axes)
     values = np.ma.masked_where(~drawable, study_map.values)
     return axes.pcolormesh(
-        x,
-        y,
-        values,
-        cmap=COLOURS_OF_VALUES,
-        norm=_norm(values.compressed(), study_map.scale),
-        rasterized=True,
-        zorder=1,
+        x, y, values, cmap=COLOURS_OF_VALUES, norm=_norm(values.compressed(), study_map.scale),
+        rasterized=True, zorder=1
     )
 
 
@@ -132,23 +115,10 @@ def _norm(values: np.ndarray, scale: str) -> Normalize:
 
 def _draw_colour_bar(canvas: Figure, study_map: StudyMap, colours: ScalarMappable) -> None:
     axes = canvas.add_axes((0.865, 0.125, 0.028, 0.78))
-    bar = Colorbar(axes, colours, ticklocation="right")
-    bar.outline.set_visible(False)
-    bar.solids.set_rasterized(True)
+    draw_colour_bar(axes, colours, with_unit(study_map.quantity, study_map.unit), 38)
     limits = colours.norm.vmin, colours.norm.vmax
     scale_axis(axes, "y", study_map.scale, np.array(limits))
     axes.set_ylim(*limits)
-    axes.annotate(
-        with_unit(study_map.quantity, study_map.unit),
-        (1.0, 1.0),
-        xycoords="axes fraction",
-        xytext=(38, 6),
-        textcoords="offset points",
-        ha="right",
-        va="bottom",
-        fontsize=8.0,
-        color=INK,
-    )
 
 
 def _draw_curves(axes: Axes, curves: list[Curve]) -> None:
@@ -177,10 +147,8 @@ def _draw_curves(axes: Axes, curves: list[Curve]) -> None:
                 color=INK,
                 zorder=6,
                 bbox={
-                    "facecolor": PAPER,
-                    "edgecolor": "none",
-                    "boxstyle": "round,pad=0.25",
-                    "alpha": 0.9,
+                    "facecolor": PAPER, "edgecolor": "none", "boxstyle": "round,pad=0.25",
+                    "alpha": 0.9
                 },
             )
 

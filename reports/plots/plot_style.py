@@ -16,6 +16,8 @@ import numpy as np
 from markupsafe import Markup
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.cm import ScalarMappable
+from matplotlib.colorbar import Colorbar
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 from matplotlib.ticker import (
@@ -152,10 +154,23 @@ def label_axes(axes: Axes, x_label: str, x_unit: str, y_label: str, y_unit: str)
     """The y label stands level above its axis, where it reads without
     turning the head; units in brackets."""
     axes.set_xlabel(with_unit(x_label, x_unit), labelpad=4)
-    axes.annotate(with_unit(y_label, y_unit), (0.0, 1.0), xycoords="axes fraction", xytext=(0, 6),
-                  textcoords="offset points", ha="left", va="bottom", fontsize=8.0, color=INK)
+    _label_above(axes, with_unit(y_label, y_unit), 0.0, 0, "left")
     axes.grid(axis="y", color=GRID, linewidth=0.6)
     axes.set_axisbelow(True)
+
+
+def _label_above(axes: Axes, words: str, x: float, right: float, align: str) -> None:
+    """Words above axes, at a fraction of their width and so many points to the right."""
+    axes.annotate(words, (x, 1.0), xycoords="axes fraction", xytext=(right, 6),
+                  textcoords="offset points", ha=align, va="bottom", fontsize=8.0, color=INK)
+
+
+def draw_colour_bar(axes: Axes, colours: ScalarMappable, label: str, right: float) -> None:
+    """A colour bar that fills the axes, its label above, so many points to the right."""
+    bar = Colorbar(axes, colours, ticklocation="right")
+    bar.outline.set_visible(False)
+    bar.solids.set_rasterized(True)
+    _label_above(axes, label, 1.0, right, "right")
 
 
 def with_unit(label: str, unit: str) -> str:

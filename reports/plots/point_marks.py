@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Rectangle
 from matplotlib.ticker import FuncFormatter
 
-from data.results import Curve
+from data.studies import Curve
 from plots.plot_style import BAND, MUTED, Pen
 
 # height of one curve's row in the strip, as a fraction of the axes' height

@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.markers import MarkerStyle
 
 from data.formulas import formula_text
-from data.results import Curve, StudyFigure
+from data.studies import Curve, StudyFigure
 from plots.plot_style import (
     BAND, COLOURS, INK, MARKERS, MUTED, PAPER, Pen, Plot, Points, finish, label_axes, new_figure,
     say_in_the_middle, scale_axis, variable_of
@@ -176,8 +176,7 @@ def _draw_curve(axes: Axes, figure: StudyFigure, curve: Curve, pen: Pen, layer: 
     below = curve.y[order] <= curve.floor
     for kind, face in ((hollow, PAPER), (~hollow, pen.colour)):
         for part, size, edge, alpha in (
-            (kind & ~below, 1.0, 1.1, 1.0),
-            (kind & below, 0.7, 0.6, 0.5),
+            (kind & ~below, 1.0, 1.1, 1.0), (kind & below, 0.7, 0.6, 0.5)
         ):
             axes.plot(
                 x[part], y[part], linestyle="none", marker=pen.marker, markersize=size * pen.size,
@@ -188,8 +187,7 @@ def _draw_curve(axes: Axes, figure: StudyFigure, curve: Curve, pen: Pen, layer: 
 
 def _set_limits(axes: Axes, figure: StudyFigure, shown: list[Points]) -> None:
     for part, scale, set_limits in (
-        (0, figure.x_scale, axes.set_xlim),
-        (1, figure.y_scale, axes.set_ylim),
+        (0, figure.x_scale, axes.set_xlim), (1, figure.y_scale, axes.set_ylim)
     ):
         values = np.concatenate([points[part] for points in shown]
                                 + ([diverged_x(figure.curves)] if part == 0 else []))

@@ -9,40 +9,29 @@ import sys
 import unittest
 from pathlib import Path
 
-sys.dont_write_bytecode = True
+import h5py
+import numpy as np
 
-import h5py  # noqa: E402
-import numpy as np  # noqa: E402
-
-from data.cloth_values import all_values  # noqa: E402
-from tests.made_up_case import TWO, WithCase  # noqa: E402
-
-REPORTS = Path(__file__).resolve().parents[1]
+from data.cloth_values import all_values
+from tests.made_up_case import TWO, WithCase
+from tests.report_test import REPORTS
 
 
 class Films(WithCase):
     """make_film.py."""
 
-    def film(self, *options: str, path: str | None = None) -> subprocess.CompletedProcess[str]:
+    def film(self, *options: str, **environment: str) -> subprocess.CompletedProcess[str]:
         """Runs the script on the case."""
-        return subprocess.run(
-            [sys.executable, str(REPORTS / "make_film.py"), str(self.path), *options], text=True,
-            check=False, capture_output=True, env=None if path is None else {"PATH": path}
-        )
+        return self.typed("make_film.py", self.path, *options, **environment)
 
-    def test_without_ffmpeg_one_line_says_so(self) -> None:
-        run = self.film(path=str(self.root))
-        self.assertEqual((run.returncode, len(run.stderr.splitlines())), (2, 1), run.stderr)
-        self.assertIn("apt install ffmpeg", run.stderr)
-
-    def test_packages_that_are_missing_are_named_in_one_line(self) -> None:
+    def test_what_is_missing_is_named_in_one_line(self) -> None:
+        self.assert_refused(self.film(PATH=str(self.root)), "apt install ffmpeg")
         for script in ("make_film.py", "make_report.py", "export.py"):
             run = subprocess.run(
                 [sys.executable, "-S", str(REPORTS / script)], text=True, check=False,
                 capture_output=True
             )
-            self.assertEqual((run.returncode, len(run.stderr.splitlines())), (2, 1), run.stderr)
-            self.assertIn("apt install python3-numpy python3-h5py", run.stderr)
+            self.assert_refused(run, "apt install python3-numpy python3-h5py")
 
     def test_what_is_typed_wrong_is_refused_in_one_line(self) -> None:
         for options, said in (
@@ -50,9 +39,7 @@ class Films(WithCase):
             (("--out", "film.avi"), "ends in .mp4"),
             (("--out", "nowhere/film.mp4"), "no folder nowhere")
         ):
-            run = self.film(*options)
-            self.assertEqual((run.returncode, len(run.stderr.splitlines())), (2, 1), run.stderr)
-            self.assertIn(said, run.stderr)
+            self.assert_refused(self.film(*options), said)
 
     @unittest.skipUnless(shutil.which("ffmpeg"), "no ffmpeg: the package ffmpeg has it")
     def test_films_have_the_size_the_length_and_the_format_that_were_asked_for(self) -> None:
@@ -62,15 +49,11 @@ class Films(WithCase):
                 "--out", str(out), "--size", "320x240", "--fps", "5", "--field", "strain"
             )
             self.assertEqual((run.returncode, run.stderr), (0, ""))
+            shown = "stream=codec_name,width,height,pix_fmt,nb_read_frames"
             probe = subprocess.run(
-                [
-                    "ffprobe", "-v", "error", "-select_streams", "v", "-count_frames", "-of",
-                    "json", "-show_entries",
-                    "stream=codec_name,width,height,pix_fmt,nb_read_frames", str(out)
-                ],
-                capture_output=True,
-                text=True,
-                check=True,
+                ["ffprobe", "-v", "error", "-select_streams", "v", "-count_frames", "-of", "json",
+                 "-show_entries", shown, str(out)],
+                capture_output=True, text=True, check=True
             )
             said = json.loads(probe.stdout)["streams"][0]
             self.assertEqual((said["codec_name"], said["width"], said["height"]), (codec, 320, 240))
@@ -84,15 +67,10 @@ class Films(WithCase):
     def test_what_cannot_be_filmed_is_said_in_one_line(self) -> None:
         with h5py.File(self.path, "r+") as file:
             del file["frames/object_distance"]
-        for options, why in (
-            (("--field", "phi"), "no field 'phi'; it has: speed"),
-            (("--out", "/nowhere/film.mp4"), "nowhere"),
-        ):
-            run = self.film(*options)
-            self.assertEqual((run.returncode, len(run.stderr.splitlines())), (2, 1), run.stderr)
-            self.assertIn(why, run.stderr)
+        self.assert_refused(self.film("--field", "phi"), "no field 'phi'; it has: speed")
+        self.assert_refused(self.film("--out", "/nowhere/film.mp4"), "nowhere")
         self.path.write_bytes(b"no HDF5")
-        self.assertIn("no HDF5 file", self.film().stderr)
+        self.assert_refused(self.film(), "no HDF5 file")
 
 
 def reader(module: str) -> object | None:
@@ -108,15 +86,7 @@ class ExportedFiles(WithCase):
 
     def exported(self, kind: str) -> Path:
         """The folder that the script has filled."""
-        run = subprocess.run(
-            [
-                sys.executable, str(REPORTS / "export.py"), str(self.path), "--format", kind,
-                "--out", str(self.root / kind)
-            ],
-            text=True,
-            check=False,
-            capture_output=True,
-        )
+        run = self.typed("export.py", self.path, "--format", kind, "--out", self.root / kind)
         self.assertEqual((run.returncode, run.stderr), (0, ""))
         return self.root / kind
 
@@ -176,12 +146,8 @@ class ExportedFiles(WithCase):
                 ["pvpython", "-c", ASK_PARAVIEW, str(path)], text=True, check=False,
                 capture_output=True
             )
-            told = (
-                json.loads(run.stdout.splitlines()[-1])
-                if run.stdout.strip()
-                else {"said": run.stderr}
-            )
-            self.assertEqual(told.get("times"), case.frame_times.tolist(), told)
+            told = json.loads(run.stdout.splitlines()[-1]) if run.stdout.strip() else {}
+            self.assertEqual(told.get("times"), case.frame_times.tolist(), run.stderr)
             for frame in range(4):
                 np.testing.assert_allclose(told["points"][frame], case.positions(frame), atol=1e-15)
                 np.testing.assert_allclose(
@@ -191,17 +157,8 @@ class ExportedFiles(WithCase):
 
     def test_a_file_that_is_no_simulation_is_refused_in_one_line(self) -> None:
         self.path.write_bytes(b"no HDF5")
-        run = subprocess.run(
-            [
-                sys.executable, str(REPORTS / "export.py"), str(self.path), "--format", "ply",
-                "--out", str(self.root)
-            ],
-            text=True,
-            check=False,
-            capture_output=True,
-        )
-        self.assertEqual((run.returncode, len(run.stderr.splitlines())), (2, 1))
-        self.assertIn("no HDF5 file", run.stderr)
+        run = self.typed("export.py", self.path, "--format", "ply", "--out", self.root)
+        self.assert_refused(run, "no HDF5 file")
 
 
 def program_xdmf(file: str, times: np.ndarray, shape: tuple[int, ...], triangles: int) -> str:

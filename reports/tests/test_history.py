@@ -4,8 +4,6 @@ from __future__ import annotations
 import contextlib
 import io
 import json
-import tempfile
-import unittest
 from pathlib import Path
 from typing import Any
 from unittest import mock
@@ -14,6 +12,7 @@ import make_history
 from data.history import append_to_log, changes, in_order, margin_changes, read_log, row_of
 from data.unreadable import Unreadable
 from pages.history import as_json, history_of, render_history
+from tests.report_test import FolderTest
 
 
 def finding(
@@ -33,17 +32,12 @@ def claim(name: str, ruling: str) -> dict[str, Any]:
     }
 
 
-class HistoryTest(unittest.TestCase):
+class HistoryTest(FolderTest):
     """Runs that are made up, one a day."""
-
-    def setUp(self) -> None:
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.path = Path(folder.name)
 
     def put(self, day: int, rows: list[dict[str, Any]], **about: str) -> Path:
         """The folder of a run."""
-        folder = self.path / str(day)
+        folder = self.root / str(day)
         folder.mkdir(exist_ok=True)
         program = {
             "date": f"2026-01-{day:02}T00:00:00Z", "commit": f"{day:040x}", "version": "0.2.0",
@@ -83,45 +77,26 @@ class HistoryTest(unittest.TestCase):
             ],
         )
 
-    def test_a_run_of_some_checks_is_asked_only_for_those(self) -> None:
+    def test_only_what_both_runs_were_asked_is_compared(self) -> None:
         whole = self.put(1, [finding("a"), finding("b")])
-        self.assertEqual(
-            self.found(whole, self.put(2, [finding("a", "fails")], command="foldproof check a")),
-            [(2, "a", "holds", "fails", True)],
-        )
-
-    def test_tiers_and_solvers_are_not_mixed(self) -> None:
-        one = self.put(1, [finding("a")])
-        self.assertEqual(self.found(one, self.put(2, [finding("a", "fails")], tier="full"),
-                                    self.put(3, [finding("a", "fails")], subject="another")), [])
+        for about, changed in (
+            ({"command": "foldproof check a"}, [(2, "a", "holds", "fails", True)]),
+            ({"tier": "full"}, []), ({"subject": "another"}, [])
+        ):
+            other = self.put(2, [finding("a", "fails")], **about)
+            self.assertEqual(self.found(whole, other), changed)
 
     def test_margins_that_shrink_are_listed(self) -> None:
         rows = [
-            row_of(
-                self.put(
-                    1,
-                    [
-                        finding("a", measured=1.0), finding("b", measured=1.0),
-                        finding("c", measured=1e-9)
-                    ],
-                )
-            ),
-            row_of(
-                self.put(
-                    2,
-                    [
-                        finding("a", measured=1.9), finding("b", measured=4.0),
-                        finding("c", measured=3e-9)
-                    ],
-                )
-            ),
+            row_of(self.put(day, [finding(name, measured=x) for name, x in zip("abc", measured)]))
+            for day, measured in ((1, (1.0, 1.0, 1e-9)), (2, (1.9, 4.0, 3e-9)))
         ]
         self.assertEqual(
             [(one.name, one.before, one.after) for one in margin_changes(rows)], [("b", 0.1, 0.4)]
         )
 
     def test_a_log_grows_by_a_row_a_run_and_survives_a_torn_end(self) -> None:
-        log = self.path / "log.jsonl"
+        log = self.root / "log.jsonl"
         rows = [row_of(self.put(day, [finding("a", measured=None)])) for day in (1, 2)]
         self.assertEqual(
             [append_to_log(log, rows[:1]), append_to_log(log, rows[:1]), append_to_log(log, rows)],
@@ -149,18 +124,18 @@ class HistoryTest(unittest.TestCase):
 
     def test_bad_input_is_one_line(self) -> None:
         self.put(1, [])
-        (self.path / "2").write_text("{")
+        (self.root / "2").write_text("{")
         for words, why in (
-            ([], "give folders of runs"), ([self.path / "1"], "no findings in it"),
-            ([self.path / "2"], "no verdicts of foldproof"), ([self.path / "3"], "no such"),
-            (["--log", self.path / "none"], "there is no run in it yet")
+            ([], "give folders of runs"), ([self.root / "1"], "no findings in it"),
+            ([self.root / "2"], "no verdicts of foldproof"), ([self.root / "3"], "no such"),
+            (["--log", self.root / "none"], "there is no run in it yet")
         ):
             said = io.StringIO()
             with contextlib.redirect_stderr(said), self.assertRaises(SystemExit) as stop:
                 self.answer(*words)
             self.assertEqual(stop.exception.code, 2)
             self.assertRegex(said.getvalue(), rf"^make_history: .*{why}.*\n$")
-        self.assertFalse((self.path / "none").exists())
+        self.assertFalse((self.root / "none").exists())
 
     def test_the_page_escapes_and_says_what_is_worse(self) -> None:
         history = history_of(

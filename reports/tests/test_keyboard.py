@@ -40,7 +40,7 @@ class Keyboard(unittest.TestCase):
         cls.addClassCleanup(folder.cleanup)
         root = Path(folder.name)
         put_run(root)
-        with mock.patch("pages.page.MOST_BYTES", 100):
+        with mock.patch("pages.render.MOST_BYTES", 100):
             cls.folder = make_pages(root, root / "figures").parent
         cls.browser = Browser()
         cls.addClassCleanup(cls.browser.close)
@@ -93,7 +93,3 @@ class Keyboard(unittest.TestCase):
             self.browser.press(key)
             before = not before
             self.assertEqual(self.browser.evaluate(is_open), before)
-
-
-if __name__ == "__main__":
-    unittest.main()

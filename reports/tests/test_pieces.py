@@ -3,30 +3,24 @@ reports/tests/test_reports.py."""
 from __future__ import annotations
 
 import re
-import tempfile
 import unittest
-from pathlib import Path
 
 import numpy as np
 
 from data.quantities import (
-    cells_html,
-    number_text,
-    order_html,
-    quantity_html,
-    quantity_text,
-    seconds_html,
-    unit_text,
+    cells_html, number_text, order_html, quantity_html, quantity_text, seconds_html, unit_text
 )
 from data.results import Column, load_run
-from pages.page import margin_percent, select_rows
+from pages.counts import margin_percent
+from pages.shown_table import select_rows
 from plots.contact_maps import flatten_to_plane
 from plots.map_plots import edges_of, map_notes
 from plots.study_plots import spread
 from tests.made_up_run import put_run
+from tests.report_test import FolderTest
 
 
-class Pieces(unittest.TestCase):
+class Pieces(FolderTest):
     """Numbers, labels and pictures by themselves."""
 
     def test_numbers(self) -> None:
@@ -63,15 +57,14 @@ class Pieces(unittest.TestCase):
         self.assertNotIn("&lt;", seconds_html(0.05))
 
     def test_cells_of_a_map_lie_around_their_points(self) -> None:
-        self.assertTrue(
-            np.allclose(edges_of(np.array([1.0, 2.0, 4.0]), "linear"), [0.5, 1.5, 3.0, 5.0])
-        )
-        self.assertTrue(np.allclose(edges_of(np.array([1.0, 100.0]), "log"), [0.1, 10.0, 1000.0]))
+        for places, scale, edges in (
+            ([1.0, 2.0, 4.0], "linear", [0.5, 1.5, 3.0, 5.0]), ([1.0, 100.0], "log", [0.1, 10, 1e3])
+        ):
+            np.testing.assert_allclose(edges_of(np.array(places), scale), edges)
 
     def test_a_map_with_all_its_values_needs_no_note(self) -> None:
-        with tempfile.TemporaryDirectory() as folder:
-            put_run(Path(folder))
-            studies = load_run(Path(folder) / "run.h5").studies
+        put_run(self.root)
+        studies = load_run(self.root / "run.h5").studies
         study_map = next(study for study in studies if study.maps).maps[0]
         self.assertEqual(len(map_notes(study_map)), 1)
         study_map.values = np.abs(np.nan_to_num(study_map.values, nan=1.0))
@@ -82,9 +75,8 @@ class Pieces(unittest.TestCase):
         self.assertEqual(len(shown.first) + shown.left_out + len(shown.last), 1001)
 
     def test_margin_bar_says_nothing_about_nan(self) -> None:
-        with tempfile.TemporaryDirectory() as folder:
-            put_run(Path(folder))
-            findings = load_run(Path(folder) / "run.h5").findings
+        put_run(self.root)
+        findings = load_run(self.root / "run.h5").findings
         self.assertIsNone(margin_percent(findings[1]))
         self.assertAlmostEqual(margin_percent(findings[0]), 100 * 3.2 / 44 / 1.25)
 

@@ -15,29 +15,22 @@ from collections.abc import Callable
 from io import StringIO
 from pathlib import Path
 
-sys.dont_write_bytecode = True
+import h5py
+import jsonschema
+import numpy as np
 
-import h5py  # noqa: E402
-import jsonschema  # noqa: E402
-import numpy as np  # noqa: E402
-
-from data.results import Column, load_case, load_run  # noqa: E402
-from data.unreadable import Unreadable  # noqa: E402
-from foldproof_results import (
-    columns_of_study, evidence_of, load_results, load_trajectory
-)  # noqa: E402
-from tests.made_up_run import NAMES, made_up_verdicts, put_run  # noqa: E402
-
-REPORTS = Path(__file__).resolve().parents[1]
+from data.results import Column, load_case, load_run
+from data.unreadable import Unreadable
+from foldproof_results import columns_of_study, evidence_of, load_results, load_trajectory
+from tests.made_up_run import NAMES, made_up_verdicts, put_run
+from tests.report_test import REPORTS, FolderTest
 
 
-class ResultsInNumpy(unittest.TestCase):
+class ResultsInNumpy(FolderTest):
     """The interface of foldproof_results.py for other programs."""
 
     def setUp(self) -> None:
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.root = Path(folder.name)
+        super().setUp()
         (self.root / "results").mkdir()
         put_run(self.root / "results")
 
@@ -95,13 +88,14 @@ class ResultsInNumpy(unittest.TestCase):
         (root / "text.h5").write_text("no HDF5")
         with h5py.File(root / "other.h5", "w") as file:
             file["frames/time"] = [0.0]
-        for load in (load_results, load_trajectory):
+        for load, own, others in (
+            (load_results, "run", ("other.h5", "fold.h5")),
+            (load_trajectory, "simulation", ("other.h5", "run.h5")),
+        ):
             self.assert_rejected(load, "nowhere.h5", "there is no such file")
             self.assert_rejected(load, "text.h5", "no HDF5 file")
-        self.assert_rejected(load_results, "other.h5", "no run of foldproof")
-        self.assert_rejected(load_results, "fold.h5", "no run of foldproof")
-        self.assert_rejected(load_trajectory, "other.h5", "no simulation of foldproof")
-        self.assert_rejected(load_trajectory, "run.h5", "no simulation of foldproof")
+            for other in others:
+                self.assert_rejected(load, other, f"no {own} of foldproof")
         with self.assertRaisesRegex(KeyError, "no case 'cape' in this run; it has: fold, gone"):
             load_results(root).trajectory("cape")
 

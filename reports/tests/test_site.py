@@ -1,5 +1,5 @@
-"""Tests of the report as pages, of its four questions, of methods' looks and of numbers; run
-with reports/tests/test_reports.py."""
+"""Tests of the report as pages, of sections, of its four questions and of methods' looks; run with
+reports/tests/test_reports.py."""
 from __future__ import annotations
 
 import os
@@ -10,24 +10,38 @@ from dataclasses import replace
 from pathlib import Path
 from unittest import mock
 
+import h5py
 import numpy as np
 from markupsafe import Markup
 
-from data.results import Curve, Finding, Study, load_run
+from data.results import Finding, load_run
+from data.studies import Curve, Study
 from make_report import make_pages
 from pages.conclusions import Results
 from pages.four_questions import FIGURES, four_questions
-from pages.page import StudyView
+from pages.page import SECTIONS, StudyView
+from pages.render import MOST_BYTES, TEMPLATES
 from pages.said import bound_html, measured_html
+from pages.section import Section
 from pages.sentences import html_of
 from plots.plot_style import COLOURS, MARKERS, Plot
 from plots.study_plots import METHODS, choose_pens
-from tests.made_up_run import NAMES, put_run
-from tests.test_page import contrast
+from tests.made_up_run import NAMES, put_finding, put_run
+from tests.report_test import FolderTest, without_pictures
 
-REPORTS = Path(__file__).resolve().parents[1]
-LEAST_CONTRAST = 3.0       # of lines in plots, WCAG 2.1 level AA
-MOST_BYTES = 3_000_000     # of a page
+MOST_BYTES_OF_A_PAGE = 3_000_000
+
+
+def pages_of(root: Path) -> dict[str, str]:
+    """The pages of a report, as if it were long."""
+    with mock.patch("pages.render.MOST_BYTES", 100), mock.patch(
+        "pages.drawing.draw_case", without_pictures
+    ):
+        make_pages(root, root / "figures")
+    return {
+        page.relative_to(root).as_posix(): page.read_text(encoding="utf-8")
+        for page in (root / "report.html", *(root / "report").glob("*.html"))
+    }
 
 
 class Site(unittest.TestCase):
@@ -39,30 +53,19 @@ class Site(unittest.TestCase):
         put_run(root)
         (root / "report").mkdir()
         (root / "report" / "old.html").write_text("of an earlier report")
-        with mock.patch("pages.page.MOST_BYTES", 100):
-            make_pages(root, root / "figures")
-        cls.pages = {
-            page.relative_to(root).as_posix(): page.read_text(encoding="utf-8")
-            for page in (root / "report.html", *(root / "report").glob("*.html"))
-        }
-        with mock.patch("pages.page.MOST_BYTES", 1e9):
+        cls.pages = pages_of(root)
+        with mock.patch("pages.render.MOST_BYTES", 1e9):  # with pictures
             cls.one_page = make_pages(root, root / "figures").read_text(encoding="utf-8")
         cls.left = list((root / "report").glob("*.html"))
 
     def test_every_topic_study_and_case_has_a_page(self) -> None:
-        for name in (
-            "claims", "checks", "studies", "study-time-order", "cases", "case-fold", "faults",
-            "provenance"
-        ):
+        first = self.pages["report.html"]
+        for name in ("claims", "checks", "study-time-order", "case-fold", "provenance"):
             self.assertIn(f"report/{name}.html", self.pages)
-            self.assertIn(f'href="report/{name}.html"', self.pages["report.html"])
+            self.assertIn(f'href="report/{name}.html"', first)
         self.assertNotIn("report/old.html", self.pages)
         self.assertIn(f'id="{NAMES[0]}"', self.pages["report/checks.html"])
-
-    def test_the_first_page_knows_where_each_entry_stands(self) -> None:
-        self.assertRegex(
-            self.pages["report.html"], rf'"report/checks.html": \[[^]]*"{re.escape(NAMES[0])}"'
-        )
+        self.assertRegex(first, rf'"report/checks.html": \[[^]]*"{re.escape(NAMES[0])}"')
 
     def test_a_short_report_is_one_page(self) -> None:
         self.assertTrue(f'id="{NAMES[0]}"' in self.one_page)
@@ -80,7 +83,7 @@ class Site(unittest.TestCase):
 
     def test_a_page_is_whole_and_small(self) -> None:
         for name, text in self.pages.items():
-            self.assertLessEqual(len(text.encode("utf-8")), MOST_BYTES, name)
+            self.assertLessEqual(len(text.encode("utf-8")), MOST_BYTES_OF_A_PAGE, name)
             self.assertNotRegex(text, r"<!--(page|end)")
             for tag in ("html", "body", "main", "h1", "section", "details"):
                 self.assertEqual(
@@ -88,6 +91,40 @@ class Site(unittest.TestCase):
                 )
             self.assertEqual(text.count("<h1"), 1, name)
             self.assertEqual(re.findall(r'(?:src|href)="(?:https?:)?//', text), [])
+
+
+class Parts(FolderTest):
+    def test_the_first_page_of_a_large_report_stays_small(self) -> None:
+        """However much evidence there is: 300 findings have more than a megabyte."""
+        with h5py.File(self.root / "run.h5", "w") as file:
+            for k in range(300):
+                put_finding(file, k, f"group-{k % 30}.finding-with-a-name-as-usual-{k}", "check")
+        make_pages(self.root, self.root / "figures")
+        self.assertTrue((self.root / "report" / "checks.html").is_file())
+        self.assertLessEqual((self.root / "report.html").stat().st_size, MOST_BYTES)
+
+    def test_a_section_is_registered_by_its_name_and_its_template(self) -> None:
+        put_run(self.root)
+        (self.root / "weather.html.j2").write_text(
+            '{% macro section() %}<section id="weather"><h2>Weather</h2><p id="rain">'
+            "{{ page.parts.weather }}</p></section>{% endmacro %}"
+        )
+        (self.root / "weather.txt").write_text("<rain>")
+        weather = Section(
+            "weather", "The weather of this run", lambda page: page.parts["weather"], "Weather",
+            lambda source: (source.folder / "weather.txt").read_text()
+        )
+        with mock.patch("pages.page.SECTIONS", (*SECTIONS, weather)), mock.patch(
+            "pages.render.TEMPLATES", (*TEMPLATES, self.root)
+        ):
+            pages = pages_of(self.root)
+            (self.root / "weather.txt").write_text("")
+            self.assertNotIn("report/weather.html", pages_of(self.root))
+        first, own = pages["report.html"], pages["report/weather.html"]
+        self.assertIn("&lt;rain&gt;", own)
+        self.assertIn("<title>The weather of this run: foldproof</title>", own)
+        self.assertIn('<a href="report/weather.html">The weather of this run</a>', first)
+        self.assertIn('<a href="report/weather.html#weather">Weather</a></nav>', first)
 
 
 def found(name: str, measured: float, outcome: str = "holds") -> Finding:
@@ -104,8 +141,9 @@ class Questions(unittest.TestCase):
         study = Study(self.study, "", "", "", 0, [mock.Mock()], [])
         study.figures[0].name, study.figures[0].title = figure, "A title"
         svg = Markup('<svg><g id="a"/><use href="#a"/></svg>')
-        drawn = StudyView(study, "study", [Plot("x", svg)], [], [])
-        made = four_questions(Results(findings, [], [], str), [drawn])
+        made = four_questions(
+            Results(findings, [], [], str), [StudyView(study, "study", [Plot("x", svg)])]
+        )
         return [f"{html_of(one.words)} {one.svg}" for one in made]
 
     def test_an_answer_has_the_worst_number_of_each_kind_and_a_figure(self) -> None:
@@ -129,11 +167,8 @@ class Questions(unittest.TestCase):
 
 class Looks(unittest.TestCase):
     def test_methods_differ_by_colour_and_by_marker(self) -> None:
-        x = np.array([1.0, 2.0, 3.0])
-        curves = [
-            Curve(name, x, x ** (k + 1), float("nan"), None, float("nan"), None)
-            for k, name in enumerate(METHODS)
-        ]
+        x, nan = np.array([1.0, 2.0, 3.0]), float("nan")
+        curves = [Curve(name, x, x ** k, nan, None, nan, None) for k, name in enumerate(METHODS, 1)]
         pens = choose_pens(curves)
         self.assertEqual(len({pen.colour for pen in pens}), len(METHODS))
         self.assertEqual(len({pen.marker for pen in pens}), len(METHODS))
@@ -145,22 +180,14 @@ class Looks(unittest.TestCase):
             [(COLOURS[4], MARKERS[4]), (COLOURS[1], MARKERS[1])],
         )
 
-    def test_curves_stand_out_from_the_paper(self) -> None:
-        text = (REPORTS / "pages" / "style.css").read_text(encoding="utf-8")
-        for block in re.findall(r":root \{(.*?)\}", text, re.S)[:2]:
-            palette = dict(re.findall(r"--([\w-]+): (#[0-9a-f]{6})", block))
-            for k in range(len(COLOURS)):
-                self.assertGreaterEqual(
-                    contrast(palette[f"plot-{k}"], palette["paper"]), LEAST_CONTRAST, k
-                )
 
-
-class Said(unittest.TestCase):
+class Said(FolderTest):
     def test_what_must_reach_a_number_is_said_so(self) -> None:
-        with tempfile.TemporaryDirectory() as folder:
-            put_run(Path(folder))
-            finding = load_run(Path(folder) / "run.h5").findings[0]
+        put_run(self.root)
+        finding = load_run(self.root / "run.h5").findings[0]
         short = replace(finding, measured=-10.0, bound=0.0, unit="points short of 60")
-        self.assertEqual(re.sub("<[^>]+>", "", measured_html(short)), "70\u2009points")
-        self.assertEqual(re.sub("<[^>]+>", "", bound_html(short)), "at least 60")
-        self.assertEqual(re.sub("<[^>]+>", "", bound_html(replace(finding, bound=0.5))), "0.5")
+        for html, words in (
+            (measured_html(short), "70\u2009points"), (bound_html(short), "at least 60"),
+            (bound_html(replace(finding, bound=0.5)), "0.5"),
+        ):
+            self.assertEqual(re.sub("<[^>]+>", "", html), words)

@@ -17,7 +17,7 @@ from pages.chromium import Browser
 from pictures.camera import up_against, upright_axes
 from pictures.case_pictures import select_frames
 from pictures.cloth_picture import picture_of
-from tests.made_up_case import WithCase, put_whole_case
+from tests.made_up_case import WithCase, in_the_view, put_whole_case
 
 DOWN = np.array([0.0, -9.8, 0.0])
 # takes y to z, and z to -y
@@ -26,32 +26,14 @@ QUARTERS = {"-z": np.array([[1, 0, 0], [0, 0, -1], [0, 1, 0]], dtype=float),
             "+x": np.array([[0, -1, 0], [1, 0, 0], [0, 0, 1]], dtype=float)}
 ASLANT = np.array([[1, 0, 0], [0, 0.8, -0.6], [0, 0.6, 0.8]])                     # of an incline
 
-TWO_LOOKS = """(async () => {
-  const figure = document.querySelector("figure.view");
-  const wait = (ms) => new Promise((done) => setTimeout(done, ms));
-  const drawn = async (count) => {
-    for (let k = 0; k < 400 && !(figure.dataset.drawn >= count); ++k) await wait(50);
-  };
-  const seen = async (act) => {
-    const before = Number(figure.dataset.drawn);
-    act();
-    await drawn(before + 1);
-    const copy = document.createElement("canvas"), pen = copy.getContext("2d");
-    Object.assign(copy, { width: 80, height: 60 });
-    pen.drawImage(figure.querySelector("canvas"), 0, 0, 80, 60);
-    return Array.from(pen.getImageData(0, 0, 80, 60).data);
-  };
-  figure.scrollIntoView();
+TWO_LOOKS = in_the_view("""
   figure.querySelector(".open-view").click();
   await drawn(1);
-  const slider = figure.querySelector("input[type=range]");
-  const first = await seen(() => { slider.value = 2; slider.dispatchEvent(new Event("input")); });
-  const canvas = figure.querySelector("canvas");
-  const press = (key) => canvas.dispatchEvent(new KeyboardEvent("keydown", { key }));
-  await seen(() => press("ArrowUp"));
-  await seen(() => press("ArrowLeft"));
-  return [first, await seen(() => press("ArrowLeft"))];
-})()"""
+  const first = await after(() => show(2));
+  await after(() => press("ArrowUp"));
+  await after(() => press("ArrowLeft"));
+  return [first, await after(() => press("ArrowLeft"))];
+""")
 
 
 def put_turned_case(folder: Path, turn: np.ndarray) -> Path:

@@ -7,22 +7,19 @@ import base64
 import json
 import shutil
 import sys
-import tempfile
 import unittest
 import zlib
 from io import BytesIO
 from pathlib import Path
 
 sys.dont_write_bytecode = True
-REPORTS = Path(__file__).resolve().parents[1]
-sys.path.insert(0, str(REPORTS))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 import h5py  # noqa: E402
 import numpy as np  # noqa: E402
 from matplotlib import image  # noqa: E402
 
 from data.cloth_values import all_values, edges_of  # noqa: E402
-from data.results import load_case  # noqa: E402
 from make_report import make_report  # noqa: E402
 from pages.chromium import Browser  # noqa: E402
 from pictures.camera import choose_camera  # noqa: E402
@@ -33,8 +30,9 @@ from pictures.look import BACK, FRONT  # noqa: E402
 from plots.angle_spectrum import folded_beyond, plot_angle_spectrum  # noqa: E402
 from plots.case_plots import plot_diagnostics  # noqa: E402
 from plots.contact_maps import plot_contacts  # noqa: E402
-from tests.made_up_case import SQUARE, TWO, WithCase  # noqa: E402
-from tests.made_up_run import HOSTILE, put_case  # noqa: E402
+from tests.made_up_case import SQUARE, TWO, WithCase, in_the_view  # noqa: E402
+from tests.made_up_run import HOSTILE  # noqa: E402
+from tests.report_test import REPORTS  # noqa: E402
 from viewer.field_pictures import without_empty_lines  # noqa: E402
 from viewer.view_data import frames_to_turn, make_view  # noqa: E402
 
@@ -71,9 +69,8 @@ class Pictures(unittest.TestCase):
 
     def test_particles_that_are_not_finite_leave_the_rest_drawn(self) -> None:
         x = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [np.nan, 1, 0]], dtype=float)
-        picture = picture_of(
-            Cloth(x, TWO, np.ones(4, bool)), choose_camera([np.nan_to_num(x)], TWO)
-        )
+        camera = choose_camera([np.nan_to_num(x)], TWO)
+        picture = picture_of(Cloth(x, TWO, np.ones(4, bool)), camera)
         self.assertGreater((picture[:, :, 3] > 0).mean(), 0.1)
 
     def test_cloth_above_the_ground_casts_a_shadow_and_the_ground_ends_nowhere(self) -> None:
@@ -95,22 +92,12 @@ class Pictures(unittest.TestCase):
         self.assertLess(picture[[0, 0, -1, -1], [0, -1, 0, -1], 3].max(), 30)
 
     def test_the_file_keeps_outlines_and_nearly_all_of_the_colours(self) -> None:
-        picture = picture_of(
-            Cloth(SQUARE, TWO, np.zeros(4, dtype=bool)), choose_camera([SQUARE], TWO)
-        )
+        cloth = Cloth(SQUARE, TWO, np.zeros(4, dtype=bool))
+        picture = picture_of(cloth, choose_camera([SQUARE], TWO))
         read = np.asarray(image.imread(BytesIO(webp_bytes(picture)), format="webp")).astype(int)
         np.testing.assert_array_equal(read[:, :, 3], picture[:, :, 3])
         inside = picture[:, :, 3] == 255
         self.assertLess(np.abs(read - picture)[inside].mean(), 3.0)
-
-    def test_an_object_turns_and_moves_by_its_pose_or_deforms(self) -> None:
-        with tempfile.TemporaryDirectory() as folder:
-            put_case(Path(folder), "fold")
-            case = load_case(Path(folder) / "fold.h5")
-            scenery = CaseScene(case, [0, 3]).scenery(3)
-        np.testing.assert_allclose(case.objects[0].positions(1)[1], [0.0, 0.5, 0.1], atol=1e-15)
-        np.testing.assert_allclose(case.objects[1].positions(3)[2], [0.0, 0.5, 0.6], atol=1e-15)
-        self.assertEqual((scenery.x.shape, scenery.ground.any()), ((7, 3), False))
 
     def test_short_films_are_slowed_by_a_plain_number(self) -> None:
         self.assertEqual(
@@ -120,6 +107,13 @@ class Pictures(unittest.TestCase):
 
 class Fields(WithCase):
     """Fields against what is known of a sheet of two triangles that folds."""
+
+    def test_an_object_turns_and_moves_by_its_pose_or_deforms(self) -> None:
+        case = self.case()
+        scenery = CaseScene(case, [0, 3]).scenery(3)
+        np.testing.assert_allclose(case.objects[0].positions(1)[1], [0.0, 0.5, 0.1], atol=1e-15)
+        np.testing.assert_allclose(case.objects[1].positions(3)[2], [0.0, 0.5, 0.6], atol=1e-15)
+        np.testing.assert_array_equal(scenery.ground, [False] * 7 + [True] * 4)
 
     def test_values_are_those_of_the_definitions(self) -> None:
         values, x = all_values(self.case()), self.case().every_frame("positions")
@@ -184,24 +178,24 @@ class Fields(WithCase):
         self.assertEqual(plot_diagnostics(self.case(), "fold", self.root), [])
 
     def test_contacts_are_shown_in_the_frame_that_has_most(self) -> None:
-        def captions() -> list[str]:
-            return [caption for caption, _ in plot_contacts(self.case(), "fold", self.root)]
-        with h5py.File(self.path, "r+") as file:
-            file["frames/object_distance"][...] = [
-                [9.0] * 4, [9.0, 0.1, -0.1, 0.2], [9.0, 9.0, 9.0, 0.1], [9.0] * 4
-            ]
+        def caption(*last: float) -> str:
+            """Of the map of the case whose last frame has these distances."""
+            with h5py.File(self.path, "r+") as file:
+                file["frames/object_distance"][...] = [
+                    [9.0] * 4, [9.0, 0.1, -0.1, 0.2], [9.0, 9.0, 9.0, 0.1], last
+                ]
+            ((words, _),) = plot_contacts(self.case(), "fold", self.root)
+            return words
         self.assertRegex(
-            captions()[0], "objects at 1 s, .* 1 of 4 particles are inside, by at most 0.1 m"
+            caption(9.0, 9.0, 9.0, 9.0),
+            "objects at 1 s, .* 1 of 4 particles are inside, by at most 0.1 m"
         )
-        with h5py.File(self.path, "r+") as file:
-            file["frames/object_distance"][3] = [9.0, 0.1, 0.1, 0.2]
         self.assertRegex(
-            captions()[0],
-            f"objects at {self.case().frame_times[3]:g} s, .* No particle is inside by more",
+            caption(9.0, 0.1, 0.1, 0.2), "objects at 3 s, .* No particle is inside by more"
         )
         with h5py.File(self.path, "r+") as file:
             file["frames/object_distance"][...] = 9.0
-        self.assertEqual(captions(), [])
+        self.assertEqual(plot_contacts(self.case(), "fold", self.root), [])
 
 
 def unpacked(text: str) -> tuple[dict, dict[str, np.ndarray]]:
@@ -224,40 +218,19 @@ def unpacked(text: str) -> tuple[dict, dict[str, np.ndarray]]:
     return header, arrays
 
 
-ASK_THE_VIEW = """(async () => {
+ASK_THE_VIEW = in_the_view("""
   const problems = [], told = { problems };
   addEventListener("error", (event) => problems.push(event.message));
   addEventListener("unhandledrejection", (event) => problems.push(String(event.reason)));
   console.warn = console.error = (text) => problems.push(String(text));
-  const figure = document.querySelector("figure.view");
-  const wait = (ms) => new Promise((done) => setTimeout(done, ms));
-  const drawn = async (count) => {
-    for (let k = 0; k < 400 && !(figure.dataset.drawn >= count); ++k) await wait(50);
-  };
-  const press = (key) =>
-    figure.querySelector("canvas").dispatchEvent(new KeyboardEvent("keydown", { key }));
-  const seen = () => {
-    const copy = document.createElement("canvas"), pen = copy.getContext("2d");
-    Object.assign(copy, { width: 80, height: 60 });
-    pen.drawImage(figure.querySelector("canvas"), 0, 0, 80, 60);
-    return Array.from(pen.getImageData(0, 0, 80, 60).data);
-  };
-  const after = async (act) => {                        // what is seen once the act has been drawn
-    const before = Number(figure.dataset.drawn);
-    act();
-    await drawn(before + 1);
-    return seen();
-  };
   const differ = (a, b) => a.filter((value, k) => Math.abs(value - b[k]) > 8).length;
-  figure.scrollIntoView();
   figure.querySelector(".open-view").click();
   await drawn(6);                                       // it plays
   press(" ");
   await wait(300);
   told.drawn = Number(figure.dataset.drawn);
-  const slider = figure.querySelector("input[type=range]");
   const colours = figure.querySelector("select");
-  const first = await after(() => { slider.value = 0; slider.dispatchEvent(new Event("input")); });
+  const first = await after(() => show(0));
   told.covered = first.filter((value, k) => k % 4 === 3 && value > 128).length;
   told.time = figure.querySelector("output").textContent;
   const turned = await after(() => press("ArrowLeft"));
@@ -271,7 +244,21 @@ ASK_THE_VIEW = """(async () => {
   press("Escape");
   told.closed = !figure.querySelector("canvas") && !figure.classList.contains("running");
   return told;
-})()"""
+""")
+ASK_FOR_REST = in_the_view("""
+  figure.querySelector(".open-view").click();
+  await drawn(1);
+  await wait(700);
+  return [figure.querySelector(".play").textContent,
+          figure.querySelector("input").value, figure.dataset.frame];
+""")
+ASK_WITHOUT_WEBGL = in_the_view("""
+  HTMLCanvasElement.prototype.getContext = () => null;
+  figure.querySelector(".open-view").click();
+  while (!figure.querySelector(".no-view")) await wait(50);
+  return [figure.querySelector(".no-view").textContent,
+          figure.querySelector("img").offsetHeight > 50];
+""")
 
 
 class ViewInThePage(WithCase):
@@ -362,30 +349,10 @@ class ViewInThePage(WithCase):
         page = make_report(self.root, self.root / "report.html", self.root / "figures")
         with Browser() as browser:
             browser.open(page, still=True)
-            still = browser.evaluate(
-                """(async () => {
-              const figure = document.querySelector("figure.view");
-              figure.scrollIntoView();
-              figure.querySelector(".open-view").click();
-              while (!figure.dataset.drawn) await new Promise((done) => setTimeout(done, 50));
-              await new Promise((done) => setTimeout(done, 700));
-              return [figure.querySelector(".play").textContent,
-                      figure.querySelector("input").value, figure.dataset.frame];
-            })()"""
-            )
-            self.assertEqual((still[0], still[1]), ("Play", still[2]))
+            still = browser.evaluate(ASK_FOR_REST)
             browser.open(page)
-            told = browser.evaluate(
-                """(async () => {
-              HTMLCanvasElement.prototype.getContext = () => null;
-              const figure = document.querySelector("figure.view");
-              figure.querySelector(".open-view").click();
-              while (!figure.querySelector(".no-view"))
-                await new Promise((done) => setTimeout(done, 50));
-              return [figure.querySelector(".no-view").textContent,
-                      figure.querySelector("img").offsetHeight > 50];
-            })()"""
-            )
+            told = browser.evaluate(ASK_WITHOUT_WEBGL)
+        self.assertEqual((still[0], still[1]), ("Play", still[2]))
         self.assertEqual(told, ["Only the picture: no WebGL 2", True])
 
 

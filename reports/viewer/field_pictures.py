@@ -50,8 +50,7 @@ def make_field_view(case: Case, name: str, folder: Path, most: int) -> FieldView
     fields = fields_of(case, frames)
     rows = [row for row, frame in enumerate(frames) if frame in chosen] or [0]
     field, row = most_telling(fields, rows, edges_of(case.triangles)) or (
-        None,
-        rows[len(rows) // 2],
+        None, rows[len(rows) // 2]
     )
     frame = frames[row]
     picture = without_empty_lines(
