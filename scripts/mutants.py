@@ -34,7 +34,7 @@ PYTHON_TESTS = {
     "EvaluateTest": ROOT / "scripts/tests/test_evaluate.py",
     "ResumeTest": ROOT / "scripts/tests/test_resume.py",
     "CampaignTest": ROOT / "scripts/tests/test_campaign.py",
-    "SlicesTest": ROOT / "scripts/tests/test_slices.py",
+    "SlicesTest": ROOT / "scripts/tests/test_campaign.py",
     "Judge": ROOT / "scripts/tests/test_judge.py",
     "JudgeFrames": ROOT / "scripts/tests/test_judge_frames.py",
     "SolverTest": ROOT / "scripts/tests/test_converge_solver.py",

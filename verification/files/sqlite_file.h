@@ -49,8 +49,8 @@ class SqliteFile {
   /// Runs statements without results.
   void run(const std::string& sql);
 
-  /// Ends a transaction without its changes. SQLite does so itself where the disk is full, and then
-  /// this does nothing.
+  /// Ends a transaction, if there is one, without its changes. SQLite does so itself where the disk
+  /// is full.
   void roll_back();
 
   SqliteQuery query(const std::string& sql);
@@ -61,6 +61,21 @@ class SqliteFile {
  private:
   std::string path_;
   std::shared_ptr<sqlite3> database_;
+};
+
+/// What is changed while it lives is kept by commit(), and else undone.
+class SqliteTransaction {
+ public:
+  /// begin: the statement, as "begin" for a transaction that only reads at first.
+  SqliteTransaction(SqliteFile& file, const std::string& begin) : file_(file) { file.run(begin); }
+  ~SqliteTransaction() { file_.roll_back(); }
+  SqliteTransaction(const SqliteTransaction&) = delete;
+  SqliteTransaction& operator=(const SqliteTransaction&) = delete;
+
+  void commit() { file_.run("commit"); }
+
+ private:
+  SqliteFile& file_;
 };
 
 }  // namespace foldproof

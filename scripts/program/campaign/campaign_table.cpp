@@ -74,9 +74,9 @@ CampaignTable campaign_table(OpenCampaign& of) {
   const std::map<std::string, int> starts = of.index.open_starts();
   std::vector<std::optional<JobResult>> results;
   std::set<std::string> names;
-  const JobIndex::Reading reading(of.index);
+  const SqliteTransaction reading = of.index.reading();
   for (size_t i = 0; i < of.campaign.root.jobs; ++i) {
-    const std::vector<Assignment> set = assignments_of(of, i);
+    const std::vector<Assignment> set = job_assignments(of.campaign, i);
     const std::string key = of.keys.key_of(set);
     results.push_back(of.index.find(key));
     table.keys.push_back(key);

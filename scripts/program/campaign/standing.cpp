@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "scripts/program/campaign/engine.h"
-#include "scripts/program/campaign/scripted.h"
+#include "scripts/program/campaign/run_job.h"
+#include "scripts/program/campaign/slurm.h"
+#include "scripts/program/campaign/work.h"
 #include "scripts/program/command_line/input_files.h"
 #include "scripts/program/command_line/suggestions.h"
 #include "scripts/program/data_folder.h"
@@ -50,23 +51,17 @@ std::string case_of_campaign(const std::string& folder, const std::string& name)
   return fs::absolute(case_file(name)).string();
 }
 
-bool is_known_command(const std::string& run) {
-  return std::ranges::count(campaign_commands(), run) > 0;
-}
-
 /// A first job that cannot be read would be refused a thousand times.
 void reject_unreadable_case(OpenCampaign& of) {
-  const std::vector<Assignment> first = assignments_of(of, 0);
+  const std::vector<Assignment> first = job_assignments(of.campaign, 0);
   if (of.campaign.run == "simulate" && of.keys.case_file_of(first).empty())
     throw InputError(of.campaign.file + ": needs the key 'case', a case file or a shipped case");
   static_cast<void>(of.keys.key_of(first));
 }
 
-/// One without a handle is being submitted right now; or its program died before or after the
-/// engine took it, which the engine knows.
 bool is_live(const Batch& batch) {
-  if (batch.handle.empty() && is_marked_alive(batch)) return true;
-  return batch.engine != emitted && engine_named(batch.engine).ask(batch) != BatchState::has_ended;
+  return FileLock::is_held(lock_of_slice(batch, 0)) ||
+         (batch.engine == "slurm" && slurm_has(batch));
 }
 
 std::set<std::string> keys_in(const std::vector<Batch>& batches) {
@@ -77,14 +72,22 @@ std::set<std::string> keys_in(const std::vector<Batch>& batches) {
   return keys;
 }
 
+/// Whether a result answers what the campaign asks: frames that it wants may be missing.
+bool answers(const OpenCampaign& of, const JobResult& result) {
+  if (of.campaign.run != "simulate" || !result.kept.empty()) return true;
+  return of.campaign.keep == Keep::none ||
+         (of.campaign.keep == Keep::failures && result.end == JobEnd::holds);
+}
+
 }  // namespace
 
 OpenCampaign open_campaign(const std::string& file, const std::string& out) {
   const std::string path = campaign_file(file);
   Campaign campaign = read_campaign(path);
-  if (!is_known_command(campaign.run))
+  const std::vector<std::string> known = campaign_commands();
+  if (std::ranges::count(known, campaign.run) == 0)
     throw InputError(fmt::format("{}: run = \"{}\" is no command of a campaign; known: {}", path,
-                                 campaign.run, fmt::join(campaign_commands(), ", ")));
+                                 campaign.run, fmt::join(known, ", ")));
   const std::string beside = fs::absolute(path).parent_path().string();
   const std::string program = program_digest();
   const std::string store = fs::absolute(out + "/store").string();
@@ -99,23 +102,19 @@ OpenCampaign open_campaign(const std::string& file, const std::string& out) {
   return of;
 }
 
-std::vector<Assignment> assignments_of(OpenCampaign& of, size_t i) {
-  return job_assignments(of.campaign, i);
-}
-
-std::string label_of(const OpenCampaign& of, const std::vector<Assignment>& set) {
-  std::string label;
-  for (const Assignment& a : set)
-    if (std::ranges::binary_search(of.varied, a.key))
-      label += (label.empty() ? "" : " ") + a.key + "=" + a.value;
-  return label.empty() ? of.campaign.name : label;
+BatchTerms OpenCampaign::terms() const {
+  return {store,         campaign.name,   campaign.run, campaign.quantities,
+          campaign.keep, campaign.limits, program};
 }
 
 BatchJob batch_job(OpenCampaign& of, size_t i) {
   BatchJob job;
-  job.set = assignments_of(of, i);
+  job.set = job_assignments(of.campaign, i);
   job.key = of.keys.key_of(job.set);
-  job.label = label_of(of, job.set);
+  for (const Assignment& a : job.set)
+    if (std::ranges::binary_search(of.varied, a.key))
+      job.label += (job.label.empty() ? "" : " ") + a.key + "=" + a.value;
+  if (job.label.empty()) job.label = of.campaign.name;
   const std::string file = of.keys.case_file_of(job.set);
   for (Assignment& a : job.set)
     if (a.key == "case") a.value = file;
@@ -126,12 +125,6 @@ size_t Standing::done() const {
   size_t all = 0;
   for (const auto& [end, count] : ended) all += count;
   return all;
-}
-
-bool answers(const OpenCampaign& of, const JobResult& result) {
-  if (of.campaign.run != "simulate" || !result.kept.empty()) return true;
-  return of.campaign.keep == Keep::none ||
-         (of.campaign.keep == Keep::failures && result.end == JobEnd::holds);
 }
 
 std::vector<Batch> live_batches(const std::string& store) {
@@ -151,9 +144,9 @@ Standing stand(OpenCampaign& of, const std::function<void(const BatchJob&)>& tak
   of.index.merge();  // after batches were asked: what ended since then is in their shards
   const std::map<std::string, int> starts = of.index.open_starts();
   std::set<std::string> asked;  // a job may be stated twice
-  const JobIndex::Reading reading(of.index);
+  const SqliteTransaction reading = of.index.reading();
   for (size_t i = 0; i < of.campaign.root.jobs; ++i) {
-    const std::string key = of.keys.key_of(assignments_of(of, i));
+    const std::string key = of.keys.key_of(job_assignments(of.campaign, i));
     const std::optional<JobResult> result = of.index.find(key);
     if (result && answers(of, *result)) {
       ++standing.ended[result->end];
