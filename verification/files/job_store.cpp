@@ -139,26 +139,16 @@ void JobIndex::open(const std::string& path) {
 
 bool JobIndex::add_result(const std::string& key, const std::string& content,
                           const JobResult& result, const std::string& shard) {
-  database_
-      ->query("insert into results values(?, ?, ?, ?, ?, ?, ?, ?, ?) on conflict(key) do nothing")
-      .bind(key)
-      .bind(content)
-      .bind(name_of(result.end))
-      .bind(result.seconds)
-      .bind(result.bytes)
-      .bind(result.kept)
-      .bind(result.host)
-      .bind(result.date)
-      .bind(result.commit)
-      .run();
+  SqliteQuery add = database_->query(
+      "insert into results values(?, ?, ?, ?, ?, ?, ?, ?, ?) on conflict(key) do nothing");
+  add.bind(key, content, name_of(result.end), result.seconds, result.bytes);
+  add.bind(result.kept, result.host, result.date, result.commit).run();
   if (database_->changes() > 0) return true;
-  database_->query("insert or ignore into repeated values(?, ?)").bind(key).bind(shard).run();
+  database_->query("insert or ignore into repeated values(?, ?)").bind(key, shard).run();
   SqliteQuery first = database_->query("select content from results where key = ?");
   if (first.bind(key).next() && first.text(0) != content)
     database_->query("insert or ignore into conflicts values(?, ?, ?)")
-        .bind(key)
-        .bind(shard)
-        .bind(content)
+        .bind(key, shard, content)
         .run();
   return false;
 }
@@ -169,8 +159,7 @@ bool JobIndex::add_line(const std::string& line, const std::string& shard) {
     if (record.contains("units")) {
       for (const auto& [name, unit] : record.at("units").items())
         database_->query("insert or ignore into units values(?, ?)")
-            .bind(name)
-            .bind(unit.get<std::string>())
+            .bind(name, unit.get<std::string>())
             .run();
       return false;
     }
@@ -182,8 +171,7 @@ bool JobIndex::add_line(const std::string& line, const std::string& shard) {
         ->query(
             "insert into open_starts values(?, ?) "
             "on conflict(key) do update set count = count + excluded.count")
-        .bind(key)
-        .bind(is_start ? 1L : -1L)
+        .bind(key, is_start ? 1L : -1L)
         .run();
     return is_new;
   } catch (const json::exception&) {  // torn by a full disk, or none of ours
@@ -200,7 +188,7 @@ long JobIndex::merge_shard(const std::string& path, const std::string& name) {
   long added = 0;
   const auto end = read_whole_lines(
       path, std::uint64_t(read), [&](const std::string& line) { added += add_line(line, name); });
-  database_->query("insert or replace into shards values(?, ?)").bind(name).bind(long(end)).run();
+  database_->query("insert or replace into shards values(?, ?)").bind(name, long(end)).run();
   return added;
 }
 

@@ -15,9 +15,11 @@ class SqliteQuery {
  public:
   SqliteQuery(sqlite3* database, const std::string& path, const std::string& sql);
 
-  SqliteQuery& bind(const std::string& text);
-  SqliteQuery& bind(double number);
-  SqliteQuery& bind(long number);
+  template <class... Values>
+  SqliteQuery& bind(const Values&... values) {
+    (bind_one(values), ...);
+    return *this;
+  }
 
   /// The next row; false after the last one, when the statement is ready to be bound anew.
   bool next();
@@ -35,6 +37,11 @@ class SqliteQuery {
   long whole(int column) const;
 
  private:
+  void bind_one(const std::string& text);
+  void bind_one(double number);
+  void bind_one(long number);
+  void require_bound(int result) const;
+
   std::string path_;
   std::shared_ptr<sqlite3_stmt> statement_;
   int bound_ = 0;

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "scripts/program/json_text.h"
 
@@ -14,18 +16,14 @@ namespace {
 
 constexpr size_t most_reasons = 5;
 
-struct Reason {
-  JobEnd end;
-  std::string words;
-  size_t count;
-};
-
-/// The commonest first.
-std::vector<Reason> commonest_reasons(const Standing& standing) {
-  std::vector<Reason> reasons;
-  for (const auto& [of, count] : standing.reasons) reasons.push_back({of.first, of.second, count});
-  std::ranges::stable_sort(reasons, std::greater(), &Reason::count);
-  if (reasons.size() > most_reasons) reasons.resize(most_reasons);
+/// End, words and count of what does not hold, the commonest first.
+std::vector<std::tuple<std::string, std::string, size_t>> commonest_reasons(
+    const Standing& standing) {
+  std::vector<std::tuple<std::string, std::string, size_t>> reasons;
+  for (const auto& [of, count] : standing.reasons)
+    reasons.emplace_back(name_of(of.first), of.second, count);
+  std::ranges::stable_sort(reasons, std::greater(), [](const auto& r) { return std::get<2>(r); });
+  reasons.resize(std::min(reasons.size(), most_reasons));
   return reasons;
 }
 
@@ -55,20 +53,14 @@ std::string html(const std::string& text) {
   return escaped;
 }
 
-std::string clock_left(double seconds) {
-  if (std::isnan(seconds)) return "";
-  return seconds < 90 ? fmt::format("{:.0f} s left", seconds)
-                      : fmt::format("{:.0f} min left", seconds / 60);
-}
-
 }  // namespace
 
 std::string standing_text(OpenCampaign& of, const Standing& standing) {
   std::string text = fmt::format("{}: {} jobs", of.campaign.name, of.campaign.root.jobs);
   for (const auto& [name, count] : counts_of(standing)) text += fmt::format(", {} {}", count, name);
   text += fmt::format("; {:.3g} s of processor time{}\n", standing.seconds, work_left(standing));
-  for (const Reason& reason : commonest_reasons(standing))
-    text += fmt::format("  {} {}: {}\n", reason.count, name_of(reason.end), reason.words);
+  for (const auto& [end, words, count] : commonest_reasons(standing))
+    text += fmt::format("  {} {}: {}\n", count, end, words);
   const auto conflicts = of.index.conflicts();
   if (!conflicts.empty())
     text += fmt::format(
@@ -82,9 +74,8 @@ std::string standing_json(OpenCampaign& of, const Standing& standing) {
   using nlohmann::json;
   json ended = json::object(), reasons = json::array();
   for (const auto& [end, count] : standing.ended) ended[name_of(end)] = count;
-  for (const Reason& reason : commonest_reasons(standing))
-    reasons.push_back(
-        {{"outcome", name_of(reason.end)}, {"reason", reason.words}, {"jobs", reason.count}});
+  for (const auto& [end, words, count] : commonest_reasons(standing))
+    reasons.push_back({{"outcome", end}, {"reason", words}, {"jobs", count}});
   return json_text({{"campaign", of.campaign.name},
                     {"jobs", of.campaign.root.jobs},
                     {"done", standing.done()},
@@ -104,8 +95,9 @@ std::string watch_line(const OpenCampaign& of, const Standing& standing, double 
       fmt::format("{}: {} of {} done", of.campaign.name, standing.done(), of.campaign.root.jobs);
   for (const auto& [name, count] : counts_of(standing))
     if (name != "holds") line += fmt::format(", {} {}", count, name);
-  const std::string left = clock_left(seconds_left);
-  return left.empty() ? line : line + "; " + left;
+  if (std::isnan(seconds_left)) return line;
+  return line + (seconds_left < 90 ? fmt::format("; {:.0f} s left", seconds_left)
+                                   : fmt::format("; {:.0f} min left", seconds_left / 60));
 }
 
 std::string watch_page(const OpenCampaign& of, const Standing& standing, double seconds_left) {
@@ -113,9 +105,9 @@ std::string watch_page(const OpenCampaign& of, const Standing& standing, double 
   std::string rows;
   for (const auto& [name, count] : counts_of(standing))
     rows += fmt::format("<tr><td>{}<td>{}<td>\n", html(name), count);
-  for (const Reason& reason : commonest_reasons(standing))
-    rows += fmt::format("<tr><td>{}<td>{}<td>{}\n", html(name_of(reason.end)), reason.count,
-                        html(reason.words));
+  for (const auto& [end, words, count] : commonest_reasons(standing))
+    rows += fmt::format("<tr><td>{}<td>{}<td>{}\n", html(end), count, html(words));
+  const size_t done = standing.done(), jobs = of.campaign.root.jobs;
   return fmt::format(
       "<!doctype html>\n<meta charset=\"utf-8\">{}\n<title>{} of {}: {}</title>\n"
       "<style>body{{font:16px/1.5 sans-serif;max-width:50em;margin:2em auto;padding:0 "
@@ -123,9 +115,8 @@ std::string watch_page(const OpenCampaign& of, const Standing& standing, double 
       "0;vertical-align:top}}td:nth-child(2){{text-align:right}}</style>\n"
       "<h1>{}</h1>\n<progress value=\"{}\" max=\"{}\"></progress>\n<p>{}\n"
       "<table>\n{}</table>\n",
-      standing.elsewhere > 0 ? "\n<meta http-equiv=\"refresh\" content=\"2\">" : "",
-      standing.done(), of.campaign.root.jobs, title, title, standing.done(), of.campaign.root.jobs,
-      html(watch_line(of, standing, seconds_left)), rows);
+      standing.elsewhere > 0 ? "\n<meta http-equiv=\"refresh\" content=\"2\">" : "", done, jobs,
+      title, title, done, jobs, html(watch_line(of, standing, seconds_left)), rows);
 }
 
 }  // namespace foldproof
