@@ -12,7 +12,6 @@
 #include "scripts/program/campaign/campaign_table.h"
 #include "scripts/program/campaign/run_job.h"
 #include "scripts/program/campaign/standing.h"
-#include "scripts/program/campaign/standing_text.h"
 #include "scripts/program/listing.h"
 #include "scripts/program/report_commands.h"
 #include "scripts/program/run_all.h"

@@ -11,7 +11,6 @@
 #include "scripts/program/campaign/campaign_commands.h"
 #include "scripts/program/campaign/slurm.h"
 #include "scripts/program/campaign/standing.h"
-#include "scripts/program/campaign/standing_text.h"
 #include "scripts/program/campaign/work.h"
 #include "scripts/program/command_line/typed_command.h"
 #include "scripts/program/data_folder.h"

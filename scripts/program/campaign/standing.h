@@ -1,4 +1,4 @@
-// Where a campaign stands: its jobs, and what the store knows of each.
+// Where a campaign stands: its jobs, what the store knows of each, and this in words.
 #pragma once
 
 #include <functional>
@@ -54,5 +54,17 @@ Standing stand(OpenCampaign& of, const std::function<void(const BatchJob&)>& tak
 
 /// Batches of all campaigns that are worked on, or are in a queue. Others are marked as ended.
 std::vector<Batch> live_batches(const std::string& store);
+
+/// Lines: counts, the work that is left, the commonest reasons of failures, conflicts.
+std::string standing_text(OpenCampaign& of, const Standing& standing);
+
+/// The same as JSON.
+std::string standing_json(OpenCampaign& of, const Standing& standing);
+
+/// One line: how many are done, run and are missing. seconds_left: of the clock; NaN: not known.
+std::string watch_line(const OpenCampaign& of, const Standing& standing, double seconds_left);
+
+/// The same as a page, with reasons, that loads itself again while jobs run.
+std::string watch_page(const OpenCampaign& of, const Standing& standing, double seconds_left);
 
 }  // namespace foldproof
