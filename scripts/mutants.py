@@ -29,7 +29,7 @@ PYTHON_TESTS = {
     name: ROOT / "scripts/tests" / f"{file}.py" for name, file in {
         "ProgramTest": "test_program", "SimulateTest": "test_simulate",
         "EvaluateTest": "test_evaluate", "ResumeTest": "test_resume",
-        "CampaignTest": "test_campaign", "SlicesTest": "test_slices", "Judge": "test_judge",
+        "CampaignTest": "test_campaign", "SlicesTest": "test_campaign", "Judge": "test_judge",
         "JudgeFrames": "test_judge_frames", "SolverTest": "test_converge_solver",
         "PrecisionSolverTest": "test_precision_solver"
     }.items()

@@ -85,6 +85,12 @@ std::vector<std::string> names_in_files(const KeyTable& asked, const std::string
   return names;
 }
 
+void require_few(double jobs, const KeyTable& keys, size_t most_jobs) {
+  if (!(jobs <= double(most_jobs)))
+    throw InputError(
+        fmt::format("{}: {:.3g} jobs; a campaign has at most {}", keys.where(), jobs, most_jobs));
+}
+
 /// The values of one parameter: a list, { from, to, count, spacing } or { folder, every }.
 std::vector<std::string> values_of(const KeyTable& table, const std::string& key,
                                    const Reading& reading) {
@@ -98,6 +104,7 @@ std::vector<std::string> values_of(const KeyTable& table, const std::string& key
     if (range->has("every")) return names_in_files(*range, reading.folder);
     const long count = range->integer("count");
     if (count < 2) throw InputError(range->where("count") + ": 'count' must be at least 2");
+    require_few(double(count), *range, reading.most_jobs);
     for (long k = 0; k < count; ++k)
       values.push_back(fmt::format("{}", spread_over(*range, double(k) / double(count - 1))));
   } else {
@@ -137,51 +144,27 @@ CampaignAxis zipped(const KeyTable& table, const Reading& reading) {
   return axis;
 }
 
-/// How many values an entry of [grid] or [[zip]] announces, before they are made.
-double announced(const KeyTable& table, const std::string& key) {
-  const KeyValue& entry = table.entries.at(key);
-  if (const auto* list = std::get_if<std::vector<KeyValue>>(&entry.data))
-    return double(list->size());
-  const auto* range = std::get_if<std::shared_ptr<KeyTable>>(&entry.data);
-  return range && (*range)->has("count") ? double((*range)->integer("count")) : 1;
-}
-
-void require_few(double jobs, const KeyTable& keys, size_t most_jobs) {
-  if (jobs > double(most_jobs))
-    throw InputError(
-        fmt::format("{}: {:.3g} jobs; a campaign has at most {}", keys.where(), jobs, most_jobs));
-}
-
-/// Refuses too many jobs before their values fill the memory.
-void require_few_announced(const KeyTable& keys, size_t most_jobs) {
-  double jobs = 1;
-  if (const auto grid = keys.table("grid"))
-    for (const auto& [key, value] : grid->entries) jobs *= announced(*grid, key);
-  for (const auto& zip : keys.tables("zip")) {
-    double rows = 1;
-    for (const auto& [key, value] : zip->entries) rows = std::max(rows, announced(*zip, key));
-    jobs *= rows;
-  }
-  if (const auto sample = keys.table("sample")) jobs *= double(sample->integer("count"));
-  require_few(jobs, keys, most_jobs);
-}
-
 CampaignBlock read_block(const KeyTable& keys, const Reading& reading) {
-  require_few_announced(keys, reading.most_jobs);
   CampaignBlock block;
   block.fixed = fixed_in(keys, reading);
+  double combinations = 1, parts = 0;
+  const auto add_axis = [&](const CampaignAxis& axis) {
+    block.axes.push_back(axis);
+    combinations *= double(axis.rows.size());
+    require_few(combinations, keys, reading.most_jobs);
+  };
   if (const auto grid = keys.table("grid"))
     for (const auto& [key, value] : grid->entries) {
       static_cast<void>(grid->has(key));
       CampaignAxis axis{{key}, {}, false};
       for (const std::string& text : values_of(*grid, key, reading)) axis.rows.push_back({text});
-      block.axes.push_back(axis);
+      add_axis(axis);
     }
-  for (const auto& table : keys.tables("zip")) block.axes.push_back(zipped(*table, reading));
-  if (const auto table = keys.table("sample")) block.axes.push_back(latin_hypercube(*table));
-  double combinations = 1, parts = 0;
-  for (const CampaignAxis& axis : block.axes) combinations *= double(axis.rows.size());
-  require_few(combinations, keys, reading.most_jobs);
+  for (const auto& table : keys.tables("zip")) add_axis(zipped(*table, reading));
+  if (const auto table = keys.table("sample")) {
+    require_few(double(table->integer("count")), *table, reading.most_jobs);
+    add_axis(latin_hypercube(*table));
+  }
   for (const auto& part : keys.tables("part")) {
     block.parts.push_back(read_block(*part, reading));
     parts += double(block.parts.back().jobs);
@@ -256,18 +239,16 @@ void add_assignments(const CampaignBlock& block, size_t i, std::map<std::string,
 }
 
 void add_parameters(const CampaignBlock& block, bool is_one_of_several,
-                    std::set<std::string>& names) {
+                    std::set<std::string>& varied, std::set<std::string>& sampled) {
   if (is_one_of_several)
-    for (const Assignment& a : block.fixed) names.insert(a.key);
-  for (const CampaignAxis& axis : block.axes) names.insert(axis.keys.begin(), axis.keys.end());
-  for (const CampaignBlock& part : block.parts)
-    add_parameters(part, is_one_of_several || block.parts.size() > 1, names);
-}
-
-void add_sampled(const CampaignBlock& block, std::set<std::string>& names) {
+    for (const Assignment& a : block.fixed) varied.insert(a.key);
   for (const CampaignAxis& axis : block.axes)
-    if (axis.is_sample) names.insert(axis.keys.begin(), axis.keys.end());
-  for (const CampaignBlock& part : block.parts) add_sampled(part, names);
+    for (const std::string& key : axis.keys) {
+      varied.insert(key);
+      if (axis.is_sample) sampled.insert(key);
+    }
+  for (const CampaignBlock& part : block.parts)
+    add_parameters(part, is_one_of_several || block.parts.size() > 1, varied, sampled);
 }
 
 std::map<std::string, std::string> read_names(const KeyTable& keys) {
@@ -295,14 +276,14 @@ std::string text_of(const KeyValue& value) {
   return toml_of(value);
 }
 
+std::string name_of(Keep keep) {
+  return keep == Keep::none ? "none" : keep == Keep::failures ? "failures" : "all";
+}
+
 Keep keep_named(const std::string& name) {
   for (const Keep keep : {Keep::none, Keep::failures, Keep::all})
     if (name == name_of(keep)) return keep;
   throw InputError("'" + name + "': keep none, failures or all");
-}
-
-std::string name_of(Keep keep) {
-  return keep == Keep::none ? "none" : keep == Keep::failures ? "failures" : "all";
 }
 
 Campaign read_campaign_text(const std::string& text, const std::string& path, size_t most_jobs) {
@@ -341,16 +322,16 @@ std::vector<Assignment> job_assignments(const Campaign& campaign, size_t i) {
   return sorted;
 }
 
-std::vector<std::string> sampled_parameters(const Campaign& campaign) {
-  std::set<std::string> names;
-  add_sampled(campaign.root, names);
-  return {names.begin(), names.end()};
+std::vector<std::string> varied_parameters(const Campaign& campaign) {
+  std::set<std::string> varied, sampled;
+  add_parameters(campaign.root, false, varied, sampled);
+  return {varied.begin(), varied.end()};
 }
 
-std::vector<std::string> varied_parameters(const Campaign& campaign) {
-  std::set<std::string> names;
-  add_parameters(campaign.root, false, names);
-  return {names.begin(), names.end()};
+std::vector<std::string> sampled_parameters(const Campaign& campaign) {
+  std::set<std::string> varied, sampled;
+  add_parameters(campaign.root, false, varied, sampled);
+  return {sampled.begin(), sampled.end()};
 }
 
 }  // namespace foldproof

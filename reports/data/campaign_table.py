@@ -14,16 +14,8 @@ from data.case_keys import unit_of_key, words_of_key
 from data.unreadable import Unreadable, reading
 
 WITH_VALUE = ("holds", "fails")  # outcomes of runs that came to their end
-OF_EVERY_RUN = (
-    "steps",
-    "end_time",
-    "cg_iterations",
-    "exit_code",
-    "repulsions",
-    "impulses",
-    "zone_particles",
-    "share_of_impulses",
-)
+OF_EVERY_RUN = ("steps", "end_time", "cg_iterations", "exit_code", "repulsions", "impulses",
+                "zone_particles", "share_of_impulses")
 NAMED_WITH_UNIT = re.compile(r"(.*\S)\s*\[([^\]]+)\]")
 MOST_FIGURES = 6  # of a campaign that names none
 
@@ -71,9 +63,8 @@ class CampaignTable:
     def commonest_reasons(self, most: int) -> list[tuple[str, str, int]]:
         """Outcome, reason and count of what does not hold. What a reason has in brackets, as the
         step at which a run diverged, is left out."""
-        said = Counter(
-            (o, r.split(" (")[0]) for o, r in zip(self.outcomes, self.reasons) if o != "holds"
-        )
+        said = Counter((o, r.split(" (")[0]) for o, r in zip(self.outcomes, self.reasons)
+                       if o != "holds")
         return [(*what, count) for what, count in said.most_common(most)]
 
 
@@ -90,27 +81,21 @@ def _table_of(said: dict[str, Any]) -> CampaignTable:
     numbers = [[np.nan if value is None else value for value in row] for row in said["values"]]
     table = np.array(numbers, dtype=float).reshape(len(outcomes), len(said["quantities"]))
     table[~ended] = np.nan
-    settings = {
-        name: [str(row[k]) for row in said["settings"]] for k, name in enumerate(said["parameters"])
-    }
-    values = {name: table[:, k] for k, name in enumerate(said["quantities"])}
     return CampaignTable(
-        {key: str(said[key]) for key in ("name", "title", "about", "run")},
-        [_figure_of(one) for one in said["figures"]],
-        said["findings"],
-        settings,
-        values,
-        said["units"],
-        said.get("names", {}),
-        said.get("sensitivities", []),
-        outcomes,
-        [str(reason) for reason in said["reasons"]],
-        np.array([np.nan if s is None else s for s in said["seconds"]], dtype=float),
+        about={key: str(said[key]) for key in ("name", "title", "about", "run")},
+        figures=[CampaignFigure(one["quantity"], tuple(one["over"]), one["title"],
+                                one["logarithmic"]) for one in said["figures"]],
+        findings=said["findings"],
+        settings={name: [str(row[k]) for row in said["settings"]]
+                  for k, name in enumerate(said["parameters"])},
+        values={name: table[:, k] for k, name in enumerate(said["quantities"])},
+        units=said["units"],
+        names=said.get("names", {}),
+        sensitivities=said.get("sensitivities", []),
+        outcomes=outcomes,
+        reasons=[str(reason) for reason in said["reasons"]],
+        seconds=np.array([np.nan if s is None else s for s in said["seconds"]], dtype=float),
     )
-
-
-def _figure_of(one: dict[str, Any]) -> CampaignFigure:
-    return CampaignFigure(one["quantity"], tuple(one["over"]), one["title"], one["logarithmic"])
 
 
 def figures_of(table: CampaignTable) -> list[CampaignFigure]:
@@ -118,13 +103,9 @@ def figures_of(table: CampaignTable) -> list[CampaignFigure]:
     the first parameters, at most three."""
     if table.figures:
         return table.figures
-    differ = [
-        name
-        for name, values in table.values.items()
-        if name not in OF_EVERY_RUN
-        and not name.startswith("expect.")
-        and len(np.unique(values[np.isfinite(values)])) > 1
-    ]
+    differ = [name for name, values in table.values.items()
+              if name not in OF_EVERY_RUN and not name.startswith("expect.")
+              and len(np.unique(values[np.isfinite(values)])) > 1]
     over = tuple(table.settings)[:3]
     return [CampaignFigure(name, over, "", False) for name in differ[:MOST_FIGURES] if over]
 
@@ -133,10 +114,8 @@ def require_columns(table: CampaignTable, figure: CampaignFigure) -> None:
     """Unreadable if the campaign does not vary a parameter, or no run has the quantity."""
     for name in figure.over:
         if name not in table.settings:
-            raise Unreadable(
-                f"the campaign does not vary '{name}'; it varies {', '.join(table.settings)}"
-            )
+            raise Unreadable(f"the campaign does not vary '{name}'; it varies "
+                             f"{', '.join(table.settings)}")
     if figure.quantity not in table.values and any(o in WITH_VALUE for o in table.outcomes):
-        raise Unreadable(
-            f"no run has the quantity '{figure.quantity}'; there are {', '.join(table.values)}"
-        )
+        raise Unreadable(f"no run has the quantity '{figure.quantity}'; there are "
+                         f"{', '.join(table.values)}")

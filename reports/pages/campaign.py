@@ -23,9 +23,8 @@ class ShownFigure:
     notes: list[str]
 
 
-def draw_figures(
-    table: CampaignTable, asked: list[CampaignFigure], folder: Path
-) -> list[ShownFigure]:
+def draw_figures(table: CampaignTable, asked: list[CampaignFigure],
+                 folder: Path) -> list[ShownFigure]:
     """Draws those that are asked for, else the campaign's; files go to `folder`. Unreadable for a
     parameter or a quantity that there is not."""
     use_style()
@@ -42,8 +41,5 @@ def render_campaign(table: CampaignTable, shown: list[ShownFigure]) -> str:
     """The page as one HTML text."""
     known = table.seconds[np.isfinite(table.seconds)]
     return new_environment().get_template("campaign.html.j2").render(
-        said=table,
-        shown=shown,
-        seconds=float(known.sum()),
-        reasons=table.commonest_reasons(MOST_REASONS),
-    )
+        said=table, shown=shown, seconds=float(known.sum()),
+        reasons=table.commonest_reasons(MOST_REASONS))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -18,30 +19,12 @@ from data.campaign_table import WITH_VALUE, CampaignFigure, CampaignTable
 from plots.campaign_layout import Layout, Levels, Panel, layout_of
 from plots.map_plots import COLOURS_OF_VALUES
 from plots.plot_style import (
-    COLOURS,
-    INK,
-    MARKERS,
-    MUTED,
-    PAPER,
-    Plot,
-    finish,
-    hatch,
-    label_axes,
-    new_figure,
-    say_in_the_middle,
-    scale_axis,
-    with_unit,
-)
+    COLOURS, INK, MARKERS, MUTED, PAPER, Plot, finish, hatch, label_axes, new_figure,
+    say_in_the_middle, scale_axis, with_unit)
 
 # of outcomes without a value; "missing" is hatched
-MARKS = {
-    "stopped": "x",
-    "refused": "s",
-    "timed out": "D",
-    "out of memory": "v",
-    "crashed": "P",
-    "missing": "1",
-}
+MARKS = {"stopped": "x", "refused": "s", "timed out": "D", "out of memory": "v", "crashed": "P",
+         "missing": "1"}
 MOST_CURVES, MOST_NAMED = 11, 8
 LETTER = 0.075  # width [inch], with the space around a tick's name shared out
 KEY = 0.4  # width of a legend's mark, with the space around it [inch]
@@ -51,9 +34,8 @@ ABOVE_PANELS = 0.2  # for the name of the colour bar [inch]
 SPARSE = 4  # places for each run beyond which a map becomes points
 
 
-def plot_campaign_figure(
-    table: CampaignTable, figure: CampaignFigure, name: str, folder: Path
-) -> list[Plot]:
+def plot_campaign_figure(table: CampaignTable, figure: CampaignFigure, name: str,
+                         folder: Path) -> list[Plot]:
     """A map where two parameters have enough values each, and curves where they are few enough to
     be told apart; at least one of the two."""
     layout = layout_of(table, figure)
@@ -108,16 +90,7 @@ def _draw_panels(layout: Layout, table: CampaignTable, values: np.ndarray, draw)
         axes = canvas.add_axes((left / width, bottom / height, wide / width, high / height))
         label_axes(axes, *layout.labels[0], "", "1")
         draw(Drawing(axes, layout, panel, values, table.outcomes, norm))
-        axes.annotate(
-            panel.title,
-            (1.0, 1.0),
-            xycoords="axes fraction",
-            xytext=(0, 18),  # above the axis's label
-            textcoords="offset points",
-            ha="right",
-            va="bottom",
-            color=MUTED,
-        )
+        _say_above(axes, panel.title, (0, 18), MUTED)  # above the axis's label
     if draw is _draw_map and np.isfinite(values).any():
         _draw_colour_bar(canvas, layout, norm, (columns * across + 0.2) / width)
     _draw_legend(canvas, layout, table, draw is _draw_curves)
@@ -141,16 +114,13 @@ def _draw_colour_bar(canvas: Figure, layout: Layout, norm: Normalize, left: floa
     scale = "log" if layout.figure.is_logarithmic else "linear"
     scale_axis(axes, "y", scale, np.array([norm.vmin, norm.vmax]))
     axes.set_ylim(norm.vmin, norm.vmax)
-    axes.annotate(
-        with_unit(*layout.value),
-        (1.0, 1.0),
-        xycoords="axes fraction",
-        xytext=(38, 27),  # above the titles of panels
-        textcoords="offset points",
-        ha="right",
-        va="bottom",
-        color=INK,
-    )
+    _say_above(axes, with_unit(*layout.value), (38, 27), INK)  # above the titles of panels
+
+
+def _say_above(axes: Axes, words: str, offset: tuple[float, float], colour: str) -> None:
+    """Words that end above the upper right corner; offset in points."""
+    axes.annotate(words, (1.0, 1.0), xycoords="axes fraction", xytext=offset,
+                  textcoords="offset points", ha="right", va="bottom", color=colour)
 
 
 def key_columns(layout: Layout, width: float) -> int:
@@ -164,42 +134,21 @@ def _draw_legend(canvas: Figure, layout: Layout, table: CampaignTable, has_curve
     seen = {table.outcomes[job] for job in jobs}
     keys = []
     if has_curves and len(layout.figure.over) > 1:
-        keys = [
-            Line2D([], [], color=COLOURS[k], marker=MARKERS[k], markersize=4, label=text)
-            for k, text in enumerate(layout.y.named())
-        ]
-    if "fails" in seen:
-        keys.append(_key("o", "fails", "none"))
-    keys += [_key(mark, o, face_of(o)) for o, mark in MARKS.items() if o in seen]
+        keys = [Line2D([], [], color=COLOURS[k], marker=MARKERS[k], markersize=4, label=text)
+                for k, text in enumerate(layout.y.named())]
+    ends = [("o", "fails", "none"), *((mark, o, face_of(o)) for o, mark in MARKS.items())]
+    keys += [Line2D([], [], linestyle="none", marker=mark, label=outcome, **_pen(face))
+             for mark, outcome, face in ends if outcome in seen]
     if not keys:
         return
     title = with_unit(*layout.labels[1]) if has_curves and len(layout.labels) > 1 else None
-    canvas.legend(
-        handles=keys,
-        title=title,
-        loc="lower left",
-        bbox_to_anchor=(0.01, 0.0),
-        ncol=key_columns(layout, canvas.get_figwidth()),
-        frameon=False,
-        fontsize=7.4,
-        title_fontsize=7.4,
-        handletextpad=0.4,
-        columnspacing=1.2,
-        alignment="left",
-    )
+    canvas.legend(handles=keys, title=title, loc="lower left", bbox_to_anchor=(0.01, 0.0),
+                  ncol=key_columns(layout, canvas.get_figwidth()), frameon=False, fontsize=7.4,
+                  title_fontsize=7.4, handletextpad=0.4, columnspacing=1.2, alignment="left")
 
 
-def _key(mark: str, label: str, face: str) -> Line2D:
-    return Line2D(
-        [],
-        [],
-        linestyle="none",
-        marker=mark,
-        markersize=5,
-        markeredgecolor=INK,
-        markerfacecolor=face,
-        label=label,
-    )
+def _pen(face: str) -> dict[str, Any]:
+    return {"markersize": 5, "markeredgecolor": INK, "markerfacecolor": face}
 
 
 # ---- a map ---------------------------------------------------------------------------------------
@@ -221,24 +170,15 @@ def _draw_map(drawing: Drawing) -> None:
     cells = cells_of(layout, drawing.panel, drawing.values)
     for (x, y), jobs in drawing.panel.jobs.items():
         for mark, face in marks_of(drawing, jobs):
-            axes.plot(
-                x, y, mark, markersize=5, markeredgecolor=INK, markerfacecolor=face, zorder=3
-            )
+            axes.plot(x, y, mark, zorder=3, **_pen(face))
     hatch(axes)
     for (x, y), jobs in drawing.panel.jobs.items():
         if not np.isfinite(cells[y, x]):  # its mark stands on paper; hatched is what no job asks
-            axes.add_patch(
-                Rectangle((x - 0.5, y - 0.5), 1, 1, facecolor=PAPER, linewidth=0.0, zorder=0.7)
-            )
-    axes.pcolormesh(
-        np.arange(cells.shape[1] + 1) - 0.5,
-        np.arange(cells.shape[0] + 1) - 0.5,
-        np.ma.masked_invalid(cells),
-        cmap=COLOURS_OF_VALUES,
-        norm=drawing.norm,
-        rasterized=True,
-        zorder=1,
-    )
+            axes.add_patch(Rectangle((x - 0.5, y - 0.5), 1, 1, facecolor=PAPER, linewidth=0.0,
+                                     zorder=0.7))
+    across, up = (np.arange(count + 1) - 0.5 for count in cells.shape[::-1])
+    axes.pcolormesh(across, up, np.ma.masked_invalid(cells), cmap=COLOURS_OF_VALUES,
+                    norm=drawing.norm, rasterized=True, zorder=1)
     _name_places(axes, "x", layout.x)
     _name_places(axes, "y", layout.y)
 
@@ -281,7 +221,7 @@ def _draw_points(drawing: Drawing) -> None:
         axes.scatter(x[known], y[known], 14, values[known], linewidths=0, **colours)
     for k, jobs in enumerate(drawing.panel.jobs.values()):
         for mark, face in marks_of(drawing, jobs):
-            axes.plot(x[k], y[k], mark, markersize=5, markeredgecolor=INK, markerfacecolor=face)
+            axes.plot(x[k], y[k], mark, **_pen(face))
 
 
 # ---- curves --------------------------------------------------------------------------------------
@@ -316,30 +256,17 @@ def _draw_curve(drawing: Drawing, k: int, places: np.ndarray) -> None:
     medians = [(places[x], median_of(drawing.values[jobs])) for x, jobs in cells]
     known = [(x, value) for x, value in medians if np.isfinite(value)]
     joined = "none" if len(places) > 40 else "solid"  # samples are not joined
-    axes.plot(
-        [x for x, _ in known],
-        [value for _, value in known],
-        linestyle=joined,
-        color=colour,
-        marker=MARKERS[k],
-        markersize=max(2.5, 6.5 - k),  # curves that lie on each other are all seen
-        linewidth=max(0.8, 2.4 - 0.4 * k),
-    )
+    # curves that lie on each other are all seen
+    axes.plot([x for x, _ in known], [value for _, value in known], linestyle=joined, color=colour,
+              marker=MARKERS[k], markersize=max(2.5, 6.5 - k), linewidth=max(0.8, 2.4 - 0.4 * k))
     for x, jobs in cells:
         for mark, face in marks_of(drawing, jobs):
             value = median_of(drawing.values[jobs])
-            is_known = np.isfinite(value)
-            axes.plot(
-                places[x],
-                value if is_known else 0.03 + 0.02 * (k % 2),
-                mark,
-                markersize=7 if face == "none" else 5,
-                markeredgecolor=INK if face == "none" else colour,
-                markerfacecolor=face,
-                transform=axes.transData if is_known else axes.get_xaxis_transform(),
-                scaley=False,
-                zorder=4,
-            )
+            where = axes.transData if np.isfinite(value) else axes.get_xaxis_transform()
+            size, edge = (7, INK) if face == "none" else (5, colour)
+            axes.plot(places[x], value if np.isfinite(value) else 0.03 + 0.02 * (k % 2), mark,
+                      markersize=size, markeredgecolor=edge, markerfacecolor=face,
+                      transform=where, scaley=False, zorder=4)
 
 
 # ---- both ----------------------------------------------------------------------------------------
@@ -355,11 +282,7 @@ def marks_of(drawing: Drawing, jobs: list[int]) -> list[tuple[str, str]]:
     """Marker and face of what the runs of a place came to, beside values that hold."""
     outcomes = {drawing.outcomes[job] for job in jobs}
     marks = [("o", "none")] if "fails" in outcomes else []
-    return marks + [
-        (mark, face_of(outcome))
-        for outcome, mark in MARKS.items()
-        if outcome in outcomes
-    ]
+    return marks + [(mark, face_of(end)) for end, mark in MARKS.items() if end in outcomes]
 
 
 def face_of(outcome: str) -> str:

@@ -3,9 +3,8 @@
 is lost.
 
 scripts/tests/test_campaign.py [--program FILE] [CampaignTest.test_...]
-
---program: another than build/foldproof
 """
+from __future__ import annotations
 
 import contextlib
 import csv
@@ -15,17 +14,18 @@ import re
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 import tomllib
 import unittest
 from collections import Counter
 from pathlib import Path
 
-import h5py
+sys.dont_write_bytecode = True
 
-ROOT = Path(__file__).resolve().parents[2]
-PROGRAM = Path(sys.argv.pop(2)) if sys.argv[1:2] == ["--program"] else ROOT / "build" / "foldproof"
+import h5py  # noqa: E402
+
+from campaign_case import CampaignCase, parent_of  # noqa: E402
+from program_case import ROOT, run  # noqa: E402
 
 GRID = """case = "hinge"
 [set]
@@ -44,60 +44,22 @@ LONG = """case = "hinge"
 "bending.stiffness" = { from = 1e-3, to = 2e-3, count = 12 }
 """
 
+# runs all elements of --array=0-LAST one after the other; the script comes last
+SBATCH = """#!/bin/sh
+for word; do case $word in --array=0-*) last=${word#--array=0-} ;; esac; done
+for k in $(seq 0 "$last"); do SLURM_ARRAY_TASK_ID=$k sh "$word" >>"$0.log" 2>&1; done
+"""
 
-def children_of(process: int) -> list[str]:
-    try:
-        return Path(f"/proc/{process}/task/{process}/children").read_text().split()
-    except OSError:  # it has just ended
-        return []
 
-
-class CampaignTest(unittest.TestCase):
-    def setUp(self) -> None:
-        self.folder = tempfile.TemporaryDirectory(prefix="foldproof test ")
-        self.path = Path(self.folder.name)
-        self.out = self.path / "out"
-
-    def tearDown(self) -> None:
-        self.folder.cleanup()
-
-    def write(self, text: str, name: str = "grid") -> str:
-        path = self.path / f"{name}.campaign.toml"
-        path.write_text(text)
-        return str(path)
-
-    def campaign(self, command: str, *arguments: str) -> subprocess.CompletedProcess[str]:
-        out = [] if "--out" in arguments or command == "work" else ["--out", str(self.out)]
-        return subprocess.run(
-            [str(PROGRAM), "campaign", command, *arguments, *out],
-            cwd=ROOT,
-            capture_output=True,
-            text=True,
-            check=False,
-        )
-
-    def status(self, file: str) -> dict:
-        return json.loads(self.campaign("status", file, "--json").stdout)
-
-    def rows(self, name: str = "grid") -> list[dict[str, str]]:
-        with open(
-            self.out / "campaigns" / name / "table.csv", newline="", encoding="utf-8"
-        ) as file:
-            return list(csv.DictReader(file))
-
-    def lines(self) -> list[dict]:
-        return [
-            json.loads(line)
-            for path in self.out.glob("store/batches/*/shards/**/*.jsonl")
-            for line in path.read_text().splitlines(keepends=True)
-            if line.endswith("\n")
-        ]
-
-    def result_lines(self) -> list[dict]:
-        return [line for line in self.lines() if "result" in line]
+class CampaignTest(CampaignCase):
+    def table(self, file: str) -> list[dict[str, str]]:
+        self.table_code = self.campaign("table", file).returncode
+        table = self.out / "campaigns/grid/table.csv"
+        with table.open(newline="", encoding="utf-8") as text:
+            return list(csv.DictReader(text))
 
     def test_a_grid_becomes_a_table(self) -> None:
-        file = self.write(GRID)
+        file = self.campaign_file(GRID)
         said = self.campaign("plan", file).stdout
         self.assertIn("6 jobs, 6 missing", said)
         sampled = [float(s) for s in re.findall(r"holds, ([-\de.]+) s\n", said)]
@@ -107,21 +69,18 @@ class CampaignTest(unittest.TestCase):
         self.assertAlmostEqual(one_core, 6 * sum(sampled) / len(sampled), delta=0.05 * one_core)
         self.assertAlmostEqual(many, max(sampled), delta=0.05 * many)
         self.assertEqual(self.campaign("run", file).returncode, 0)
-        self.assertEqual(self.campaign("table", file).returncode, 0)
-        rows = self.rows()
-        self.assertEqual(
-            [(row["bending.stiffness"], row["time.integrator"]) for row in rows],
-            [(k, method) for method in "AC" for k in ("0.001", "0.002", "0.003")],
-        )
+        rows = self.table(file)
+        self.assertEqual(self.table_code, 0)
+        self.assertEqual([(row["bending.stiffness"], row["time.integrator"]) for row in rows],
+                         [(k, method) for method in "AC" for k in ("0.001", "0.002", "0.003")])
         self.assertEqual({row["outcome"] for row in rows}, {"holds"})
         with h5py.File(self.out / "campaigns/grid/table.h5") as table:
-            self.assertEqual(
-                list(table["quantity/height"]), [float(row["height [m]"]) for row in rows]
-            )
+            self.assertEqual(list(table["quantity/height"]),
+                             [float(row["height [m]"]) for row in rows])
 
     def test_a_report_has_its_figures(self) -> None:
         figure = '[[figure]]\nquantity = "height"\nover = ["bending.stiffness"]\n'
-        file = self.write(GRID + figure)
+        file = self.campaign_file(GRID + figure)
         self.campaign("run", file)
         done = self.campaign("report", file)
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -130,99 +89,65 @@ class CampaignTest(unittest.TestCase):
         self.assertIn("height [m]", page)
 
     def test_a_row_is_what_simulate_says(self) -> None:
-        file = self.write(GRID)
+        file = self.campaign_file(GRID)
         self.campaign("run", file)
-        self.campaign("table", file)
-        alone = subprocess.run(
-            [
-                PROGRAM,
-                "simulate",
-                "hinge",
-                "--set",
-                "time.end=0.05",
-                "--set",
-                "bending.stiffness=2e-3",
-                "--set",
-                "time.integrator=A",
-                "--json",
-                "--out",
-                self.path / "alone",
-            ],
-            capture_output=True,
-            text=True,
-            check=True,
-            cwd=ROOT,
-        )
+        [row] = [row for row in self.table(file)
+                 if (row["bending.stiffness"], row["time.integrator"]) == ("0.002", "A")]
+        alone = run("simulate", "hinge", "--set", "time.end=0.05", "--set",
+                    "bending.stiffness=2e-3", "--set", "time.integrator=A", "--json", "--out",
+                    str(self.path / "alone"), folder=ROOT)
         said = {row["name"]: row for row in json.loads(alone.stdout)["quantities"]}
-        row = next(
-            row
-            for row in self.rows()
-            if (row["bending.stiffness"], row["time.integrator"]) == ("0.002", "A")
-        )
         self.assertIn("height", said)
         for name, quantity in said.items():
             self.assertEqual(float(row[f"{name} [{quantity['unit']}]"]), quantity["value"], name)
 
     def test_no_question_is_asked_twice_in_whichever_campaign(self) -> None:
-        file = self.write(GRID)
+        file = self.campaign_file(GRID)
         self.campaign("run", file)
         self.campaign("run", file)
-        wider = self.write(GRID.replace("3e-3]", "3e-3, 4e-3]"), "wider")
+        wider = self.campaign_file(GRID.replace("3e-3]", "3e-3, 4e-3]"), "wider")
         self.assertIn("8 jobs, 6 holds, 2 missing", self.campaign("plan", wider).stdout)
         self.campaign("run", wider)
-        keys = [line["result"] for line in self.result_lines()]
-        self.assertEqual((len(keys), len(set(keys))), (8, 8))
+        self.assertEqual(len(self.results()), 8)
 
     def test_failures_are_results_with_their_reasons(self) -> None:
-        file = self.write(GRID.replace('["A", "C"]', '["A", "Z"]').replace("2e-3", "-1"))
+        text = GRID.replace('["A", "C"]', '["A", "Z"]').replace("2e-3", "-1")
+        file = self.campaign_file(text)
         self.assertEqual(self.campaign("run", file).returncode, 1)
-        self.campaign("table", file)
-        reasons = {
-            (row["bending.stiffness"], row["time.integrator"]): row["reason"] for row in self.rows()
-        }
+        reasons = {(row["bending.stiffness"], row["time.integrator"]): row["reason"]
+                   for row in self.table(file)}
         self.assertIn("Z", reasons["0.001", "Z"])
         self.assertIn("stiffness", reasons["-1", "A"])
         self.assertEqual(reasons["0.003", "A"], "")
-        before = len(self.result_lines())
         self.campaign("run", file)
-        self.assertEqual(len(self.result_lines()), before)
-        expected = '[expect.height]\nat_most = 1e9\nwhy = "test"\n'
-        file = self.write(Path(file).read_text(encoding="utf-8") + expected)
-        self.assertEqual(self.campaign("table", file).returncode, 1)
+        self.assertEqual(len(self.results()), 6)
+        self.table(self.campaign_file(text + '[expect.height]\nat_most = 1e9\nwhy = "test"\n'))
+        self.assertEqual(self.table_code, 1)
 
     def test_a_job_beyond_its_limit_is_a_result_and_the_others_run(self) -> None:
-        file = self.write(
+        file = self.campaign_file(
             'case = "hinge"\n[limits]\nseconds = 0.5\n[set]\n"time.step" = 1e-6\n'
-            '[grid]\n"time.end" = [0.001, 100, 0.002]\n'
-        )
+            '[grid]\n"time.end" = [0.001, 100, 0.002]\n')
         self.assertEqual(self.campaign("run", file).returncode, 1)
-        self.campaign("table", file)
-        self.assertEqual(
-            {row["time.end"]: row["outcome"] for row in self.rows()},
-            {"0.001": "holds", "100": "timed out", "0.002": "holds"},
-        )
+        self.assertEqual({row["time.end"]: row["outcome"] for row in self.table(file)},
+                         {"0.001": "holds", "100": "timed out", "0.002": "holds"})
 
     def test_bounds_over_all_runs_are_judged(self) -> None:
-        self.campaign("run", self.write(GRID))
-        for share, bound, code in ((1, 1e9, 0), (1, -1e9, 1), (0.01, 1e9, 0)):
-            file = self.write(
-                GRID + f'[expect.height]\nat_most = {bound}\nshare = {share}\nwhy = "test"\n'
-            )
-            self.assertEqual(self.campaign("table", file).returncode, code, (share, bound))
-        heights = sorted(float(row["height [m]"]) for row in self.rows())
+        file = self.campaign_file(GRID)
+        self.campaign("run", file)
+        heights = sorted(float(row["height [m]"]) for row in self.table(file))
+        asked = [(1, 1e9, 0), (1, -1e9, 1), (0.01, 1e9, 0)]
         for share, k in ((0.5, 2), (0.95, 5)):
-            for bound, code in ((heights[k], 0), (heights[k] - 1e-12, 1)):
-                if heights[k] == heights[k - 1]:
-                    continue
-                file = self.write(
-                    GRID + f'[expect.height]\nat_most = {bound!r}\nshare = {share}\nwhy = "test"\n'
-                )
-                self.assertEqual(self.campaign("table", file).returncode, code, (share, bound))
+            if heights[k] != heights[k - 1]:
+                asked += [(share, heights[k], 0), (share, heights[k] - 1e-12, 1)]
+        for share, bound, code in asked:
+            self.table(self.campaign_file(
+                GRID + f'[expect.height]\nat_most = {bound!r}\nshare = {share}\nwhy = "test"\n'))
+            self.assertEqual(self.table_code, code, (share, bound))
 
     def test_runs_that_are_kept_have_folders_of_their_own(self) -> None:
-        file = self.write('keep = "all"\n' + GRID)
-        self.campaign("run", file)
-        kept = {line["result"]: line["kept"] for line in self.result_lines()}
+        self.campaign("run", self.campaign_file('keep = "all"\n' + GRID))
+        kept = {line["result"]: line["kept"] for line in self.lines() if "result" in line}
         self.assertEqual(len(set(kept.values())), 6)
         for key, folder in kept.items():
             self.assertIn(key, folder)
@@ -235,103 +160,92 @@ class CampaignTest(unittest.TestCase):
         rows = dict(re.findall(row, page, re.M))
         files = sorted(shipped.glob("*.campaign.toml"))
         self.assertEqual(sorted(rows), [path.name.split(".")[0] for path in files])
-        faults = sum(
-            len(tomllib.loads(path.read_text(encoding="utf-8")).get("fault", []))
-            for path in (ROOT / "verification/faults").glob("*.toml")
-        )
+        faults = sum(len(tomllib.loads(path.read_text(encoding="utf-8")).get("fault", []))
+                     for path in (ROOT / "verification/faults").glob("*.toml"))
         for name, said in rows.items():
             jobs = faults if said == "all" else int(said.replace(",", ""))
             self.assertEqual(self.status(name)["jobs"], jobs, name)
         mutants = tomllib.loads((shipped / "mutants.campaign.toml").read_text(encoding="utf-8"))
         rooms = [path for path in (ROOT / "reference").iterdir() if list(path.glob("*.h"))]
-        names = [str(path.relative_to(ROOT)) for path in sorted(rooms)]
-        self.assertEqual(mutants["grid"]["name"], names)
+        self.assertEqual(mutants["grid"]["name"],
+                         [str(path.relative_to(ROOT)) for path in sorted(rooms)])
 
     def test_other_commands_are_jobs(self) -> None:
-        file = self.write(
+        file = self.campaign_file(
             'run = "check"\n[grid]\nname = ["bending.forces-sum-to-zero", '
-            '"bending.torques-sum-to-zero"]\n'
-            'seed = [0, 5]\n'
-        )
+            '"bending.torques-sum-to-zero"]\nseed = [0, 5]\n')
         self.assertEqual(self.campaign("run", file).returncode, 0)
-        self.campaign("table", file)
-        self.assertEqual(len(self.rows()), 4)
+        self.assertEqual(len(self.table(file)), 4)
 
     def test_a_job_that_fails_names_what_failed(self) -> None:
         wrong = "python3 verification/subjects/bad/wrong.py gravity_scaled"
         law = "gravity.speed-grows-by-g-t"
-        file = self.write(f'run = "judge"\n[set]\nsolver = "{wrong}"\n[grid]\nname = ["{law}"]\n')
+        file = self.campaign_file(
+            f'run = "judge"\n[set]\nsolver = "{wrong}"\n[grid]\nname = ["{law}"]\n')
         self.assertEqual(self.campaign("run", file).returncode, 1)
-        self.campaign("table", file)
-        self.assertEqual([row["reason"] for row in self.rows()], [law])
+        self.assertEqual([row["reason"] for row in self.table(file)], [law])
 
     def test_emitted_commands_do_the_work_once(self) -> None:
-        file = self.write(GRID)
+        file = self.campaign_file(GRID)
         lines = self.campaign("emit", file, "--slice", "4").stdout.splitlines()
         self.assertEqual(len(lines), 2)
-        for line in [*reversed(lines), *lines]:
-            subprocess.run(line, shell=True, check=True, capture_output=True)
+        for k, line in enumerate([*reversed(lines), *lines]):
+            scratch = " --scratch " + str(self.path / "scratch").replace(" ", "\\ ")
+            subprocess.run(line + scratch * (k % 2), shell=True, check=True, capture_output=True)
         self.assertEqual(self.status(file)["done"], 6)
-        self.assertEqual(len(self.result_lines()), 6)
+        self.assertEqual(len(self.results()), 6)
+        self.assertFalse(list((self.path / "scratch").iterdir()))
 
     def test_a_slice_that_is_started_twice_at_once_is_worked_on_once(self) -> None:
-        [line] = self.campaign("emit", self.write(LONG), "--slice", "12").stdout.splitlines()
-        running = [subprocess.Popen(line, shell=True, stderr=subprocess.DEVNULL)]
-        while not self.result_lines():
-            time.sleep(0.01)
-        running.append(subprocess.Popen(line, shell=True, stderr=subprocess.DEVNULL))
+        [line] = self.campaign("emit", self.campaign_file(LONG), "--slice",
+                               "12").stdout.splitlines()
+        running = []
+        for _ in range(2):
+            running.append(subprocess.Popen(line, shell=True, stderr=subprocess.DEVNULL))
+            self.wait_for_results(1)
         self.assertEqual([process.wait() for process in running], [0, 0])
-        keys = [line["result"] for line in self.result_lines()]
-        self.assertEqual((len(keys), len(set(keys))), (12, 12))
+        self.assertEqual(len(self.results()), 12)
 
     def test_a_campaign_that_is_killed_goes_on(self) -> None:
-        file = self.write(LONG)
+        file = self.campaign_file(LONG)
         for how in (signal.SIGINT, signal.SIGKILL, signal.SIGTERM):
-            running = subprocess.Popen(
-                [PROGRAM, "campaign", "run", file, "--out", self.out, "--threads", "2"],
-                cwd=ROOT,
-                stdout=subprocess.DEVNULL,
-                stderr=subprocess.PIPE,
-                text=True,
-            )
-            done = len(self.result_lines())
-            while running.poll() is None and len(self.result_lines()) == done:
-                time.sleep(0.01)
+            running = self.start("run", file, "--threads", "2")
+            self.wait_for_results(len(self.results()) + 1)
             running.send_signal(how)
             said = running.communicate()[1]
             self.assertEqual(running.returncode, -how)
             if how != signal.SIGKILL:
                 self.assertIn("interrupted; go on with: ", said)
-            time.sleep(0.5)
         self.assertEqual(self.campaign("run", file).returncode, 0)
-        keys = [line["result"] for line in self.result_lines()]
-        self.assertEqual((len(keys), len(set(keys))), (12, 12))
+        self.assertEqual(len(self.results()), 12)
         said = self.status(file)
         self.assertEqual((said["done"], said["repeated"], said["conflicts"]), (12, 0, 0))
 
+    def test_cancelled_jobs_are_missing(self) -> None:
+        file = self.campaign_file(LONG)
+        running = self.start("run", file, "--threads", "1")
+        self.wait_for_results(1)
+        self.assertIn("1 batches cancelled", self.campaign("cancel", file).stdout)
+        running.communicate()
+        self.assertEqual(running.returncode, -signal.SIGTERM)
+        said = self.status(file)
+        self.assertEqual((said["running"], said["done"] + said["missing"]), (0, 12))
+
     def test_a_job_whose_process_dies_three_times_has_crashed_and_the_others_run(self) -> None:
-        fewer = LONG.replace("count = 12", "count = 3")
-        endless = fewer.replace('"time.end" = 2', '"time.end" = 1e4')
-        file = self.write(endless)
-        running = subprocess.Popen(
-            [PROGRAM, "campaign", "run", file, "--out", self.out, "--threads", "1"],
-            cwd=ROOT,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            text=True,
-        )
+        file = self.campaign_file(LONG.replace("= 2\n", "= 1e4\n").replace("= 12", "= 3"))
+        running = self.start("run", file, "--threads", "1")
         killed: set[int] = set()
-        while running.poll() is None:  # every process of the crew is killed while it works
-            for child in children_of(running.pid):
+        while running.poll() is None:  # every process is killed while it works
+            for child in map(int, (p.name for p in Path("/proc").glob("[0-9]*"))):
                 starts = sum("start" in line for line in self.lines())
-                if int(child) in killed or starts <= len(killed):
-                    continue
-                killed.add(int(child))
-                with contextlib.suppress(ProcessLookupError):
-                    os.kill(int(child), signal.SIGKILL)
+                if parent_of(child) == running.pid and child not in killed and (
+                    starts > len(killed)):
+                    killed.add(child)
+                    with contextlib.suppress(ProcessLookupError):
+                        os.kill(child, signal.SIGKILL)
             time.sleep(0.01)
-        self.assertEqual(running.wait(), 1)
         self.assertIn("crashed after 3 starts", running.communicate()[1])
+        self.assertEqual(running.returncode, 1)
         self.assertEqual(self.status(file)["crashed"], 3)
         starts = Counter(line["start"] for line in self.lines() if "start" in line)
         self.assertEqual(sorted(starts.values()), [3, 3, 3])
@@ -339,25 +253,12 @@ class CampaignTest(unittest.TestCase):
         self.assertEqual(len(list(self.out.glob("store/batches/*/batch.json"))), 1)
 
     def test_watching_shows_a_line_and_a_page_until_nothing_runs(self) -> None:
-        file = self.write('title = "<b>"\n' + LONG)
+        file = self.campaign_file('title = "<b>"\n' + LONG)
         page = self.out / "campaigns/grid/watch.html"
         for how, code in ((signal.SIGTERM, 1), (None, 0)):
-            running = subprocess.Popen(
-                [PROGRAM, "campaign", "run", file, "--out", self.out, "--threads", "1"],
-                cwd=ROOT,
-                stdout=subprocess.DEVNULL,
-                stderr=subprocess.DEVNULL,
-            )
-            done = len(self.result_lines())
-            while len(self.result_lines()) == done:
-                time.sleep(0.01)
-            watching = subprocess.Popen(
-                [PROGRAM, "campaign", "watch", file, "--out", self.out],
-                cwd=ROOT,
-                stdout=subprocess.PIPE,
-                stderr=subprocess.PIPE,
-                text=True,
-            )
+            running = self.start("run", file, "--threads", "1")
+            self.wait_for_results(len(self.results()) + 1)
+            watching = self.start("watch", file)
             while not page.exists() or 'http-equiv="refresh"' not in page.read_text():
                 self.assertIsNone(watching.poll())
                 time.sleep(0.01)
@@ -365,7 +266,7 @@ class CampaignTest(unittest.TestCase):
             if how:
                 running.send_signal(how)
             said, line = watching.communicate()
-            running.wait()
+            running.communicate()
             self.assertEqual(watching.returncode, code, said)
             self.assertRegex(line, r"^grid: \d+ of 12 done, \d+ running")
             self.assertNotIn("refresh", page.read_text())
@@ -373,22 +274,13 @@ class CampaignTest(unittest.TestCase):
         self.assertIn("12 jobs, 12 holds", said)
 
     def test_two_campaigns_at_once_share_their_work(self) -> None:
-        files = [
-            self.write(LONG, "one"),
-            self.write(LONG.replace("2e-3, count = 12", "2e-3, count = 23"), "two"),
-        ]
-        running = [
-            subprocess.Popen(
-                [PROGRAM, "campaign", "run", file, "--out", self.out, "--threads", "1"],
-                cwd=ROOT,
-                stdout=subprocess.DEVNULL,
-                stderr=subprocess.DEVNULL,
-            )
-            for file in files
-        ]
-        self.assertEqual([process.wait() for process in running], [0, 0])
-        keys = [line["result"] for line in self.result_lines()]
-        self.assertEqual(len(keys), len(set(keys)))
+        files = [self.campaign_file(LONG, "one"),
+                 self.campaign_file(LONG.replace("2e-3, count = 12", "2e-3, count = 23"), "two")]
+        running = [self.start("run", file, "--threads", "1") for file in files]
+        for process in running:
+            process.communicate()
+        self.assertEqual([process.returncode for process in running], [0, 0])
+        self.assertEqual(len(self.results()), 23)
 
     def test_wrong_input_is_refused_in_a_line(self) -> None:
         for text, said in {
@@ -397,18 +289,62 @@ class CampaignTest(unittest.TestCase):
             'run = "dance"\n': "is no command of a campaign",
             '[grid]\n"time.end" = [1]\n': "needs the key 'case'",
         }.items():
-            done = self.campaign("run", self.write(text))
-            self.assertEqual(done.returncode, 2, text)
+            done = self.campaign("run", self.campaign_file(text))
+            self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), text)
             self.assertIn(said, done.stderr)
-            self.assertEqual(done.stderr.count("\n"), 1)
-        self.assertIn(
-            "--on pigeon: no such engine",
-            self.campaign("run", self.write(GRID), "--on", "pigeon").stderr,
-        )
+        self.assertIn("--on pigeon: no such engine",
+                      self.campaign("run", self.campaign_file(GRID), "--on", "pigeon").stderr)
         self.assertEqual(self.campaign("work", str(self.path), "--slice", "0").returncode, 2)
 
 
+class SlicesTest(CampaignCase):
+    """How campaigns are cut into slices, on a Slurm that is made up: its commands are scripts that
+    say what a cluster offers, and run each slice at once."""
+
+    def setUp(self) -> None:
+        super().setUp()
+        self.environment["PATH"] = f"{self.path}:{self.environment['PATH']}"
+        for name, text in (("sbatch", SBATCH), ("squeue", "#!/bin/sh\n"), ("scancel", "")):
+            self.script(name, text)
+
+    def script(self, name: str, text: str) -> None:
+        Path(self.write(name, text)).chmod(0o755)
+
+    def slices_of(self, count: int, *words: str, nodes: str = "2 4", array: int = 1001,
+                  jobs: int = 10000) -> list[int]:
+        """Jobs in each slice of a fresh store; sinfo says nodes as "COUNT CORES" lines."""
+        self.script("sinfo", f"#!/bin/sh\necho '{nodes}'\n")
+        self.script("scontrol", f"#!/bin/sh\necho head; echo 'MaxArraySize            = {array}'\n"
+                    f"echo 'MaxJobCount             = {jobs}'\n")
+        self.out = self.path / f"out-{len(list(self.path.iterdir()))}"
+        file = self.campaign_file(
+            'case = "hinge"\n[set]\n"time.end" = 0.002\n"time.step" = 1e-3\n[grid]\n'
+            f'"bending.stiffness" = {{ from = 1e-3, to = 2e-3, count = {count} }}\n')
+        done = self.campaign("run", file, "--on", "slurm", *words)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return [len(path.read_text(encoding="utf-8").splitlines())
+                for path in sorted(self.out.glob("store/batches/*/slices/*.jsonl"))]
+
+    def test_all_cores_of_the_cluster_get_a_share(self) -> None:
+        self.assertEqual(self.slices_of(40), [5] * 8)
+        self.assertEqual(self.slices_of(40, "--options", "--cpus-per-task=2"), [10] * 4)
+        self.assertEqual(self.slices_of(40, "--options", "-c4"), [20] * 2)
+        self.assertEqual(self.slices_of(40, "--options", "--exclusive --time=5"), [20] * 2)
+        self.assertEqual(self.slices_of(40, "--options", "--exclusive", nodes="1 2\n1 3"),
+                         [16, 16, 8])
+        self.assertEqual(self.slices_of(40, "--slice", "30"), [30, 10])
+
+    def test_no_more_slices_than_the_controller_keeps(self) -> None:
+        self.assertEqual(self.slices_of(40, nodes="50 1", jobs=20), [4] * 10)
+        self.assertEqual(self.slices_of(8, nodes="1 40", array=3), [3, 3, 2])
+        self.assertEqual(self.slices_of(8, "--slice", "1", array=3), [1] * 8)  # in three batches
+
+    def test_a_folder_has_the_shards_of_a_hundred_slices(self) -> None:
+        self.assertEqual(self.slices_of(103, "--slice", "1"), [1] * 103)
+        shards = sorted(str(path.relative_to(path.parents[1]))[:11]
+                        for path in self.out.glob("store/batches/*/shards/*/*.jsonl"))
+        self.assertEqual(shards, [f"{k // 100:04}/{k:06}" for k in range(103)])
+
+
 if __name__ == "__main__":
-    if sys.argv[1:2] == ["--program"]:
-        del sys.argv[1]  # its file is taken out above
     unittest.main()

@@ -25,23 +25,21 @@ SqliteQuery::SqliteQuery(sqlite3* database, const std::string& path, const std::
   statement_.reset(statement, sqlite3_finalize);
 }
 
-SqliteQuery& SqliteQuery::bind(const std::string& text) {
-  if (sqlite3_bind_text(statement_.get(), ++bound_, text.data(), int(text.size()),
-                        SQLITE_TRANSIENT) != SQLITE_OK)
-    fail(path_, sqlite3_db_handle(statement_.get()));
-  return *this;
+void SqliteQuery::require_bound(int result) const {
+  if (result != SQLITE_OK) fail(path_, sqlite3_db_handle(statement_.get()));
 }
 
-SqliteQuery& SqliteQuery::bind(double number) {
-  if (sqlite3_bind_double(statement_.get(), ++bound_, number) != SQLITE_OK)
-    fail(path_, sqlite3_db_handle(statement_.get()));
-  return *this;
+void SqliteQuery::bind_one(const std::string& text) {
+  require_bound(sqlite3_bind_text(statement_.get(), ++bound_, text.data(), int(text.size()),
+                                  SQLITE_TRANSIENT));
 }
 
-SqliteQuery& SqliteQuery::bind(long number) {
-  if (sqlite3_bind_int64(statement_.get(), ++bound_, number) != SQLITE_OK)
-    fail(path_, sqlite3_db_handle(statement_.get()));
-  return *this;
+void SqliteQuery::bind_one(double number) {
+  require_bound(sqlite3_bind_double(statement_.get(), ++bound_, number));
+}
+
+void SqliteQuery::bind_one(long number) {
+  require_bound(sqlite3_bind_int64(statement_.get(), ++bound_, number));
 }
 
 void SqliteQuery::reset() {

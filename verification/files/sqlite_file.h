@@ -15,9 +15,11 @@ class SqliteQuery {
  public:
   SqliteQuery(sqlite3* database, const std::string& path, const std::string& sql);
 
-  SqliteQuery& bind(const std::string& text);
-  SqliteQuery& bind(double number);
-  SqliteQuery& bind(long number);
+  template <class... Values>
+  SqliteQuery& bind(const Values&... values) {
+    (bind_one(values), ...);
+    return *this;
+  }
 
   /// The next row; false after the last one, when the statement is ready to be bound anew.
   bool next();
@@ -35,6 +37,11 @@ class SqliteQuery {
   long whole(int column) const;
 
  private:
+  void bind_one(const std::string& text);
+  void bind_one(double number);
+  void bind_one(long number);
+  void require_bound(int result) const;
+
   std::string path_;
   std::shared_ptr<sqlite3_stmt> statement_;
   int bound_ = 0;
@@ -49,8 +56,8 @@ class SqliteFile {
   /// Runs statements without results.
   void run(const std::string& sql);
 
-  /// Ends a transaction without its changes. SQLite does so itself where the disk is full, and then
-  /// this does nothing.
+  /// Ends a transaction, if there is one, without its changes. SQLite does so itself where the disk
+  /// is full.
   void roll_back();
 
   SqliteQuery query(const std::string& sql);
@@ -61,6 +68,21 @@ class SqliteFile {
  private:
   std::string path_;
   std::shared_ptr<sqlite3> database_;
+};
+
+/// What is changed while it lives is kept by commit(), and else undone.
+class SqliteTransaction {
+ public:
+  /// begin: the statement, as "begin" for a transaction that only reads at first.
+  SqliteTransaction(SqliteFile& file, const std::string& begin) : file_(file) { file.run(begin); }
+  ~SqliteTransaction() { file_.roll_back(); }
+  SqliteTransaction(const SqliteTransaction&) = delete;
+  SqliteTransaction& operator=(const SqliteTransaction&) = delete;
+
+  void commit() { file_.run("commit"); }
+
+ private:
+  SqliteFile& file_;
 };
 
 }  // namespace foldproof

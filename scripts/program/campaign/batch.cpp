@@ -5,12 +5,12 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-#include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "verification/files/atomic_file.h"
 #include "verification/files/shard_file.h"
@@ -22,16 +22,18 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-std::string text_of_json(const json& value, int indent) {
-  return value.dump(indent, ' ', false, json::error_handler_t::replace);
-}
-
 constexpr size_t slices_a_folder = 100;  // of shards, which a slice lists when it starts
 
-std::string slice_name(size_t slice) { return fmt::format("{:06}", slice); }
+std::string line_text(const json& value) {
+  return value.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
+}
 
 std::string slice_file(const Batch& batch, size_t slice) {
-  return batch.folder + "/slices/" + slice_name(slice) + ".jsonl";
+  return fmt::format("{}/slices/{:06}.jsonl", batch.folder, slice);
+}
+
+std::string shard_folder(const Batch& batch, size_t slice) {
+  return fmt::format("{}/shards/{:04}", batch.folder, slice / slices_a_folder);
 }
 
 json json_of(const BatchJob& job) {
@@ -46,25 +48,15 @@ BatchJob job_of(const json& value) {
   return job;
 }
 
-}  // namespace
-
-void write_terms(const Batch& batch) {
+json json_of(const Batch& batch) {
   const BatchTerms& t = batch.terms;
-  write_text(batch.folder + "/batch.json", text_of_json({{"store", t.store},
-                                                         {"campaign", t.campaign},
-                                                         {"run", t.run},
-                                                         {"quantities", t.quantities},
-                                                         {"keep", name_of(t.keep)},
-                                                         {"seconds", t.limits.seconds},
-                                                         {"memory", t.limits.memory},
-                                                         {"program", t.program},
-                                                         {"engine", batch.engine},
-                                                         {"handle", batch.handle},
-                                                         {"jobs", batch.jobs},
-                                                         {"slices", batch.slices}},
-                                                        1) +
-                                               "\n");
+  return {{"store", t.store},           {"campaign", t.campaign},  {"run", t.run},
+          {"quantities", t.quantities}, {"keep", name_of(t.keep)}, {"seconds", t.limits.seconds},
+          {"memory", t.limits.memory},  {"program", t.program},    {"engine", batch.engine},
+          {"writer", batch.writer},     {"jobs", batch.jobs},      {"slices", batch.slices}};
 }
+
+}  // namespace
 
 BatchWriter::BatchWriter(const BatchTerms& terms, const std::string& engine, size_t jobs_a_slice)
     : jobs_a_slice_(jobs_a_slice) {
@@ -72,58 +64,53 @@ BatchWriter::BatchWriter(const BatchTerms& terms, const std::string& engine, siz
   batch_.folder = terms.store + "/batches/" + batch_.name;
   batch_.terms = terms;
   batch_.engine = engine;
+  batch_.writer = fmt::format("{} {}", host_name(), getpid());
 }
 
 void BatchWriter::add(const BatchJob& job) {
-  if (batch_.jobs % jobs_a_slice_ == 0) next_slice();
-  file_ << text_of_json(json_of(job), -1) << '\n';
+  if (batch_.jobs % jobs_a_slice_ == 0) {
+    end_slice();
+    if (!lock_) lock_.emplace(lock_of_slice(batch_, 0));
+    file_.open(slice_file(batch_, batch_.slices++));
+  }
+  file_ << line_text(json_of(job));
   ++batch_.jobs;
-}
-
-void BatchWriter::next_slice() {
-  end_slice();
-  fs::create_directories(batch_.folder + "/slices");
-  path_ = slice_file(batch_, batch_.slices++);
-  file_.open(path_);
 }
 
 void BatchWriter::end_slice() {
   if (batch_.slices == 0) return;
   file_.close();
-  if (!file_) throw std::runtime_error(path_ + ": cannot be written");
+  if (!file_) throw std::runtime_error(batch_.folder + "/slices: cannot be written");
 }
 
 std::optional<Batch> BatchWriter::finish() {
   if (batch_.jobs == 0) return {};
   end_slice();
-  fs::create_directories(batch_.folder + "/shards");
-  mark_alive(batch_);
-  write_terms(batch_);
+  write_text(batch_.folder + "/batch.json", json_of(batch_).dump(1) + "\n");
   return batch_;
 }
 
 Batch read_batch(const std::string& folder) {
-  Batch batch;
   std::ifstream file(folder + "/batch.json");
   const json values = json::parse(file, nullptr, false);
   try {
-    batch.folder = folder;
-    batch.name = fs::path(folder).filename().string();
-    batch.terms = {values.at("store"),
-                   values.at("campaign"),
-                   values.at("run"),
-                   values.at("quantities"),
-                   keep_named(values.at("keep")),
-                   {values.at("seconds"), values.at("memory")},
-                   values.at("program")};
-    batch.engine = values.at("engine");
-    batch.handle = values.at("handle");
-    batch.jobs = values.at("jobs");
-    batch.slices = values.at("slices");
+    const BatchTerms terms{values.at("store"),
+                           values.at("campaign"),
+                           values.at("run"),
+                           values.at("quantities"),
+                           keep_named(values.at("keep")),
+                           {values.at("seconds"), values.at("memory")},
+                           values.at("program")};
+    return {folder,
+            fs::path(folder).filename().string(),
+            terms,
+            values.at("engine"),
+            values.at("writer"),
+            values.at("jobs"),
+            values.at("slices")};
   } catch (const json::exception&) {
     throw InputError(folder + ": is no batch of a campaign; name a folder of STORE/batches");
   }
-  return batch;
 }
 
 std::vector<BatchJob> read_slice(const Batch& batch, size_t slice) {
@@ -139,32 +126,21 @@ std::vector<BatchJob> read_slice(const Batch& batch, size_t slice) {
   return jobs;
 }
 
-std::string shard_folder(const Batch& batch, size_t slice) {
-  return fmt::format("{}/shards/{:04}", batch.folder, slice / slices_a_folder);
-}
-
 std::vector<std::string> shards_of_slice(const Batch& batch, size_t slice) {
   std::vector<std::string> paths;
   std::error_code is_missing;  // before the first shard
   for (const auto& entry : fs::directory_iterator(shard_folder(batch, slice), is_missing))
     if (entry.path().extension() == ".jsonl" &&
-        entry.path().filename().string().starts_with(slice_name(slice) + "-"))
+        entry.path().filename().string().starts_with(fmt::format("{:06}-", slice)))
       paths.push_back(entry.path().string());
   return paths;
 }
 
-std::string new_shard_of_slice(size_t slice) {
-  return slice_name(slice) + "-" + new_shard_name() + ".jsonl";
+std::string new_shard_of_slice(const Batch& batch, size_t slice) {
+  return fmt::format("{}/{:06}-{}.jsonl", shard_folder(batch, slice), slice, new_shard_name());
 }
 
-void mark_alive(const Batch& batch) { std::ofstream(batch.folder + "/alive") << "\n"; }
 void mark_ended(const Batch& batch) { std::ofstream(batch.folder + "/ended") << "\n"; }
-
-bool is_marked_alive(const Batch& batch) {
-  std::error_code none;
-  const auto touched = fs::last_write_time(batch.folder + "/alive", none);
-  return !none && fs::file_time_type::clock::now() - touched < std::chrono::minutes(1);
-}
 
 std::vector<Batch> open_batches(const std::string& store) {
   std::vector<Batch> open;
@@ -175,13 +151,26 @@ std::vector<Batch> open_batches(const std::string& store) {
   return open;
 }
 
-StoreLock::StoreLock(const std::string& store) {
-  fs::create_directories(store);
-  file_ = open((store + "/lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (file_ < 0) throw InputError(store + ": cannot be written: " + std::strerror(errno));
-  while (flock(file_, LOCK_EX) != 0 && errno == EINTR) continue;
+FileLock::FileLock(const std::string& path, const std::function<void()>& wait) {
+  fs::create_directories(fs::path(path).parent_path());
+  file_ = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  if (file_ < 0) throw InputError(path + ": cannot be written: " + std::strerror(errno));
+  while (flock(file_, LOCK_EX | LOCK_NB) != 0 && (errno == EWOULDBLOCK || errno == EINTR)) {
+    wait();
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
 }
 
-StoreLock::~StoreLock() { close(file_); }
+FileLock::~FileLock() { close(file_); }
+
+bool FileLock::is_held(const std::string& path) {
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool is_held = file >= 0 && flock(file, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  if (file >= 0) close(file);
+  return is_held;
+}
+
+std::string lock_of_store(const std::string& store) { return store + "/lock"; }
+std::string lock_of_slice(const Batch& batch, size_t slice) { return slice_file(batch, slice); }
 
 }  // namespace foldproof

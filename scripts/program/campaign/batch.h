@@ -1,7 +1,8 @@
-// A batch: jobs that an engine was given together, as a folder of the store.
+// A batch: jobs that were given out together, as a folder of the store.
 #pragma once
 
 #include <fstream>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,15 +11,12 @@
 
 namespace foldproof {
 
-/// A job that an engine is to run.
+/// A job that is to be run.
 struct BatchJob {
   std::string key, label;
   std::vector<Assignment> set;
   int starts = 0;  // without an end, before this batch
 };
-
-/// The engine of batches that were printed as commands, of which no one knows when they run.
-constexpr const char* emitted = "emitted";
 
 /// What all jobs of a batch share.
 struct BatchTerms {
@@ -31,19 +29,37 @@ struct BatchTerms {
 };
 
 /// STORE/batches/NAME:
-///   batch.json           the terms, the engine and its handle
-///   slices/000000.jsonl  a job a line
-///   shards/0000/*.jsonl  results (verification/files/job_store.h), a folder for 100 slices
-///   alive                touched by who runs it here, every few seconds
-///   ended                it has finished, or was given up
+///   batch.json            the terms, the engine, and who wrote it
+///   slices/000000.jsonl   a job a line; locked by the process that works on it
+///   shards/0000/*.jsonl   results (verification/files/job_store.h), a folder for 100 slices
+///   ended                 it has finished, or was given up
 struct Batch {
   std::string folder, name;
   BatchTerms terms;
-  std::string engine, handle;  // handle: what the engine calls it
+  std::string engine;  // "local", "slurm", or "emitted": commands that may run at any time
+  std::string writer;  // "HOST PROCESS", which also runs it if the engine is local
   size_t jobs = 0, slices = 0;
 };
 
-/// Writes a new batch, a job at a time, as a million need not be in memory together. Throws
+/// A lock on a file, which is made if there is none. It ends with the process and those that it
+/// forked. A file system without locks lets all in; what they do twice is found to be the same.
+class FileLock {
+ public:
+  /// Waits for it; calls `wait` ten times a second, which may throw.
+  explicit FileLock(
+      const std::string& path, const std::function<void()>& wait = [] {});
+  ~FileLock();
+  FileLock(const FileLock&) = delete;
+  FileLock& operator=(const FileLock&) = delete;
+
+  static bool is_held(const std::string& path);
+
+ private:
+  int file_;
+};
+
+/// Writes a new batch, a job at a time, as a million need not be in memory together. Holds the lock
+/// of its first slice, so that the batch counts as worked on from the start. Throws
 /// std::runtime_error naming a file that cannot be written.
 class BatchWriter {
  public:
@@ -56,51 +72,34 @@ class BatchWriter {
   std::optional<Batch> finish();
 
  private:
-  void next_slice();
   void end_slice();
 
   Batch batch_;
   size_t jobs_a_slice_;
-  std::string path_;  // of the slice that is being written
-  std::ofstream file_;
+  std::optional<FileLock> lock_;
+  std::ofstream file_;  // of the slice that is being written
 };
-
-/// Writes what has become known of it: its handle.
-void write_terms(const Batch& batch);
 
 /// Throws InputError for a folder that is no batch.
 Batch read_batch(const std::string& folder);
 
 std::vector<BatchJob> read_slice(const Batch& batch, size_t slice);
 
-/// Where the shards of a slice lie.
-std::string shard_folder(const Batch& batch, size_t slice);
-
 /// The shard files that a slice has so far.
 std::vector<std::string> shards_of_slice(const Batch& batch, size_t slice);
 
-/// The name of a new one.
-std::string new_shard_of_slice(size_t slice);
+/// A new one; another file than any other process writes to.
+std::string new_shard_of_slice(const Batch& batch, size_t slice);
 
-void mark_alive(const Batch& batch);
 void mark_ended(const Batch& batch);
-
-/// Whether its runner touched it in the last minute.
-bool is_marked_alive(const Batch& batch);
 
 /// Batches that are not marked as ended.
 std::vector<Batch> open_batches(const std::string& store);
 
-/// One program at a time plans on a store; others wait. Lives as long as the lock.
-class StoreLock {
- public:
-  explicit StoreLock(const std::string& store);
-  ~StoreLock();
-  StoreLock(const StoreLock&) = delete;
-  StoreLock& operator=(const StoreLock&) = delete;
+/// One program at a time plans on a store.
+std::string lock_of_store(const std::string& store);
 
- private:
-  int file_;
-};
+/// One process at a time works on a slice: schedulers that crash start a slice twice.
+std::string lock_of_slice(const Batch& batch, size_t slice);
 
 }  // namespace foldproof

@@ -1,3 +1,4 @@
+// foldproof campaign plan, table, report and status.
 #include "scripts/program/campaign/campaign_commands.h"
 
 #include <fmt/format.h>
@@ -9,12 +10,9 @@
 
 #include "convergence/any_case/ladder_cost.h"
 #include "scripts/program/campaign/campaign_table.h"
-#include "scripts/program/campaign/engine.h"
 #include "scripts/program/campaign/run_job.h"
 #include "scripts/program/campaign/standing.h"
-#include "scripts/program/campaign/standing_text.h"
 #include "scripts/program/listing.h"
-#include "scripts/program/progress.h"
 #include "scripts/program/pages/report_script.h"
 #include "scripts/program/run_all.h"
 #include "scripts/program/run_case.h"
@@ -35,16 +33,17 @@ struct Forecast {
 /// Runs the first, middle and last job here and now, without keeping anything.
 Forecast sample_three(OpenCampaign& of) {
   const Campaign& c = of.campaign;
-  const BatchTerms terms{of.store, c.name, c.run, c.quantities, Keep::none, c.limits, of.program};
+  BatchTerms terms = of.terms();
+  terms.keep = Keep::none;
   const LevelSetProvider level_sets = memoizing_provider(computing_provider());
   Forecast forecast;
   const std::set<size_t> chosen = {0, c.root.jobs / 2, c.root.jobs - 1};
   for (const size_t i : chosen) {
     const BatchJob job = batch_job(of, i);
-    const JobResult result = run_job(terms, job, level_sets, [](double) {}).result;
+    const JobResult result = run_job(terms, job, level_sets).result;
     forecast.seconds += result.seconds / double(chosen.size());
     forecast.longest = std::max(forecast.longest, result.seconds);
-    forecast.bytes += double(JobShard::line_of(job.key, result).size()) / double(chosen.size());
+    forecast.bytes += double(result_line(job.key, result).size() + 1) / double(chosen.size());
     forecast.sampled +=
         fmt::format("  {}: {}, {:.3g} s\n", job.label, name_of(result.end), result.seconds);
   }
@@ -82,7 +81,7 @@ int exit_code_of(const std::vector<Record>& verdicts) {
 
 int plan_campaign(const Options& options) {
   OpenCampaign of = open_campaign(options.file, options.out);
-  const Standing standing = stand(of, {});
+  const Standing standing = stand(of);
   fmt::print("{}", standing_text(of, standing));
   if (standing.missing == 0) return all_hold;
   fmt::print("{}", forecast_text(sample_three(of), standing.missing));
@@ -113,22 +112,9 @@ int report_campaign(const Options& options) {
 
 int show_campaign_status(const Options& options) {
   OpenCampaign of = open_campaign(options.file, options.out);
-  const Standing standing = stand(of, {});
+  const Standing standing = stand(of);
   fmt::print("{}", options.json ? standing_json(of, standing) : standing_text(of, standing));
   if (standing.missing + standing.elsewhere > 0) return some_fail;
-  return all_hold;
-}
-
-int cancel_campaign(const Options& options) {
-  const OpenCampaign of = open_campaign(options.file, options.out);
-  size_t cancelled = 0;
-  for (const Batch& batch : live_batches(of.store)) {
-    if (batch.terms.campaign != of.campaign.name) continue;
-    engine_named(batch.engine).cancel(batch);
-    ++cancelled;
-  }
-  fmt::print("{}: {} batches cancelled; `campaign run` goes on with what is missing\n",
-             of.campaign.name, cancelled);
   return all_hold;
 }
 

@@ -1,201 +1,223 @@
-// foldproof campaign run, work and emit: rounds of what is missing, until nothing is.
+// foldproof campaign run, watch, work, emit and cancel.
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <thread>
 
 #include "scripts/program/campaign/campaign_commands.h"
-#include "scripts/program/campaign/engine.h"
-#include "scripts/program/campaign/slice_mark.h"
+#include "scripts/program/campaign/slurm.h"
 #include "scripts/program/campaign/standing.h"
-#include "scripts/program/campaign/standing_text.h"
-#include "scripts/program/data_folder.h"
+#include "scripts/program/campaign/work.h"
 #include "scripts/program/command_line/typed_words.h"
+#include "scripts/program/data_folder.h"
 #include "scripts/program/interruption.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
+#include "verification/files/atomic_file.h"
 
 namespace foldproof {
 
 namespace {
 
 namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::milliseconds between_looks(500), between_checks(100);
+constexpr size_t most_jobs_here = 100'000, most_jobs_in_slurm = 1'000'000;  // of a batch
 
-EngineSettings engine_settings(const Options& options) {
-  EngineSettings settings;
-  const int cores = int(std::thread::hardware_concurrency());
-  settings.work.processes = options.running.threads > 0 ? int(options.running.threads) : cores;
-  settings.work.cache = options.cache.empty() ? "" : fs::absolute(options.cache).string();
-  settings.options = options.engine_options;
-  settings.scratch = options.scratch;
-  return settings;
+WorkSettings work_settings(const Options& options) {
+  const unsigned threads = unsigned(options.running.threads);
+  return {int(threads > 0 ? threads : std::thread::hardware_concurrency()),
+          options.cache.empty() ? "" : fs::absolute(options.cache).string()};
 }
 
-BatchTerms terms_of(const OpenCampaign& of) {
-  const Campaign& c = of.campaign;
-  return {of.store, c.name, c.run, c.quantities, c.keep, c.limits, of.program};
+bool is_for_slurm(const Options& options) { return options.engine == "slurm"; }
+
+/// Where a look takes long, looks are further apart. Throws Interrupted.
+void pause_after_look(Clock::time_point look, Clock::duration least,
+                      const InterruptionWatch& watch) {
+  const auto now = Clock::now(), until = now + std::max(least, 4 * (now - look));
+  for (; Clock::now() < until; watch.check())
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
 }
 
-/// Of a job, by those that ended [s]; NaN before any has.
-double mean_seconds(const Standing& standing) {
-  return standing.done() > 0 ? standing.seconds / double(standing.done()) : nan;
-}
-
-/// Writes a batch of what is missing, so that no other campaign takes the same; none if nothing is.
-std::optional<Batch> next_batch(OpenCampaign& of, const Engine& engine, const Options& options,
-                                Standing& standing) {
-  const StoreLock lock(of.store);
-  standing = stand(of, {});
-  if (standing.missing == 0) return {};
-  const size_t jobs = std::min(standing.missing, engine.most_jobs);
-  const size_t slice = options.slice > 0 ? size_t(options.slice)
-                                         : engine.jobs_a_slice(jobs, mean_seconds(standing),
-                                                               engine_settings(options));
-  BatchWriter writer(terms_of(of), engine.name, slice);
-  stand(of, [&](const BatchJob& job) {
-    if (writer.jobs() < jobs) writer.add(job);
-  });
-  return writer.finish();
-}
-
-/// Looks on until the engine says that the batch is over; where a look takes long, less often.
+/// Looks on until Slurm is done with the batch. `show` gets the number of jobs that ended.
 void follow(OpenCampaign& of, const Batch& batch, const InterruptionWatch& watch,
             const std::function<void(size_t)>& show) {
-  const Engine& engine = engine_named(batch.engine);
-  for (size_t ended = 0; engine.ask(batch) != BatchState::has_ended;) {
-    const auto start = std::chrono::steady_clock::now();
+  for (size_t ended = 0; slurm_has(batch);) {
+    const auto look = Clock::now();
     ended += size_t(of.index.merge());
     show(std::min(ended, batch.jobs));
-    const auto next = std::max<std::chrono::steady_clock::duration>(
-        between_looks, 4 * (std::chrono::steady_clock::now() - start));
-    for (const auto until = std::chrono::steady_clock::now() + next;
-         std::chrono::steady_clock::now() < until; watch.check())
-      std::this_thread::sleep_for(between_checks);
+    pause_after_look(look, std::chrono::milliseconds(500), watch);
   }
 }
 
-void say_what_to_type(const Options& options, const Engine& engine) {
-  log_line(fmt::format("interrupted; go on with: {} campaign run {} --on {} --out {}",
-                       program_command(), options.file, engine.name, options.out));
-  if (std::string(engine.name) != "local")
-    log_line(fmt::format("its batch goes on in {}; end it with: {} campaign cancel {} --out {}",
-                         engine.name, program_command(), options.file, options.out));
+/// Jobs a slice, and of a batch at most.
+std::pair<size_t, size_t> sizes_for(const Standing& standing, const Options& options) {
+  if (!is_for_slurm(options)) return {most_jobs_here, most_jobs_here};
+  const size_t jobs = std::min(standing.missing, most_jobs_in_slurm);
+  if (options.slice > 0)
+    return {size_t(options.slice), std::min(jobs, size_t(options.slice) * slurm_most_slices())};
+  const double seconds = standing.done() > 0 ? standing.seconds / double(standing.done()) : nan;
+  return {slurm_jobs_a_slice(jobs, seconds, options.engine_options), jobs};
 }
 
-/// Runs one batch to its end.
-void run_batch(OpenCampaign& of, Batch& batch, const Engine& engine, const Options& options,
-               const InterruptionWatch& watch) {
-  ProgressLine line(fmt::format("{} on {}: {} jobs", of.campaign.name, engine.name, batch.jobs));
+/// Takes what no other campaign's batch has, and runs it to its end. False if nothing is missing.
+bool run_batch(OpenCampaign& of, const Options& options, const InterruptionWatch& watch,
+               Standing& standing) {
+  std::optional<FileLock> planning(std::in_place, lock_of_store(of.store), [&] { watch.check(); });
+  standing = stand(of);
+  if (standing.missing == 0) return false;
+  const auto [slice, most] = sizes_for(standing, options);
+  std::optional<BatchWriter> writer(std::in_place, of.terms(), options.engine, slice);
+  stand(of, [&, most = most](const BatchJob& job) {
+    if (writer->jobs() < most) writer->add(job);
+  });
+  const Batch batch = writer->finish().value();
+  ProgressLine line(fmt::format("{} on {}: {} jobs", of.campaign.name, batch.engine, batch.jobs));
   const auto show = [&](size_t ended) {
     watch.check();
     line.show(double(ended) / double(batch.jobs));
   };
   try {
-    engine.submit(batch, engine_settings(options), show);
+    if (is_for_slurm(options))
+      slurm_submit(batch, {options.engine_options, work_settings(options).cache, options.scratch});
+    planning.reset();
+    if (!is_for_slurm(options))
+      work_through(batch.terms, read_slice(batch, 0), work_settings(options),
+                   new_shard_of_slice(batch, 0), show);
   } catch (...) {  // of what is not in a queue, others may take the jobs at once
     mark_ended(batch);
     throw;
   }
-  if (std::string(engine.name) != "local") follow(of, batch, watch, show);
+  if (is_for_slurm(options)) {
+    writer.reset();
+    follow(of, batch, watch, show);
+  }
   mark_ended(batch);
-}
-
-int conclude_run(OpenCampaign& of, const Standing& standing) {
-  fmt::print("{}", standing_text(of, standing));
-  const bool all_there = standing.missing + standing.elsewhere + standing.crashed == 0;
-  const auto held = standing.ended.find(JobEnd::holds);
-  const bool all_held = held != standing.ended.end() && held->second == of.campaign.root.jobs;
-  return all_there && all_held && of.index.conflicts().empty() ? all_hold : some_fail;
+  return true;
 }
 
 /// Batches of this campaign that a queue still has: an earlier call was interrupted.
 void follow_earlier(OpenCampaign& of, const InterruptionWatch& watch) {
   for (const Batch& batch : live_batches(of.store)) {
-    if (batch.terms.campaign != of.campaign.name || batch.engine == "local") continue;
-    log_line(fmt::format("{} jobs are still with {}; waiting for them", batch.jobs, batch.engine));
+    if (batch.terms.campaign != of.campaign.name || batch.engine != "slurm") continue;
+    log_line(fmt::format("{} jobs are still with slurm; waiting for them", batch.jobs));
     follow(of, batch, watch, [](size_t) {});
   }
 }
 
-Standing run_rounds(OpenCampaign& of, const Engine& engine, const Options& options) {
+Standing run_batches(OpenCampaign& of, const Options& options) {
   const InterruptionWatch watch;
   follow_earlier(of, watch);
-  Standing standing;
-  for (;;) {
-    watch.check();
-    if (auto batch = next_batch(of, engine, options, standing))
-      run_batch(of, *batch, engine, options, watch);
-    else if (standing.elsewhere > 0)
-      std::this_thread::sleep_for(between_looks);  // another campaign's batch has the rest
-    else
-      return standing;
+  for (Standing standing;; watch.check()) {
+    if (run_batch(of, options, watch, standing)) continue;
+    if (standing.elsewhere == 0) return standing;
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));  // another campaign has the rest
   }
 }
 
-/// Shards that were written on the node's own disk become the batch's, each whole or not at all.
-void bring_home(const std::string& scratch, const std::string& folder) {
-  fs::create_directories(folder);
-  for (const auto& entry : fs::directory_iterator(scratch)) {
-    const std::string to = folder + "/" + entry.path().filename().string();
-    fs::copy_file(entry.path(), to + ".partial");
-    fs::rename(to + ".partial", to);
-  }
-  fs::remove_all(scratch);
+int conclude_run(OpenCampaign& of, const Standing& standing) {
+  fmt::print("{}", standing_text(of, standing));
+  const auto held = standing.ended.find(JobEnd::holds);
+  const bool all_held = held != standing.ended.end() && held->second == of.campaign.root.jobs;
+  return all_held && of.index.conflicts().empty() ? all_hold : some_fail;
 }
 
-int work_on_slice(const Batch& batch, size_t slice, const WorkSettings& work) {
+void say_what_to_type(const Options& options) {
+  log_line(fmt::format("interrupted; go on with: {} campaign run {} --on {} --out {}",
+                       program_command(), options.file, options.engine, options.out));
+  if (is_for_slurm(options))
+    log_line(fmt::format("its batch goes on in slurm; end it with: {} campaign cancel {} --out {}",
+                         program_command(), options.file, options.out));
+}
+
+/// A shard on the node's own disk becomes the batch's, whole or not at all.
+void bring_home(const std::string& scratch, const std::string& shard) {
+  if (!fs::exists(scratch)) return;
+  fs::create_directories(fs::path(shard).parent_path());
+  fs::copy_file(scratch, shard + ".partial");
+  fs::rename(shard + ".partial", shard);
+  fs::remove(scratch);
+}
+
+/// Runs what the slice lacks. A scheduler that starts it again while it runs waits for the first.
+bool work_on_slice(const Batch& batch, size_t slice, const Options& options) {
   const InterruptionWatch watch;
-  SliceMark mark(batch, slice, watch);
-  const std::vector<BatchJob> missing =
-      missing_in(shards_of_slice(batch, slice), read_slice(batch, slice));
+  const FileLock lock(lock_of_slice(batch, slice), [&] { watch.check(); });
+  std::vector<std::string> shards = shards_of_slice(batch, slice);
+  const std::vector<BatchJob> jobs = read_slice(batch, slice);
+  const std::string shard = new_shard_of_slice(batch, slice),
+                    scratch = options.scratch + "/" + fs::path(shard).filename().string();
   const auto home = [&] {
-    if (!work.shards.empty()) bring_home(work.shards, shard_folder(batch, slice));
+    if (!options.scratch.empty()) bring_home(scratch, shard);
   };
   try {
-    const auto show = [&](size_t) {
-      watch.check();
-      mark.renew();
-    };
-    const std::vector<std::string> shards = work_through(batch, slice, missing, work, show).shards;
-    const bool is_done = missing_in(shards, missing).empty();
-    home();
-    return is_done ? all_hold : some_fail;
+    work_through(batch.terms, missing_in(shards, jobs), work_settings(options),
+                 options.scratch.empty() ? shard : scratch, [&](size_t) { watch.check(); });
   } catch (const Interrupted&) {
     home();
     throw;
   }
+  home();
+  shards.push_back(shard);
+  return missing_in(shards, jobs).empty();
 }
 
 }  // namespace
 
 int run_campaign(const Options& options) {
-  const Engine& engine = engine_named(options.engine);
-  if (const std::string why = engine.missing(); !why.empty())
-    throw InputError(fmt::format("--on {}: {}", engine.name, why));
+  if (!is_for_slurm(options) && options.engine != "local")
+    throw InputError("--on " + options.engine + ": no such engine; known: local, slurm");
+  if (const std::string why = slurm_missing(); is_for_slurm(options) && !why.empty())
+    throw InputError("--on slurm: " + why);
   OpenCampaign of = open_campaign(options.file, options.out);
   try {
-    return conclude_run(of, run_rounds(of, engine, options));
+    return conclude_run(of, run_batches(of, options));
   } catch (const Interrupted& interrupted) {
-    say_what_to_type(options, engine);
+    say_what_to_type(options);
     end_by(interrupted);
   }
+}
+
+int watch_campaign(const Options& options) {
+  OpenCampaign of = open_campaign(options.file, options.out);
+  const InterruptionWatch watch;
+  const std::string page = of.folder + "/watch.html";
+  fs::create_directories(of.folder);
+  Standing standing = stand(of);
+  const size_t done_before = standing.done();
+  const auto start = Clock::now();
+  try {
+    while (standing.elsewhere > 0) {
+      const auto look = Clock::now();
+      // at the rate since the first look; not known while no job has ended
+      const std::chrono::duration<double> seconds = look - start;
+      const double ended = double(standing.done() - done_before),
+                   left = ended > 0 ? double(standing.elsewhere) * seconds.count() / ended : nan;
+      show_line(watch_line(of, standing, left));
+      write_text(page, watch_page(of, standing, left));
+      standing = stand(of);
+      pause_after_look(look, std::chrono::seconds(2), watch);
+    }
+  } catch (const Interrupted& interrupted) {
+    end_by(interrupted);
+  }
+  write_text(page, watch_page(of, standing, nan));
+  end_line();
+  fmt::print("{}", standing_text(of, standing));
+  return standing.missing > 0 ? some_fail : all_hold;
 }
 
 int work_on_batch(const Options& options) {
   const Batch batch = read_batch(fs::absolute(options.file).lexically_normal().string());
   if (batch.terms.program != program_digest())
     throw InputError(options.file + ": was planned by another build of foldproof; plan it again");
-  WorkSettings work = engine_settings(options).work;
-  if (!options.scratch.empty())
-    work.shards = options.scratch + "/" + batch.name + "-" + new_shard_name();
-  if (!work.shards.empty()) fs::create_directories(work.shards);
   try {
-    return work_on_slice(batch, size_t(options.slice), work);
+    return work_on_slice(batch, size_t(options.slice), options) ? all_hold : some_fail;
   } catch (const Interrupted& interrupted) {
     end_by(interrupted);
   }
@@ -203,20 +225,38 @@ int work_on_batch(const Options& options) {
 
 int emit_campaign(const Options& options) {
   OpenCampaign of = open_campaign(options.file, options.out);
-  const StoreLock lock(of.store);
-  BatchWriter writer(terms_of(of), emitted, options.slice > 0 ? size_t(options.slice) : 50);
+  const FileLock planning(lock_of_store(of.store));
+  BatchWriter writer(of.terms(), "emitted", options.slice > 0 ? size_t(options.slice) : 50);
   stand(of, [&](const BatchJob& job) { writer.add(job); });
-  const std::optional<Batch> written = writer.finish();
-  if (!written) {
+  const std::optional<Batch> batch = writer.finish();
+  if (!batch) {
     log_line("nothing is missing");
     return all_hold;
   }
-  const Batch& batch = *written;
-  mark_ended(batch);  // no engine of ours can say when it ends, so it keeps no one from its jobs
-  for (size_t slice = 0; slice < batch.slices; ++slice)
-    fmt::print("{}\n", with_option({program_file(), "campaign", "work", batch.folder, "--slice",
+  mark_ended(*batch);  // no one can say when it ends, so it keeps no one from its jobs
+  for (size_t slice = 0; slice < batch->slices; ++slice)
+    fmt::print("{}\n", with_option({program_file(), "campaign", "work", batch->folder, "--slice",
                                     std::to_string(slice), "--threads"},
                                    "1"));
+  return all_hold;
+}
+
+int cancel_campaign(const Options& options) {
+  const OpenCampaign of = open_campaign(options.file, options.out);
+  size_t cancelled = 0;
+  for (const Batch& batch : live_batches(of.store)) {
+    if (batch.terms.campaign != of.campaign.name) continue;
+    const size_t space = batch.writer.find(' ');
+    if (batch.engine == "slurm")
+      slurm_cancel(batch);
+    else if (batch.writer.substr(0, space) == host_name())
+      kill(pid_t(std::stol(batch.writer.substr(space))), SIGTERM);
+    else
+      throw InputError(batch.writer + ": runs this batch; cancel it there");
+    ++cancelled;
+  }
+  fmt::print("{}: {} batches cancelled; `campaign run` goes on with what is missing\n",
+             of.campaign.name, cancelled);
   return all_hold;
 }
 

@@ -23,10 +23,6 @@ std::string csv_field(const std::string& text) {
   return quoted + "\"";
 }
 
-std::string csv_number(double value) {
-  return std::isnan(value) ? "" : fmt::format("{:.17g}", value);
-}
-
 std::string setting(const std::vector<Assignment>& set, const std::string& key) {
   const auto found = std::ranges::find(set, key, &Assignment::key);
   return found == set.end() ? "" : found->value;
@@ -40,13 +36,10 @@ double quantile_of(std::vector<double> values, double share, bool is_at_most) {
   return values[std::max(size_t(1), needed) - 1];
 }
 
-/// The column of a name; its size if there is none.
-size_t place_of(const std::vector<std::string>& names, const std::string& name) {
-  return size_t(std::ranges::find(names, name) - names.begin());
-}
-
 /// The numbers of a parameter; none if a value is no number.
-std::vector<double> numbers_of(const CampaignTable& table, size_t parameter) {
+std::vector<double> numbers_of(const CampaignTable& table, const std::string& name) {
+  const size_t parameter =
+      size_t(std::ranges::find(table.parameters, name) - table.parameters.begin());
   std::vector<double> numbers;
   for (const auto& row : table.settings) {
     const std::string& text = row[parameter];
@@ -65,6 +58,13 @@ std::vector<T> column_of(const std::vector<std::vector<T>>& rows, size_t k) {
   return column;
 }
 
+/// The values of a quantity, a row a job; NaN where no job has it.
+std::vector<double> quantity_of(const CampaignTable& table, const std::string& name) {
+  const auto found = std::ranges::find(table.quantities, name);
+  if (found == table.quantities.end()) return std::vector<double>(table.keys.size(), nan);
+  return column_of(table.values, size_t(found - table.quantities.begin()));
+}
+
 }  // namespace
 
 CampaignTable campaign_table(OpenCampaign& of) {
@@ -72,33 +72,30 @@ CampaignTable campaign_table(OpenCampaign& of) {
   table.parameters = of.varied;
   table.units = of.index.units();
   const std::map<std::string, int> starts = of.index.open_starts();
-  std::vector<std::optional<JobResult>> results;
+  std::vector<std::map<std::string, double>> values;
   std::set<std::string> names;
-  const JobIndex::Reading reading(of.index);
+  const SqliteTransaction reading = of.index.reading();
   for (size_t i = 0; i < of.campaign.root.jobs; ++i) {
-    const std::vector<Assignment> set = assignments_of(of, i);
+    const std::vector<Assignment> set = job_assignments(of.campaign, i);
     const std::string key = of.keys.key_of(set);
-    results.push_back(of.index.find(key));
+    const std::optional<JobResult> result = of.index.find(key);
     table.keys.push_back(key);
     std::vector<std::string> row;
     for (const std::string& parameter : table.parameters) row.push_back(setting(set, parameter));
     table.settings.push_back(row);
     const auto started = starts.find(key);
     const bool has_crashed = started != starts.end() && started->second >= most_starts;
-    const auto& result = results.back();
     table.ends.push_back(result ? name_of(result->end) : has_crashed ? "crashed" : "missing");
     table.reasons.push_back(result ? result->reason : "");
     table.seconds.push_back(result ? result->seconds : nan);
-    if (result)
-      for (const auto& [name, value] : result->values) names.insert(name);
+    values.push_back(result ? result->values : std::map<std::string, double>());
+    for (const auto& [name, value] : values.back()) names.insert(name);
   }
   table.quantities.assign(names.begin(), names.end());
-  for (const auto& result : results) {
+  for (const auto& of_job : values) {
     std::vector<double> row;
-    for (const std::string& name : table.quantities) {
-      const bool has = result && result->values.contains(name);
-      row.push_back(has ? result->values.at(name) : nan);
-    }
+    for (const std::string& name : table.quantities)
+      row.push_back(of_job.contains(name) ? of_job.at(name) : nan);
     table.values.push_back(row);
   }
   return table;
@@ -109,14 +106,13 @@ std::vector<Sensitivity> sensitivities_of(const Campaign& campaign, const Campai
   std::set<std::string> quantities;
   for (const CampaignFigure& figure : campaign.figures) quantities.insert(figure.quantity);
   for (const std::string& quantity : quantities) {
-    const size_t k = place_of(table.quantities, quantity);
-    if (k == table.quantities.size()) continue;
-    std::vector<double> y = column_of(table.values, k);
+    if (std::ranges::count(table.quantities, quantity) == 0) continue;
+    std::vector<double> y = quantity_of(table, quantity);
     for (size_t i = 0; i < y.size(); ++i)
       if (table.ends[i] != name_of(JobEnd::holds) && table.ends[i] != name_of(JobEnd::fails))
         y[i] = nan;
     for (const std::string& parameter : sampled_parameters(campaign)) {
-      const auto x = numbers_of(table, place_of(table.parameters, parameter));
+      const auto x = numbers_of(table, parameter);
       if (!x.empty()) all.push_back({quantity, parameter, first_order_index(x, y)});
     }
   }
@@ -145,7 +141,8 @@ std::string csv_of(const CampaignTable& table) {
   for (size_t i = 0; i < table.keys.size(); ++i) {
     text += table.keys[i] + "," + table.ends[i] + "," + csv_field(table.reasons[i]);
     for (const std::string& value : table.settings[i]) text += "," + csv_field(value);
-    for (const double value : table.values[i]) text += "," + csv_number(value);
+    for (const double value : table.values[i])
+      text += "," + (std::isnan(value) ? "" : fmt::format("{:.17g}", value));
     text += "\n";
   }
   return text;
@@ -169,19 +166,13 @@ void write_hdf5_table(const std::string& path, const CampaignTable& table) {
 
 std::vector<Record> judge_campaign(const Campaign& campaign, const CampaignTable& table) {
   std::vector<Record> records;
+  const size_t waiting = size_t(std::ranges::count(table.ends, "missing"));
   for (const CampaignExpectation& e : campaign.expectations) {
-    const auto column = std::ranges::find(table.quantities, e.quantity);
     const double worst = (e.is_at_most ? 1 : -1) * std::numeric_limits<double>::infinity();
-    std::vector<double> values;
-    size_t waiting = 0, kept = 0;
-    for (size_t i = 0; i < table.keys.size(); ++i) {
-      waiting += table.ends[i] == "missing";
-      const double value = column == table.quantities.end()
-                               ? nan
-                               : table.values[i][size_t(column - table.quantities.begin())];
-      values.push_back(std::isnan(value) ? worst : value);
-      kept += e.is_at_most ? values.back() <= e.bound : values.back() >= e.bound;
-    }
+    std::vector<double> values = quantity_of(table, e.quantity);
+    for (double& value : values) value = std::isnan(value) ? worst : value;
+    const auto kept = std::ranges::count_if(
+        values, [&](double value) { return e.is_at_most ? value <= e.bound : value >= e.bound; });
     const double needed = e.share * double(values.size()) * (1 - 1e-12);
     Record record;
     record.name = "campaign." + campaign.name + "." + e.quantity;
@@ -193,9 +184,9 @@ std::vector<Record> judge_campaign(const Campaign& campaign, const CampaignTable
                        unit == table.units.end() ? "1" : unit->second, e.why},
                       {},
                       fmt::format("{} of {} runs keep it, {} wait", kept, values.size(), waiting)};
-    record.outcome = double(kept) >= needed             ? Outcome::holds
-                     : double(kept + waiting) >= needed ? Outcome::inconclusive
-                                                        : Outcome::fails;
+    record.outcome = double(kept) >= needed                     ? Outcome::holds
+                     : double(kept) + double(waiting) >= needed ? Outcome::inconclusive
+                                                                : Outcome::fails;
     records.push_back(record);
   }
   return records;

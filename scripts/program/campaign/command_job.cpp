@@ -1,18 +1,20 @@
-#include "scripts/program/campaign/command_job.h"
-
+// A job that is a command of the program or a script, in a process of its own.
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "scripts/program/campaign/scripted.h"
+#include "convergence/campaigns/job_keys.h"
+#include "scripts/program/campaign/run_job.h"
 #include "scripts/program/provenance.h"
 
 namespace foldproof {
@@ -23,6 +25,49 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 constexpr size_t most_values = 2000;
+
+/// A row: the command, and where it writes.
+struct CampaignCommand {
+  const char* name;
+  bool is_script;     // of scripts/, which writes its answer with --out; not of the program
+  bool writes_files;  // which are not kept
+};
+
+constexpr CampaignCommand commands[] = {
+    {"simulate", false, true}, {"converge", false, true}, {"precision", false, true},
+    {"check", false, false},   {"study", false, false},   {"judge", false, false},
+    {"ablate", false, true},   {"faults", true, false},   {"mutate", true, false}};
+
+const CampaignCommand& command_named(const std::string& name) {
+  return *std::ranges::find(commands, name, &CampaignCommand::name);
+}
+
+/// The words of the command, the first a path. folder: for its output.
+std::vector<std::string> words_of(const CampaignCommand& command,
+                                  const std::vector<Assignment>& set, const std::string& folder) {
+  std::vector<std::string> words = {program_file(), command.name}, options;
+  if (command.is_script) words = {source_folder() + "/scripts/" + command.name};
+  if (!fs::exists(words[0]))
+    throw InputError(fmt::format("{}: is missing; a campaign of '{}' needs the source tree",
+                                 words[0], command.name));
+  for (const Assignment& a : set) {
+    if (a.key == "case" || a.key == "name")
+      words.push_back(a.value);
+    else if (a.key.starts_with("settings."))
+      options.insert(options.end(), {"--settings", a.key.substr(9) + "=" + a.value});
+    else if (a.key.find('.') != std::string::npos)
+      options.insert(options.end(), {"--set", a.key + "=" + a.value});
+    else
+      options.insert(options.end(), {"--" + a.key, a.value});
+  }
+  words.insert(words.end(), options.begin(), options.end());
+  if (command.writes_files) words.insert(words.end(), {"--out", folder + "/files"});
+  if (command.is_script)
+    words.insert(words.end(), {"--out", folder + "/answer.json"});
+  else
+    words.push_back("--json");
+  return words;
+}
 
 /// What depends on the machine and the moment, and is no value of the question.
 bool is_circumstance(const std::string& name) {
@@ -73,6 +118,7 @@ std::string failure_of(const json& answer, const std::string& errors) {
 /// Becomes the command. Its output goes to files, for a pipe could fill up.
 [[noreturn]] void become(const std::vector<std::string>& words, const std::string& folder) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
+  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, SIG_DFL);
   for (const auto& [name, descriptor] : {std::pair("/out", 1), {"/err", 2}})
     dup2(open((folder + name).c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666), descriptor);
   std::vector<char*> arguments;
@@ -82,46 +128,40 @@ std::string failure_of(const json& answer, const std::string& errors) {
   _exit(127);
 }
 
-int wait_for(pid_t child, const Progress& progress) {
-  for (;;) {
-    int status = 0;
-    const pid_t ended = waitpid(child, &status, WNOHANG);
-    if (ended == child) return status;
-    usleep(5000);
-    try {
-      progress(0);
-    } catch (...) {  // interrupted: the command with it
-      kill(child, SIGKILL);
-      waitpid(child, &status, 0);
-      throw;
-    }
-  }
-}
-
-double child_seconds() {
-  struct rusage use = {};
-  getrusage(RUSAGE_CHILDREN, &use);
-  return double(use.ru_utime.tv_sec + use.ru_stime.tv_sec) +
-         1e-6 * double(use.ru_utime.tv_usec + use.ru_stime.tv_usec);
-}
-
 }  // namespace
 
-JobAnswer command_job(const BatchTerms& terms, const BatchJob& job, const Progress& progress) {
+std::vector<std::string> campaign_commands() {
+  std::vector<std::string> names;
+  for (const CampaignCommand& command : commands) names.emplace_back(command.name);
+  return names;
+}
+
+std::string script_digest(const std::string& run) {
+  std::string digest;
+  if (command_named(run).is_script)
+    for (const char* folder : {"/verification/faults", "/scripts", "/scripts/tests"})
+      digest += folder_digest(source_folder() + folder);
+  return digest;
+}
+
+JobAnswer command_job(const BatchTerms& terms, const BatchJob& job) {
   const std::string folder =
-      (fs::temp_directory_path() / ("foldproof-" + job.key + "-" + std::to_string(getpid())))
-          .string();
+      fs::temp_directory_path() / fmt::format("foldproof-{}-{}", job.key, getpid());
   fs::create_directories(folder);
-  const ScriptedCommand command = scripted_command(terms.run, job.set, folder);
-  const double before = child_seconds();
+  const CampaignCommand& command = command_named(terms.run);
+  const std::vector<std::string> words = words_of(command, job.set, folder);
   const pid_t child = fork();
-  if (child == 0) become(command.words, folder);
-  if (child < 0) throw std::runtime_error("no process can be made for a job");
-  const int status = wait_for(child, progress);
+  if (child == 0) become(words, folder);
+  int status = 0;
+  struct rusage use = {};
+  if (child < 0 || wait4(child, &status, 0, &use) != child)
+    throw std::runtime_error("no process can be made for a job");
   JobAnswer answer;
   JobResult& result = answer.result;
-  result.seconds = child_seconds() - before;
-  const std::string errors = text_in(folder + "/err"), printed = text_in(command.answer);
+  result.seconds = double(use.ru_utime.tv_sec + use.ru_stime.tv_sec) +
+                   1e-6 * double(use.ru_utime.tv_usec + use.ru_stime.tv_usec);
+  const std::string errors = text_in(folder + "/err"),
+                    printed = text_in(folder + (command.is_script ? "/answer.json" : "/out"));
   fs::remove_all(folder);
   if (WIFSIGNALED(status)) throw JobDied{};
   const int code = WEXITSTATUS(status);

@@ -4,12 +4,9 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <cstring>
 #include <filesystem>
 
 #include "convergence/campaigns/wide_key.h"
-#include "scripts/program/campaign/command_job.h"
 #include "scripts/program/provenance.h"
 #include "scripts/program/run_case.h"
 #include "verification/processor_time.h"
@@ -95,18 +92,16 @@ long bytes_below(const std::string& folder) {
 }
 
 JobAnswer simulate_job(const BatchTerms& terms, const BatchJob& job,
-                       const LevelSetProvider& level_sets, const Progress& progress) {
+                       const LevelSetProvider& level_sets) {
   const BuiltCase of = built_case(case_of(terms, job), level_sets);
   // each job has a folder of its own, so no variant overwrites another's files
   const std::string kept = "runs/" + job.key.substr(0, 2) + "/" + job.key;
-  CaseRun run;
-  if (terms.keep == Keep::none) {
-    run = run_case_without_files(of, progress);
-  } else {
-    fs::create_directories(terms.store + "/" + kept);
-    run =
-        run_case(of, terms.store + "/" + kept, provenance("campaign " + terms.campaign), progress);
-  }
+  const std::string folder = terms.store + "/" + kept;
+  const Progress no_one = [](double) {};
+  if (terms.keep != Keep::none) fs::create_directories(folder);
+  const CaseRun run = terms.keep == Keep::none
+                          ? run_case_without_files(of, no_one)
+                          : run_case(of, folder, provenance("campaign " + terms.campaign), no_one);
   JobAnswer answer;
   JobResult& result = answer.result;
   const std::string failures = failures_of(run);
@@ -115,29 +110,13 @@ JobAnswer simulate_job(const BatchTerms& terms, const BatchJob& job,
   result.digest = digest_of(run.result.last);
   add_values(run, of.input_case, answer);
   if (terms.keep == Keep::failures && result.end == JobEnd::holds)
-    fs::remove_all(terms.store + "/" + kept);
+    fs::remove_all(folder);
   else if (terms.keep != Keep::none)
-    result.kept = kept, result.bytes = bytes_below(terms.store + "/" + kept);
+    result.kept = kept, result.bytes = bytes_below(folder);
   return answer;
 }
 
 }  // namespace
-
-std::vector<std::string> words_of(const std::string& run, const std::vector<Assignment>& set) {
-  std::vector<std::string> words = {run};
-  for (const Assignment& a : set)
-    if (a.key == "case" || a.key == "name") words.push_back(a.value);
-  for (const Assignment& a : set) {
-    if (a.key == "case" || a.key == "name") continue;
-    if (a.key.starts_with("settings."))
-      words.insert(words.end(), {"--settings", a.key.substr(9) + "=" + a.value});
-    else if (a.key.find('.') != std::string::npos)
-      words.insert(words.end(), {"--set", a.key + "=" + a.value});
-    else
-      words.insert(words.end(), {"--" + a.key, a.value});
-  }
-  return words;
-}
 
 void sign(JobResult& result) {
   static const Provenance of = provenance("");
@@ -146,14 +125,14 @@ void sign(JobResult& result) {
   result.commit = of.commit;
 }
 
-JobAnswer run_job(const BatchTerms& terms, const BatchJob& job, const LevelSetProvider& level_sets,
-                  const Progress& progress) {
+JobAnswer run_job(const BatchTerms& terms, const BatchJob& job,
+                  const LevelSetProvider& level_sets) {
   const double start = processor_seconds();
   const auto clock_start = std::chrono::steady_clock::now();
   JobAnswer answer;
   try {
-    answer = terms.run == "simulate" ? simulate_job(terms, job, level_sets, progress)
-                                     : command_job(terms, job, progress);
+    answer =
+        terms.run == "simulate" ? simulate_job(terms, job, level_sets) : command_job(terms, job);
   } catch (const std::bad_alloc&) {
     answer.result.end = JobEnd::out_of_memory;
     answer.result.reason = fmt::format("took more than {:.0f} MB", terms.limits.memory / 1e6);

@@ -3,13 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <tuple>
 
-#include "scripts/program/campaign/engine.h"
-#include "scripts/program/campaign/scripted.h"
+#include "scripts/program/campaign/run_job.h"
+#include "scripts/program/campaign/slurm.h"
+#include "scripts/program/campaign/work.h"
 #include "scripts/program/command_line/input_files.h"
 #include "scripts/program/command_line/suggestions.h"
 #include "scripts/program/data_folder.h"
+#include "scripts/program/json_text.h"
 #include "scripts/program/provenance.h"
 
 namespace foldproof {
@@ -50,23 +56,17 @@ std::string case_of_campaign(const std::string& folder, const std::string& name)
   return fs::absolute(case_file(name)).string();
 }
 
-bool is_known_command(const std::string& run) {
-  return std::ranges::count(campaign_commands(), run) > 0;
-}
-
 /// A first job that cannot be read would be refused a thousand times.
 void reject_unreadable_case(OpenCampaign& of) {
-  const std::vector<Assignment> first = assignments_of(of, 0);
+  const std::vector<Assignment> first = job_assignments(of.campaign, 0);
   if (of.campaign.run == "simulate" && of.keys.case_file_of(first).empty())
     throw InputError(of.campaign.file + ": needs the key 'case', a case file or a shipped case");
   static_cast<void>(of.keys.key_of(first));
 }
 
-/// One without a handle is being submitted right now; or its program died before or after the
-/// engine took it, which the engine knows.
 bool is_live(const Batch& batch) {
-  if (batch.handle.empty() && is_marked_alive(batch)) return true;
-  return batch.engine != emitted && engine_named(batch.engine).ask(batch) != BatchState::has_ended;
+  return FileLock::is_held(lock_of_slice(batch, 0)) ||
+         (batch.engine == "slurm" && slurm_has(batch));
 }
 
 std::set<std::string> keys_in(const std::vector<Batch>& batches) {
@@ -77,14 +77,22 @@ std::set<std::string> keys_in(const std::vector<Batch>& batches) {
   return keys;
 }
 
+/// Whether a result answers what the campaign asks: frames that it wants may be missing.
+bool answers(const OpenCampaign& of, const JobResult& result) {
+  if (of.campaign.run != "simulate" || !result.kept.empty()) return true;
+  return of.campaign.keep == Keep::none ||
+         (of.campaign.keep == Keep::failures && result.end == JobEnd::holds);
+}
+
 }  // namespace
 
 OpenCampaign open_campaign(const std::string& file, const std::string& out) {
   const std::string path = campaign_file(file);
   Campaign campaign = read_campaign(path);
-  if (!is_known_command(campaign.run))
+  const std::vector<std::string> known = campaign_commands();
+  if (std::ranges::count(known, campaign.run) == 0)
     throw InputError(fmt::format("{}: run = \"{}\" is no command of a campaign; known: {}", path,
-                                 campaign.run, fmt::join(campaign_commands(), ", ")));
+                                 campaign.run, fmt::join(known, ", ")));
   const std::string beside = fs::absolute(path).parent_path().string();
   const std::string program = program_digest();
   const std::string store = fs::absolute(out + "/store").string();
@@ -99,23 +107,19 @@ OpenCampaign open_campaign(const std::string& file, const std::string& out) {
   return of;
 }
 
-std::vector<Assignment> assignments_of(OpenCampaign& of, size_t i) {
-  return job_assignments(of.campaign, i);
-}
-
-std::string label_of(const OpenCampaign& of, const std::vector<Assignment>& set) {
-  std::string label;
-  for (const Assignment& a : set)
-    if (std::ranges::binary_search(of.varied, a.key))
-      label += (label.empty() ? "" : " ") + a.key + "=" + a.value;
-  return label.empty() ? of.campaign.name : label;
+BatchTerms OpenCampaign::terms() const {
+  return {store,         campaign.name,   campaign.run, campaign.quantities,
+          campaign.keep, campaign.limits, program};
 }
 
 BatchJob batch_job(OpenCampaign& of, size_t i) {
   BatchJob job;
-  job.set = assignments_of(of, i);
+  job.set = job_assignments(of.campaign, i);
   job.key = of.keys.key_of(job.set);
-  job.label = label_of(of, job.set);
+  for (const Assignment& a : job.set)
+    if (std::ranges::binary_search(of.varied, a.key))
+      job.label += (job.label.empty() ? "" : " ") + a.key + "=" + a.value;
+  if (job.label.empty()) job.label = of.campaign.name;
   const std::string file = of.keys.case_file_of(job.set);
   for (Assignment& a : job.set)
     if (a.key == "case") a.value = file;
@@ -126,12 +130,6 @@ size_t Standing::done() const {
   size_t all = 0;
   for (const auto& [end, count] : ended) all += count;
   return all;
-}
-
-bool answers(const OpenCampaign& of, const JobResult& result) {
-  if (of.campaign.run != "simulate" || !result.kept.empty()) return true;
-  return of.campaign.keep == Keep::none ||
-         (of.campaign.keep == Keep::failures && result.end == JobEnd::holds);
 }
 
 std::vector<Batch> live_batches(const std::string& store) {
@@ -151,9 +149,9 @@ Standing stand(OpenCampaign& of, const std::function<void(const BatchJob&)>& tak
   of.index.merge();  // after batches were asked: what ended since then is in their shards
   const std::map<std::string, int> starts = of.index.open_starts();
   std::set<std::string> asked;  // a job may be stated twice
-  const JobIndex::Reading reading(of.index);
+  const SqliteTransaction reading = of.index.reading();
   for (size_t i = 0; i < of.campaign.root.jobs; ++i) {
-    const std::string key = of.keys.key_of(assignments_of(of, i));
+    const std::string key = of.keys.key_of(job_assignments(of.campaign, i));
     const std::optional<JobResult> result = of.index.find(key);
     if (result && answers(of, *result)) {
       ++standing.ended[result->end];
@@ -177,6 +175,115 @@ Standing stand(OpenCampaign& of, const std::function<void(const BatchJob&)>& tak
     }
   }
   return standing;
+}
+
+// ---- in words ------------------------------------------------------------------------------------
+
+namespace {
+
+constexpr size_t most_reasons = 5;
+
+/// End, words and count of what does not hold, the commonest first.
+std::vector<std::tuple<std::string, std::string, size_t>> commonest_reasons(
+    const Standing& standing) {
+  std::vector<std::tuple<std::string, std::string, size_t>> reasons;
+  for (const auto& [of, count] : standing.reasons)
+    reasons.emplace_back(name_of(of.first), of.second, count);
+  std::ranges::stable_sort(reasons, std::greater(), [](const auto& r) { return std::get<2>(r); });
+  reasons.resize(std::min(reasons.size(), most_reasons));
+  return reasons;
+}
+
+/// Counts that are not zero, each with its name.
+std::vector<std::pair<std::string, size_t>> counts_of(const Standing& standing) {
+  std::vector<std::pair<std::string, size_t>> counts;
+  for (const auto& [end, count] : standing.ended) counts.emplace_back(name_of(end), count);
+  for (const auto& [name, count] : {std::pair("crashed", standing.crashed),
+                                    {"running", standing.elsewhere},
+                                    {"missing", standing.missing}})
+    if (count > 0) counts.emplace_back(name, count);
+  return counts;
+}
+
+/// Processor hours of what runs and what is missing, at the mean of the jobs that ended.
+std::string work_left(const Standing& standing) {
+  const size_t left = standing.elsewhere + standing.missing;
+  if (left == 0 || standing.done() == 0) return "";
+  const double hours = standing.seconds / double(standing.done()) * double(left) / 3600;
+  return fmt::format(", about {:.3g} hours of it left", hours);
+}
+
+std::string html(const std::string& text) {
+  std::string escaped;
+  for (const char c : text)
+    escaped += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
+  return escaped;
+}
+
+}  // namespace
+
+std::string standing_text(OpenCampaign& of, const Standing& standing) {
+  std::string text = fmt::format("{}: {} jobs", of.campaign.name, of.campaign.root.jobs);
+  for (const auto& [name, count] : counts_of(standing)) text += fmt::format(", {} {}", count, name);
+  text += fmt::format("; {:.3g} s of processor time{}\n", standing.seconds, work_left(standing));
+  for (const auto& [end, words, count] : commonest_reasons(standing))
+    text += fmt::format("  {} {}: {}\n", count, end, words);
+  const auto conflicts = of.index.conflicts();
+  if (!conflicts.empty())
+    text += fmt::format(
+        "{} conflicts: a repetition found something else, as for {} in {}; table conflicts of "
+        "{}/index.sqlite\n",
+        conflicts.size(), conflicts[0].key, conflicts[0].shard, of.store);
+  return text;
+}
+
+std::string standing_json(OpenCampaign& of, const Standing& standing) {
+  using nlohmann::json;
+  json ended = json::object(), reasons = json::array();
+  for (const auto& [end, count] : standing.ended) ended[name_of(end)] = count;
+  for (const auto& [end, words, count] : commonest_reasons(standing))
+    reasons.push_back({{"outcome", end}, {"reason", words}, {"jobs", count}});
+  return json_text({{"campaign", of.campaign.name},
+                    {"jobs", of.campaign.root.jobs},
+                    {"done", standing.done()},
+                    {"ended", ended},
+                    {"reasons", reasons},
+                    {"crashed", standing.crashed},
+                    {"running", standing.elsewhere},
+                    {"missing", standing.missing},
+                    {"seconds", standing.seconds},
+                    {"repeated", of.index.repeated()},
+                    {"conflicts", of.index.conflicts().size()}}) +
+         "\n";
+}
+
+std::string watch_line(const OpenCampaign& of, const Standing& standing, double seconds_left) {
+  std::string line =
+      fmt::format("{}: {} of {} done", of.campaign.name, standing.done(), of.campaign.root.jobs);
+  for (const auto& [name, count] : counts_of(standing))
+    if (name != "holds") line += fmt::format(", {} {}", count, name);
+  if (std::isnan(seconds_left)) return line;
+  return line + (seconds_left < 90 ? fmt::format("; {:.0f} s left", seconds_left)
+                                   : fmt::format("; {:.0f} min left", seconds_left / 60));
+}
+
+std::string watch_page(const OpenCampaign& of, const Standing& standing, double seconds_left) {
+  const std::string title = html(of.campaign.title);
+  std::string rows;
+  for (const auto& [name, count] : counts_of(standing))
+    rows += fmt::format("<tr><td>{}<td>{}<td>\n", html(name), count);
+  for (const auto& [end, words, count] : commonest_reasons(standing))
+    rows += fmt::format("<tr><td>{}<td>{}<td>{}\n", html(end), count, html(words));
+  const size_t done = standing.done(), jobs = of.campaign.root.jobs;
+  return fmt::format(
+      "<!doctype html>\n<meta charset=\"utf-8\">{}\n<title>{} of {}: {}</title>\n"
+      "<style>body{{font:16px/1.5 sans-serif;max-width:50em;margin:2em auto;padding:0 "
+      "1em}}progress{{width:100%}}td{{padding:0 1em 0 "
+      "0;vertical-align:top}}td:nth-child(2){{text-align:right}}</style>\n"
+      "<h1>{}</h1>\n<progress value=\"{}\" max=\"{}\"></progress>\n<p>{}\n"
+      "<table>\n{}</table>\n",
+      standing.elsewhere > 0 ? "\n<meta http-equiv=\"refresh\" content=\"2\">" : "", done, jobs,
+      title, title, done, jobs, html(watch_line(of, standing, seconds_left)), rows);
 }
 
 }  // namespace foldproof

@@ -1,4 +1,4 @@
-// Where a campaign stands: its jobs, and what the store knows of each.
+// Where a campaign stands: its jobs, what the store knows of each, and this in words.
 #pragma once
 
 #include <functional>
@@ -23,17 +23,14 @@ struct OpenCampaign {
   JobKeys keys;
   JobIndex index;
   std::vector<std::string> varied;
+
+  BatchTerms terms() const;
 };
 
 /// Opens the campaign of a file, or a shipped one of that name, and brings the index up to
 /// date. Throws InputError for an invalid file, a command that no campaign runs, and a case
 /// that does not exist.
 OpenCampaign open_campaign(const std::string& file, const std::string& out);
-
-/// Assignments of job i, as the campaign names them.
-std::vector<Assignment> assignments_of(OpenCampaign& of, size_t i);
-
-std::string label_of(const OpenCampaign& of, const std::vector<Assignment>& set);
 
 /// Job i, the case by its file.
 BatchJob batch_job(OpenCampaign& of, size_t i);
@@ -53,13 +50,21 @@ struct Standing {
 };
 
 /// Looks up every job. `take_missing`, unless it is empty, gets each that no live batch has, once.
-/// Batches whose engine says that they are over are marked as ended.
-Standing stand(OpenCampaign& of, const std::function<void(const BatchJob&)>& take_missing);
+Standing stand(OpenCampaign& of, const std::function<void(const BatchJob&)>& take_missing = {});
 
-/// Batches that an engine still has, of this campaign or of all.
+/// Batches of all campaigns that are worked on, or are in a queue. Others are marked as ended.
 std::vector<Batch> live_batches(const std::string& store);
 
-/// Whether a result answers what the campaign asks: frames that it wants may be missing.
-bool answers(const OpenCampaign& of, const JobResult& result);
+/// Lines: counts, the work that is left, the commonest reasons of failures, conflicts.
+std::string standing_text(OpenCampaign& of, const Standing& standing);
+
+/// The same as JSON.
+std::string standing_json(OpenCampaign& of, const Standing& standing);
+
+/// One line: how many are done, run and are missing. seconds_left: of the clock; NaN: not known.
+std::string watch_line(const OpenCampaign& of, const Standing& standing, double seconds_left);
+
+/// The same as a page, with reasons, that loads itself again while jobs run.
+std::string watch_page(const OpenCampaign& of, const Standing& standing, double seconds_left);
 
 }  // namespace foldproof

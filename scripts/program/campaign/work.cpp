@@ -1,28 +1,25 @@
 #include "scripts/program/campaign/work.h"
 
 #include <fmt/format.h>
-#include <sys/mman.h>
+#include <sys/poll.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
-#include <sys/time.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
-#include <filesystem>
+#include <ctime>
+#include <deque>
 #include <fstream>
-#include <new>
+#include <set>
 
 #include "scripts/program/campaign/run_job.h"
-#include "scripts/program/interruption.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/run_case.h"
-#include "verification/files/level_set_folder.h"
 
 namespace foldproof {
 
@@ -30,82 +27,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int most_processes = 1024;
-constexpr int ended_by_limit = 3, cannot_write = 4, job_died = 5;  // exit codes of a process
-constexpr std::chrono::seconds between_flushes(2), between_marks(5), patience(10);
+constexpr int cannot_write = 4;    // exit code of a worker
+constexpr int between_looks = 20;  // ms
+constexpr std::chrono::seconds between_flushes(2);
 
-/// Shared by the processes of a slice.
-struct Board {
-  std::atomic<long> next = 0, ended = 0;
-  std::array<std::atomic<long>, most_processes> current;  // job of each process; -1: none
-};
-
-/// A board in memory that a fork shares.
-class SharedBoard {
- public:
-  SharedBoard() {
-    void* memory =
-        mmap(nullptr, sizeof(Board), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-    if (memory == MAP_FAILED) throw std::runtime_error("no memory to share between processes");
-    board_ = new (memory) Board;
-    for (auto& job : board_->current) job = -1;
-  }
-  ~SharedBoard() { munmap(board_, sizeof(Board)); }
-  SharedBoard(const SharedBoard&) = delete;
-  SharedBoard& operator=(const SharedBoard&) = delete;
-  Board* operator->() const { return board_; }
-
- private:
-  Board* board_;
-};
-
-// ---- one
-// process ---------------------------------------------------------------------------------
-
-/// What the handler of a time limit writes: prepared before the job, as it may not allocate.
-struct LimitNotice {
-  int file = -1;
-  const char* text = nullptr;
-  size_t size = 0;
-} limit_notice;
-
-void end_at_limit(int) {
-  const ssize_t written = write(limit_notice.file, limit_notice.text, limit_notice.size);
-  _exit(written == ssize_t(limit_notice.size) ? ended_by_limit : cannot_write);
-}
-
-void set_timer(int which, double seconds) {
-  struct itimerval timer = {};
-  timer.it_value.tv_sec = long(seconds);
-  timer.it_value.tv_usec = long(1e6 * (seconds - double(long(seconds))));
-  setitimer(which, &timer, nullptr);
-}
-
-/// While it lives, a job that takes too long ends the process with a result of its own: a hang
-/// cannot be ended in another way.
-class TimeLimit {
- public:
-  TimeLimit(const std::string& key, double seconds, const JobShard& shard) {
-    JobResult result;
-    result.end = JobEnd::timed_out;
-    result.reason = fmt::format("took more than {:g} s", seconds);
-    result.seconds = seconds;
-    sign(result);
-    text_ = JobShard::line_of(key, result);
-    limit_notice = {shard.descriptor(), text_.data(), text_.size()};
-    for (const int signal : {SIGPROF, SIGALRM}) std::signal(signal, end_at_limit);
-    set_timer(ITIMER_PROF, seconds);
-    set_timer(ITIMER_REAL, 10 * seconds + 10);
-  }
-  ~TimeLimit() {
-    for (const int which : {ITIMER_PROF, ITIMER_REAL}) set_timer(which, 0);
-  }
-  TimeLimit(const TimeLimit&) = delete;
-  TimeLimit& operator=(const TimeLimit&) = delete;
-
- private:
-  std::string text_;
-};
+// ---- a worker: it is told numbers of jobs, and answers with lines for the shard -----------------
 
 double address_space() {
   std::ifstream file("/proc/self/statm");
@@ -114,193 +40,218 @@ double address_space() {
   return pages * double(sysconf(_SC_PAGESIZE));
 }
 
-struct Worker {
-  const Batch& batch;
-  const std::vector<BatchJob>& jobs;
-  Board& board;
-  int slot;
-  JobShard shard;
-  LevelSetProvider level_sets;
-  InterruptionWatch watch = {};
-};
-
-void run_one(Worker& w, const BatchJob& job) {
-  w.shard.start(job.key, job.label);
-  JobAnswer answer;
-  try {
-    const TimeLimit limit(job.key, w.batch.terms.limits.seconds, w.shard);
-    answer = run_job(w.batch.terms, job, w.level_sets, [&](double) { w.watch.check(); });
-  } catch (const Interrupted&) {
-    w.shard.interrupt(job.key);
-    throw;
-  }
-  w.shard.end(job.key, answer.result, answer.units);
+void limit(__rlimit_resource resource, double most) {
+  const struct rlimit both = {rlim_t(most), rlim_t(most)};
+  setrlimit(resource, &both);
 }
 
-/// Takes jobs until none is left. Returns the exit code.
-int work(Worker& w) {
-  auto flushed = Clock::now();
+/// Lines of a job's units that were not said before, and of its result; an empty one ends them.
+std::string lines_of(const BatchJob& job, const JobAnswer& answer, std::set<std::string>& said) {
+  Units fresh;
+  for (const auto& [name, unit] : answer.units)
+    if (said.insert(name).second) fresh[name] = unit;
+  return (fresh.empty() ? "" : units_line(fresh) + "\n") + result_line(job.key, answer.result) +
+         "\n\n";
+}
+
+[[noreturn]] void be_worker(const BatchTerms& terms, const std::vector<BatchJob>& jobs,
+                            const LevelSetProvider& level_sets, int channel) {
+  std::signal(SIGINT, SIG_IGN);  // the parent notes what is interrupted, and ends this process
+  std::signal(SIGTERM, SIG_IGN);
+  limit(RLIMIT_AS, terms.limits.memory + address_space());
+  limit(RLIMIT_CORE, 0);
+  std::set<std::string> units;
   try {
-    for (;;) {
-      w.watch.check();
-      const long i = w.board.next++;
-      if (i >= long(w.jobs.size())) break;
-      w.board.current[size_t(w.slot)] = i;
-      run_one(w, w.jobs[size_t(i)]);
-      ++w.board.ended;
-      w.board.current[size_t(w.slot)] = -1;
-      if (Clock::now() - flushed < between_flushes) continue;
-      w.shard.flush_to_disk();
-      flushed = Clock::now();
+    for (size_t i = 0; read(channel, &i, sizeof i) == sizeof i;) {
+      const std::string lines = lines_of(jobs[i], run_job(terms, jobs[i], level_sets), units);
+      for (size_t sent = 0; sent < lines.size();) {
+        const ssize_t some = write(channel, lines.data() + sent, lines.size() - sent);
+        if (some <= 0) _exit(1);  // the parent is gone
+        sent += size_t(some);
+      }
     }
-    w.shard.flush_to_disk();
-    return 0;
-  } catch (const Interrupted& interrupted) {
-    return 128 + interrupted.signal;
+    _exit(0);
   } catch (const JobDied&) {
-    return job_died;
+    _exit(1);
   } catch (const std::exception& error) {
     log_line(std::string("campaign: ") + error.what());
-    return cannot_write;
+    _exit(cannot_write);
   }
 }
 
-[[noreturn]] void be_worker(Worker& w, pid_t parent) {
-  prctl(PR_SET_PDEATHSIG, SIGTERM);  // not orphaned where the parent is killed
-  if (getppid() != parent) _exit(1);
-  const double most = w.batch.terms.limits.memory + address_space();
-  const struct rlimit memory = {rlim_t(most), rlim_t(most)};
-  setrlimit(RLIMIT_AS, &memory);
-  const struct rlimit no_core = {0, 0};
-  setrlimit(RLIMIT_CORE, &no_core);
-  _exit(work(w));
+// ---- the parent ---------------------------------------------------------------------------------
+
+struct Worker {
+  pid_t process = 0;  // 0: none
+  int channel = -1;
+  const BatchJob* job = nullptr;  // that it runs
+  double start = 0;               // of the processor, when the job began [s]
+  Clock::time_point clock_start;
+  std::string answer;  // as far as it was heard
+};
+
+/// Of all threads of a process [s].
+double processor_seconds_of(pid_t process) {
+  clockid_t clock = 0;
+  timespec spent{};
+  if (clock_getcpuclockid(process, &clock) == 0) clock_gettime(clock, &spent);
+  return double(spent.tv_sec) + 1e-9 * double(spent.tv_nsec);
 }
 
-// ---- the
-// parent ----------------------------------------------------------------------------------
-
-/// The processes of a slice, and the jobs that they are to run.
 class Crew {
  public:
-  Crew(const Batch& batch, size_t slice, std::vector<BatchJob> jobs, const WorkSettings& settings)
-      : batch_(batch), slice_(slice), settings_(settings), jobs_(std::move(jobs)) {
-    level_sets_ = memoizing_provider(provider_for(settings.cache, 1));
+  Crew(const BatchTerms& terms, std::vector<BatchJob> jobs, const WorkSettings& settings,
+       const std::string& shard)
+      : terms_(terms),
+        jobs_(std::move(jobs)),
+        level_sets_(memoizing_provider(provider_for(settings.cache, 1))),
+        shard_(shard),
+        workers_(std::min(size_t(std::max(1, settings.processes)), jobs_.size())) {
+    for (size_t i = 0; i < jobs_.size(); ++i) waiting_.push_back(i);
   }
-  ~Crew() { end_all(SIGKILL); }
+  ~Crew() {
+    for (Worker& worker : workers_) end(worker);
+  }
 
-  WorkDone work(const std::function<void(size_t)>& show) {
-    while (!jobs_.empty()) {
-      run_round(show);
-      jobs_ = std::move(again_);
-      again_.clear();
+  void work(const std::function<void(size_t)>& show) {
+    while (!waiting_.empty() || std::ranges::any_of(workers_, &Worker::job)) {
+      for (Worker& worker : workers_)
+        if (!worker.job && !waiting_.empty()) give_job(worker);
+      listen();
+      for (Worker& worker : workers_)
+        if (worker.job) end_at_limit(worker);
+      try {
+        show(ended_);
+      } catch (...) {
+        for (const Worker& worker : workers_)
+          if (worker.job) shard_.append(interruption_line(worker.job->key));
+        throw;
+      }
+      if (ended_ > on_disk_ && Clock::now() - flushed_ > between_flushes) flush();
     }
-    return done_;
+    flush();
   }
 
  private:
-  void run_round(const std::function<void(size_t)>& show) {
-    std::ranges::stable_sort(jobs_, {}, &BatchJob::starts);
-    board_->next = 0;
-    const size_t processes =
-        std::min({size_t(settings_.processes), jobs_.size(), size_t(most_processes)});
-    crew_.assign(processes, 0);
-    for (size_t slot = 0; slot < processes; ++slot) start(slot);
-    while (std::ranges::any_of(crew_, [](pid_t process) { return process > 0; })) {
-      reap();
-      try {
-        show(size_t(board_->ended));
-      } catch (...) {
-        end_all(SIGTERM);
-        throw;
-      }
-      if (Clock::now() - marked_ > between_marks) mark_alive(batch_), marked_ = Clock::now();
-      usleep(5000);
-    }
-    done_.ended = size_t(board_->ended);
+  void flush() {
+    shard_.flush_to_disk();
+    on_disk_ = ended_;
+    flushed_ = Clock::now();
   }
 
-  void start(size_t slot) {
-    const std::string folder =
-        settings_.shards.empty() ? shard_folder(batch_, slice_) : settings_.shards;
-    done_.shards.push_back(folder + "/" + new_shard_of_slice(slice_));
-    const std::string& shard = done_.shards.back();
+  void start(Worker& worker) {
+    int ends[2];
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
+      throw std::runtime_error("no channel can be made to a process that runs jobs");
     std::fflush(nullptr);
-    const pid_t parent = getpid(), process = fork();
-    if (process < 0) throw std::runtime_error("no process can be made to run jobs");
-    if (process == 0) {
-      Worker worker{batch_, jobs_, *board_.operator->(), int(slot), JobShard(shard), level_sets_};
-      be_worker(worker, parent);
+    const pid_t parent = getpid();
+    worker = {fork(), ends[0], nullptr, 0, {}, ""};
+    if (worker.process == 0) {
+      prctl(PR_SET_PDEATHSIG, SIGKILL);  // not orphaned where the parent is killed
+      if (getppid() != parent) _exit(1);
+      be_worker(terms_, jobs_, level_sets_, ends[1]);
     }
-    crew_[slot] = process;
+    close(ends[1]);
+    if (worker.process < 0) throw std::runtime_error("no process can be made to run jobs");
   }
 
-  void reap() {
-    for (size_t slot = 0; slot < crew_.size(); ++slot) {
-      int status = 0;
-      if (crew_[slot] <= 0 || waitpid(crew_[slot], &status, WNOHANG) != crew_[slot]) continue;
-      crew_[slot] = 0;
-      const long job = board_->current[slot].exchange(-1);
-      if (WIFEXITED(status) && WEXITSTATUS(status) == cannot_write)
-        throw std::runtime_error(batch_.folder + ": results cannot be written; the batch stops");
-      if (job < 0) continue;  // it came to its end, or was interrupted between two jobs
-      const bool has_result = WIFEXITED(status) && WEXITSTATUS(status) == ended_by_limit;
-      if (has_result)
-        ++board_->ended;
-      else
-        note_death(size_t(job));
-      if (board_->next < long(jobs_.size())) start(slot);
-    }
+  void give_job(Worker& worker) {
+    if (worker.process == 0) start(worker);
+    const size_t i = waiting_.front();
+    waiting_.pop_front();
+    worker.job = &jobs_[i];
+    worker.start = processor_seconds_of(worker.process);
+    worker.clock_start = Clock::now();
+    shard_.append(start_line(worker.job->key, worker.job->label));
+    send(worker.channel, &i, sizeof i, MSG_NOSIGNAL);  // one that is dead is noticed by listen()
   }
 
-  void note_death(size_t job) {
-    BatchJob& dead = jobs_[job];
-    if (++dead.starts < most_starts) {
-      again_.push_back(dead);
+  void listen() {
+    std::vector<pollfd> channels;
+    for (const Worker& worker : workers_)
+      channels.push_back({worker.job ? worker.channel : -1, POLLIN, 0});
+    if (poll(channels.data(), channels.size(), between_looks) <= 0) return;
+    for (size_t k = 0; k < workers_.size(); ++k)
+      if (channels[k].revents != 0) hear(workers_[k]);
+  }
+
+  void hear(Worker& worker) {
+    char piece[65536];
+    const ssize_t count = recv(worker.channel, piece, sizeof piece, MSG_DONTWAIT);
+    if (count == 0) return note_death(worker);
+    if (count > 0) worker.answer.append(piece, size_t(count));
+    if (!worker.answer.ends_with("\n\n")) return;
+    shard_.append(worker.answer.substr(0, worker.answer.size() - 2));
+    worker.answer.clear();
+    worker.job = nullptr;
+    ++ended_;
+  }
+
+  void note_death(Worker& worker) {
+    BatchJob& job = jobs_[size_t(worker.job - jobs_.data())];
+    const int status = end(worker);
+    if (WIFEXITED(status) && WEXITSTATUS(status) == cannot_write)
+      throw std::runtime_error(shard_.path() + ": results cannot be written; the batch stops");
+    if (++job.starts < most_starts)
+      waiting_.push_back(size_t(&job - jobs_.data()));
+    else
+      log_line(fmt::format("crashed after {} starts: {}", job.starts, job.label));
+  }
+
+  void end_at_limit(Worker& worker) {
+    const double most = terms_.limits.seconds;
+    const std::chrono::duration<double> clock = Clock::now() - worker.clock_start;
+    if (processor_seconds_of(worker.process) - worker.start < most &&
+        clock.count() < 10 * most + 10)
       return;
+    JobResult result;
+    result.end = JobEnd::timed_out;
+    result.reason = fmt::format("took more than {:g} s", most);
+    result.seconds = most;
+    sign(result);
+    shard_.append(result_line(worker.job->key, result));
+    end(worker);
+    ++ended_;
+  }
+
+  /// Returns its status, as of waitpid.
+  static int end(Worker& worker) {
+    int status = 0;
+    if (worker.process > 0) {
+      kill(worker.process, SIGKILL);
+      waitpid(worker.process, &status, 0);
+      close(worker.channel);
     }
-    ++done_.crashed;
-    log_line(fmt::format("crashed after {} starts: {}", dead.starts, dead.label));
+    worker = {};
+    return status;
   }
 
-  /// SIGTERM lets them note what they interrupt; who does not end within a while is killed.
-  void end_all(int signal) {
-    const auto until = Clock::now() + patience;
-    for (const pid_t process : crew_)
-      if (process > 0) kill(process, signal);
-    for (pid_t& process : crew_)
-      while (process > 0) {
-        if (Clock::now() > until) kill(process, SIGKILL);
-        if (waitpid(process, nullptr, WNOHANG) != 0) process = 0;
-        usleep(2000);
-      }
-  }
-
-  const Batch& batch_;
-  size_t slice_;
-  const WorkSettings& settings_;
-  std::vector<BatchJob> jobs_, again_;
+  const BatchTerms& terms_;
+  std::vector<BatchJob> jobs_;
+  std::deque<size_t> waiting_;
   LevelSetProvider level_sets_;
-  SharedBoard board_;
-  std::vector<pid_t> crew_;  // by slot; 0: none
-  WorkDone done_;
-  Clock::time_point marked_ = Clock::now();
+  ShardFile shard_;
+  std::vector<Worker> workers_;
+  size_t ended_ = 0, on_disk_ = 0;  // results
+  Clock::time_point flushed_ = Clock::now();
 };
 
 }  // namespace
 
-WorkDone work_through(const Batch& batch, size_t slice, std::vector<BatchJob> jobs,
-                      const WorkSettings& settings, const std::function<void(size_t)>& show) {
+void work_through(const BatchTerms& terms, std::vector<BatchJob> jobs, const WorkSettings& settings,
+                  const std::string& shard, const std::function<void(size_t)>& show) {
   std::erase_if(jobs, [](const BatchJob& job) { return job.starts >= most_starts; });
-  return Crew(batch, slice, std::move(jobs), settings).work(show);
+  std::ranges::stable_sort(jobs, {}, &BatchJob::starts);
+  Crew(terms, std::move(jobs), settings, shard).work(show);
 }
 
 std::vector<BatchJob> missing_in(const std::vector<std::string>& shards,
                                  std::vector<BatchJob> jobs) {
-  const ShardState known = read_shard_state(shards);
-  std::erase_if(jobs, [&](const BatchJob& job) { return known.results.contains(job.key); });
+  JobIndex known(shards);
+  std::erase_if(jobs, [&](const BatchJob& job) { return known.find(job.key).has_value(); });
+  const std::map<std::string, int> starts = known.open_starts();
   for (BatchJob& job : jobs)
-    if (const auto starts = known.open_starts.find(job.key); starts != known.open_starts.end())
-      job.starts += starts->second;
+    if (const auto open = starts.find(job.key); open != starts.end()) job.starts += open->second;
   return jobs;
 }
 

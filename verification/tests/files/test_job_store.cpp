@@ -3,7 +3,6 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "reference/types.h"
 #include "verification/files/job_store.h"
@@ -18,7 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 using Catch::Matchers::Contains;
 using Starts = std::map<std::string, int>;
-using Keys = std::set<std::string>;
 
 JobResult job_specimen() {
   const std::map<std::string, double> values = {
@@ -38,16 +36,14 @@ struct Store {
   ScratchFolder scratch;
   std::string folder = scratch.file("store"), index = folder + "/index.sqlite";
 
-  std::string shard(const std::string& name) const {
-    return folder + "/batches/batch/shards/" + name + ".jsonl";
-  }
   /// file: below the folder of batches.
-  void add(const std::string& file, const std::string& text) const {
+  std::string add(const std::string& file, const std::string& text) const {
     const std::string path = folder + "/batches/" + file;
     fs::create_directories(fs::path(path).parent_path());
     std::ofstream(path, std::ios::app) << text;
+    return path;
   }
-  void add_to_a(const std::string& text) const { add("batch/shards/a.jsonl", text); }
+  std::string add_to_a(const std::string& text) const { return add("batch/shards/a.jsonl", text); }
 };
 
 }  // namespace
@@ -55,18 +51,15 @@ struct Store {
 TEST_CASE("job store: all of a result but the clock is found, by this index and by a new one") {
   const Store store;
   JobResult expected = job_specimen();
-  JobShard shard(store.shard("a"));
-  shard.start("k1", "first \xff");
-  for (const char* unit : {"m", "km"}) shard.end("k1", expected, {{"height", unit}});
   const std::string line =
       R"({"bytes":1234567890123,"clock":3.25,"commit":"c4","content":{"digest":"00ff",)"
       R"("end":"stopped","reason":"é","values":{"height":0.3333333333333333,"lowest":null,)"
       R"("tiny":5e-324}},"date":"a date","host":"a host","kept":"kept/k1","result":"k1",)"
-      "\"seconds\":2.5}\n";
-  CHECK(bytes_of_file(store.shard("a")) ==
-        "{\"label\":\"first \uFFFD\",\"start\":\"k1\"}\n{\"units\":{\"height\":\"m\"}}\n" + line +
-            line);
-  store.add_to_a("{\"units\":{\"height\":\"km\"}}\n" + line_with("k2", "out of memory"));
+      "\"seconds\":2.5}";
+  CHECK(result_line("k1", expected) == line);
+  CHECK(start_line("k1", "first \xff") == "{\"label\":\"first \uFFFD\",\"start\":\"k1\"}");
+  store.add_to_a(units_line({{"height", "m"}}) + "\n" + line + "\n" +
+                 units_line({{"height", "km"}}) + "\n" + line_with("k2", "out of memory"));
   expected.clock = 0;
   for (const bool is_rebuilt : {false, true}) {
     if (is_rebuilt) fs::remove(store.index);
@@ -74,10 +67,10 @@ TEST_CASE("job store: all of a result but the clock is found, by this index and 
     CHECK(index.merge() == 2);
     CHECK(index.units() == Units{{"height", "m"}});
     for (int again = 0; again < 2; ++again)
-      CHECK(JobShard::line_of("k1", index.find("k1").value()) == JobShard::line_of("k1", expected));
+      CHECK(result_line("k1", index.find("k1").value()) == result_line("k1", expected));
     CHECK(std::isnan(index.find("k1").value().values.at("lowest")));
     CHECK(index.find("k2").value().end == JobEnd::out_of_memory);
-    CHECK((!index.find("k3").has_value() && !index.contains("k3")));
+    CHECK(!index.find("k3"));
   }
 }
 
@@ -87,24 +80,16 @@ TEST_CASE("job store: a torn tail is ignored, and read when it is whole") {
   store.add_to_a(line_with("k1", "holds") + line.substr(0, line.size() / 2));
   JobIndex index(store.folder);
   CHECK(index.merge() == 1);
-  CHECK_FALSE(index.contains("k2"));
+  CHECK(!index.find("k2"));
   store.add_to_a(line.substr(line.size() / 2));
-  CHECK((index.merge() == 1 && index.merge() == 0 && index.contains("k2")));
+  CHECK((index.merge() == 1 && index.merge() == 0 && index.find("k2")));
   CHECK(index.repeated() == 0);  // the first line was not read again
 }
 
-TEST_CASE("job store: damaged lines between whole ones are no results") {
+TEST_CASE("job store: invalid lines leave the others to be read") {
   const Store store;
   store.add_to_a(line_with("k1", "holds") + "{\"result\": \"k2\", \"content\": {\"end\": \"ho\n");
   store.add_to_a("{\"result\": \"k3\", \"content\": {\"end\": \"holds\"}}\n[1]\n7\n\n");
-  store.add_to_a(line_with("k4", "holds"));
-  JobIndex index(store.folder);
-  CHECK(index.merge() == 2);
-  CHECK((!index.contains("k2") && !index.contains("k3") && index.contains("k4")));
-}
-
-TEST_CASE("job lines: an invalid line of a result leaves the others to be read") {
-  const Store store;
   store.add_to_a("{\"start\":\"bad\",\"label\":\"\"}\n");
   for (const char* rest :
        {",\"seconds\":\"x\"", ",\"bytes\":[]", ",\"host\":null", ",\"commit\":7"})
@@ -115,8 +100,8 @@ TEST_CASE("job lines: an invalid line of a result leaves the others to be read")
     store.add_to_a(std::string(bad) + "\n");
   store.add_to_a(line_with("good", "holds"));
   JobIndex index(store.folder);
-  CHECK(index.merge() == 1);
-  CHECK((index.contains("good") && !index.contains("bad")));
+  CHECK(index.merge() == 2);
+  CHECK((index.find("k1") && index.find("good")));
   CHECK(index.open_starts() == Starts{{"bad", 1}});
   CHECK(index.units().empty());
 }
@@ -126,78 +111,63 @@ TEST_CASE("job store: a repetition that finds the same is counted, another one i
   JobResult same = job_specimen(), other = job_specimen();
   same.seconds = 9, same.host = "two", same.date = "later", same.commit = "other";
   other.values["height"] = std::nextafter(1.0 / 3, 1.0);
-  JobShard(store.shard("a")).end("k1", job_specimen(), {});
+  store.add_to_a(result_line("k1", job_specimen()) + "\n");
   for (int twice = 0; twice < 2; ++twice) {
-    store.add("batch/shards/b.jsonl", JobShard::line_of("k1", same));
+    store.add("batch/shards/b.jsonl", result_line("k1", same) + "\n");
     store.add("batch/shards/d.jsonl", line_with("other", "holds"));
   }
   JobIndex index(store.folder);
   CHECK(index.merge() == 2);
   CHECK((index.repeated() == 2 && index.conflicts().empty()));  // once a shard
-  JobShard(store.shard("c")).end("k1", other, {});
+  store.add("batch/shards/0003/c.jsonl", result_line("k1", other) + "\n");
+  store.add("batch/shards/e.json", line_with("another ending", "holds"));
+  store.add("batch/f.jsonl", line_with("beside the shards", "holds"));
   CHECK((index.merge() == 0 && index.repeated() == 3));
   REQUIRE(index.conflicts().size() == 1);
-  const JobIndex::Conflict conflict = index.conflicts()[0];
-  CHECK((conflict.key == "k1" && conflict.shard == "batch/c"));
-  CHECK(nlohmann::json::parse(conflict.content).at("values").at("height") ==
-        other.values["height"]);
+  CHECK((index.conflicts()[0].key == "k1" && index.conflicts()[0].shard == "batch/c"));
   CHECK(index.find("k1").value().values.at("height") == 1.0 / 3);
 }
 
 TEST_CASE("job store: starts without an end are counted, ends and interruptions take them back") {
   const Store store;
-  for (const char* name : {"a", "b", "c"}) {
-    JobShard shard(store.shard(name));
-    for (const char* key : {"cut off", "ended", "stopped on request"}) shard.start(key, key);
-    shard.start("cut off", "again");
-    shard.end("ended", job_specimen(), {});
-    shard.interrupt("stopped on request");
+  std::vector<std::string> shards;
+  for (const char* name : {"a", "b"}) {
+    std::string text;
+    for (const char* key : {"cut off", "ended", "stopped on request", "cut off"})
+      text += start_line(key, "a label") + "\n";
+    shards.push_back(store.add(std::string("batch/shards/") + name + ".jsonl", text));
   }
-  store.add("batch two/shards/a.jsonl", "{\"start\":\"ended\"}\n");
   JobIndex index(store.folder);
   index.merge();
-  CHECK(index.open_starts() == Starts{{"cut off", 3}, {"ended", 1}});
-  CHECK(index.open_starts_in("batch") == Keys{"cut off"});
-  CHECK(index.open_starts_in("batch two") == Keys{"ended"});
-  for (const char* other : {"bat", ""}) CHECK(index.open_starts_in(other).empty());
-  store.add("batch/shards/b.jsonl",
-            "{\"result\":\"never started\"}\n[1]\n7\nno JSON\n\n{\"start\":5}\n{\"result\":5}\n"
-            "{\"interrupted\":[]}\n{\"other\":\"key\"}\n{\"start\":\"torn");
-  const ShardState state =
-      read_shard_state({store.shard("a"), store.shard("b"), store.shard("missing")});
-  CHECK(state.results == Keys{"ended", "never started"});
-  CHECK(state.open_starts == Starts{{"cut off", 4}});
-}
-
-TEST_CASE("job store: shards are the .jsonl files at any depth below a batch's folder of shards") {
-  const Store store;
-  CHECK(JobIndex(store.folder).merge() == 0);  // makes the folder
-  store.add("one/shards/a.jsonl", line_with("k1", "holds"));
-  store.add("one/shards/0003/deep/b.jsonl", line_with("k2", "holds") + line_with("k1", "fails"));
-  store.add("two/shards/a.jsonl", line_with("k3", "holds"));
-  store.add("one/shards/c.json", line_with("other ending", "holds"));
-  store.add("one/d.jsonl", line_with("beside", "holds"));
-  JobIndex index(store.folder);
-  CHECK(index.merge() == 3);
-  REQUIRE(index.conflicts().size() == 1);
-  CHECK_THAT(index.conflicts()[0].shard, Catch::StartsWith("one/"));
+  CHECK(index.open_starts() == Starts{{"cut off", 4}, {"ended", 2}, {"stopped on request", 2}});
+  for (const std::string& shard : shards)
+    std::ofstream(shard, std::ios::app) << result_line("ended", job_specimen()) + "\n" +
+                                               interruption_line("stopped on request") + "\n" +
+                                               start_line("torn", "").substr(0, 9);
+  index.merge();
+  CHECK(index.open_starts() == Starts{{"cut off", 4}});
+  shards[1] = "no such file";
+  JobIndex of_one(shards);
+  CHECK(of_one.open_starts() == Starts{{"cut off", 2}});
+  CHECK((of_one.find("ended") && !of_one.find("cut off")));
 }
 
 TEST_CASE("job store: an index that is damaged, or of another layout, is made anew") {
   const Store store;
-  JobShard(store.shard("a")).end("k1", job_specimen(), {});
+  store.add_to_a(line_with("k1", "holds"));
+  JobIndex(store.folder).merge();
   for (const bool is_damaged : {true, false}) {
     if (is_damaged) std::ofstream(store.index) << std::string(5000, 'x');
     if (!is_damaged) SqliteFile(store.index).run("update layout set version = 1000");
     JobIndex index(store.folder);
-    CHECK((index.merge() == 1 && index.contains("k1")));
+    CHECK((index.merge() == 1 && index.find("k1")));
   }
 }
 
 TEST_CASE("job store: an index that the disk cannot take says so, and is whole afterwards") {
   const Store store;
-  JobShard shard(store.shard("a"));
-  for (int k = 0; k < 400; ++k) shard.end("k" + std::to_string(k), job_specimen(), {});
+  for (int k = 0; k < 400; ++k)
+    store.add_to_a(result_line("k" + std::to_string(k), job_specimen()) + "\n");
   JobIndex index(store.folder);
   {
     const FileSizeLimit limit(fs::file_size(store.index) + 8192);
