@@ -7,7 +7,6 @@
 #include <exception>
 #include <map>
 
-#include "convergence/any_case/distances.h"
 #include "verification/cases/judge.h"
 #include "verification/cases/quantities.h"
 #include "verification/cases/self_crossings.h"
@@ -119,19 +118,9 @@ double sum_of_known(double time, double mesh) {
 }  // namespace
 
 std::string_view name_of(Need need) {
-  switch (need) {
-    case Need::needed:
-      return "needed";
-    case Need::not_needed:
-      return "not needed here";
-    case Need::missing:
-      return "missing here";
-    case Need::no_effect:
-      return "no effect if added";
-    case Need::cannot_tell:
-      break;
-  }
-  return "cannot tell";
+  constexpr std::string_view names[] = {"needed", "not needed here", "missing here",
+                                        "no effect if added", "cannot tell"};
+  return names[size_t(need)];
 }
 
 ObservedRun observe_run(const Case& input_case, const LevelSetProvider& level_sets, int particles) {
@@ -153,10 +142,6 @@ Case with_scene(const Case& input_case, Scene scene) {
     if (!rejection || rejection(changed.scene).empty()) changed.expectations.push_back(expectation);
   }
   return changed;
-}
-
-double position_difference(const ObservedRun& a, const ObservedRun& b, const PerParticle& mass) {
-  return largest_difference(a.x, b.x, mass);
 }
 
 bool JudgedPart::is_justified() const {
@@ -194,7 +179,7 @@ double DiscretisationError::seen() const {
 JudgedPart judge_part(const ScenePart& part, const ObservedRun& scene, ObservedRun toggled,
                       const DiscretisationError& error, const PerParticle& mass) {
   JudgedPart result{part.name, part.is_present, Need::needed, "", 0, 0, "", {}};
-  result.position_difference = position_difference(scene, toggled, mass);
+  result.position_difference = largest_difference(scene.x, toggled.x, mass);
   result.energy_difference = energy_difference(scene, toggled);
   const ObservedRun &with = part.is_present ? scene : toggled,
                     &without = part.is_present ? toggled : scene;

@@ -56,10 +56,6 @@ ObservedRun observe_run(const Case& input_case, const LevelSetProvider& level_se
 /// scene is left out.
 Case with_scene(const Case& input_case, Scene scene);
 
-/// The largest difference over the frames that both have: the root mean square over particles,
-/// weighted with their masses (N [kg]), of how far apart they are [m].
-double position_difference(const ObservedRun& a, const ObservedRun& b, const PerParticle& mass);
-
 enum class Need { needed, not_needed, missing, no_effect, cannot_tell };
 
 // "needed", "not needed here", "missing here", "no effect if added", "cannot tell"

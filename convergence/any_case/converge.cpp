@@ -3,15 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "convergence/any_case/distances.h"
+#include "convergence/work_precision/precision_problem.h"
 #include "reference/dynamics/system.h"
 
 namespace foldproof {
 
 namespace {
-
-/// Rounding of a number of this size over a run: differences below are no discretization error.
-double rounding_floor(double size) { return 1e3 * epsilon * size; }
 
 /// Whole numbers at every level are counts, which have no rounding.
 double value_floor(const std::vector<double>& values) {
@@ -54,15 +51,20 @@ QuantityOverLevels value_over_levels(const Measurement& of, size_t m,
   return over;
 }
 
-LadderAnswer answer_about(const Scene& scene, const std::string& in,
-                          const std::vector<LevelRun>& runs) {
+LadderAnswer ladder_answer(const Scene& scene, const std::string& in,
+                           const std::vector<Measurement>& measurements,
+                           const std::vector<LevelRun>& runs, double formal_order) {
   LadderAnswer answer{scene.name, scene.integrator, in, {}, {}, {}, {}, {}};
   for (const LevelRun& run : runs) {
-    answer.work.push_back(run.work);
+    answer.work.push_back(operator_applications(run.work));
     answer.seconds.push_back(run.seconds);
     answer.stopped.push_back(run.stopped);
   }
   answer.mean_step = mean_step_of(runs.back());
+  answer.formal_order = formal_order;
+  answer.quantities.push_back(positions_over_levels(scene, runs, formal_order));
+  for (size_t m = 0; m < measurements.size(); ++m)
+    answer.quantities.push_back(value_over_levels(measurements[m], m, runs, formal_order));
   return answer;
 }
 
@@ -91,21 +93,13 @@ Level time_level(const LadderPlan& plan, int k, const std::vector<double>& step_
   return level;
 }
 
-LadderAnswer answer_in_time(const LadderPlan& plan, const std::vector<LevelRun>& runs,
-                            double formal_order) {
+LadderAnswer time_answer(const LadderPlan& plan, const std::vector<LevelRun>& runs,
+                         double formal_order) {
   const Scene& scene = plan.input_case.scene;
-  LadderAnswer answer = answer_about(scene, "time", runs);
-  answer.formal_order = formal_order;
+  LadderAnswer answer = ladder_answer(scene, "time", plan.measurements, runs, formal_order);
   for (const LevelRun& run : runs) answer.sizes.push_back(mean_step_of(run));
   answer.particles.assign(runs.size(), scene.mesh.particles());
-  answer.quantities.push_back(positions_over_levels(scene, runs, formal_order));
-  for (size_t m = 0; m < plan.measurements.size(); ++m)
-    answer.quantities.push_back(value_over_levels(plan.measurements[m], m, runs, formal_order));
   return answer;
-}
-
-LadderAnswer time_answer(const LadderPlan& plan, const std::vector<LevelRun>& runs) {
-  return answer_in_time(plan, runs, integrator_named(plan.input_case.scene.integrator).order);
 }
 
 }  // namespace foldproof

@@ -73,15 +73,14 @@ struct LadderAnswer {
   double cost(size_t k) const { return work[k] * particles[k]; }
 };
 
-/// An answer with the steps, costs and stops of the runs, without quantities yet.
-LadderAnswer answer_about(const Scene& scene, const std::string& in,
-                          const std::vector<LevelRun>& runs);
+/// Reads the runs of all levels, coarse to fine, of a method or a mesh of this order: all of an
+/// answer but sizes, particles, and what only one kind of ladder has.
+LadderAnswer ladder_answer(const Scene& scene, const std::string& in,
+                           const std::vector<Measurement>& measurements,
+                           const std::vector<LevelRun>& runs, double formal_order);
 
-/// Reads all levels, coarse to fine, of a method of this order.
-LadderAnswer answer_in_time(const LadderPlan& plan, const std::vector<LevelRun>& runs,
-                            double formal_order);
-
-/// The same, of the case's own method.
-LadderAnswer time_answer(const LadderPlan& plan, const std::vector<LevelRun>& runs);
+/// ladder_answer of a ladder in time.
+LadderAnswer time_answer(const LadderPlan& plan, const std::vector<LevelRun>& runs,
+                         double formal_order);
 
 }  // namespace foldproof

@@ -1,5 +1,5 @@
 // A run that a store keeps: its frames, its seconds, why it stopped. Questions about a case add
-// what else they need of it.
+// what else they need of it. And how far two runs of the same cloth are apart.
 #pragma once
 
 #include <functional>
@@ -19,6 +19,9 @@ struct FramedRun {
   std::string stopped;          // why the run came to no end, or ""
 };
 
+/// It came to its end.
+bool is_whole(const FramedRun& run);
+
 /// The run as the store has it: arrays "times", "positions", "seconds", text "stopped".
 StoredResult packed_frames(const FramedRun& run);
 
@@ -29,24 +32,31 @@ bool unpack_frames(const StoredResult& kept, Eigen::Index particles, FramedRun& 
 /// The array of this name; empty where there is none.
 std::vector<double> array_of(const StoredResult& kept, const std::string& name);
 
-/// How a kind of run is made, kept and read; `unpack` gives none for a result that it cannot use.
-template <class Run>
-struct RunKeeper {
-  std::function<Run()> make;
-  std::function<StoredResult(const Run&)> pack;
-  std::function<std::optional<Run>(const StoredResult&)> unpack;
-};
+// Distances: root mean squares over the particles, by mass (N [kg], some > 0).
 
-/// The run of this key from the store if it is there and of use; else made now and kept there.
-template <class Run>
-Run stored_or_made(ResultStore& store, const std::string& key, const std::string& label,
-                   const RunKeeper<Run>& keeper) {
-  if (const auto kept = store.find(key))
-    if (std::optional<Run> run = keeper.unpack(*kept)) return *std::move(run);
-  store.start(key, label);
-  Run run = keeper.make();
-  store.keep(key, keeper.pack(run));
-  return run;
-}
+/// The longest side of the box around x, 3 x N [m].
+double longest_side(const PerParticle3& x);
+
+/// Differences of positions, or of numbers, of this size at most are rounding over a run, no error
+/// of discretization.
+double rounding_floor(double size);
+
+/// The root mean square over the particles of |u_i|, in the unit of u.
+double mean_square_root(const PerParticle3& u, const PerParticle& mass);
+
+/// The largest distance over the frames that both runs have, each 3 x N [m]; 0 without a frame, NaN
+/// where a position is none.
+double largest_difference(const std::vector<PerParticle3>& a, const std::vector<PerParticle3>& b,
+                          const PerParticle& mass);
+
+/// The same; NaN where they are not the same frames, or there is none.
+double frame_distance(const std::vector<PerParticle3>& a, const std::vector<PerParticle3>& b,
+                      const PerParticle& mass);
+
+/// frame_distance of two runs [m]; NaN where one of them stopped.
+double field_difference(const FramedRun& a, const FramedRun& b, const PerParticle& mass);
+
+/// The largest distance of a run from its first frame [m].
+double largest_motion(const std::vector<PerParticle3>& x, const PerParticle& mass);
 
 }  // namespace foldproof

@@ -10,8 +10,14 @@ namespace foldproof {
 
 namespace {
 
-/// "step" or "mesh": what is refined.
-std::string refined(const LadderAnswer& answer) { return answer.in == "time" ? "step" : "mesh"; }
+/// What is refined, what becomes shorter from level to level, and in which unit.
+struct Refined {
+  const char *what, *shortened, *unit;
+};
+
+Refined refined(const LadderAnswer& answer) {
+  return answer.in == "time" ? Refined{"step", "steps", "s"} : Refined{"mesh", "edges", "m"};
+}
 
 /// Differences over `scale`, each at the size of its coarser level.
 Curve curve_over_levels(const LadderAnswer& answer, const QuantityOverLevels& q, double scale) {
@@ -23,7 +29,7 @@ Curve curve_over_levels(const LadderAnswer& answer, const QuantityOverLevels& q,
 
 Axis size_axis(const LadderAnswer& answer) {
   return {answer.in == "time" ? "mean step of the coarser level" : "size of the coarser level",
-          answer.in == "time" ? "s" : "m", Scale::log};
+          refined(answer).unit, Scale::log};
 }
 
 constexpr const char* caption =
@@ -80,21 +86,18 @@ Table quantities_table(const LadderAnswer& answer) {
               {"limit", ""},    {"error bar", ""}, {"error as it is", ""},
               {"order", "1"},   {"reading", ""}};
   for (const QuantityOverLevels& q : answer.quantities)
-    table.row(
-        q.name, q.unit, value_text(q.values.empty() ? nan : q.values.back(), q.bar.half_width),
-        value_text(q.bar.limit, q.bar.half_width), q.bar.half_width, q.first_error, q.bar.order,
-        q.bar.reason.empty() ? std::string(name_of(q.bar.reading))
-                             : fmt::format("{}: {}", name_of(q.bar.reading), q.bar.reason));
+    table.row(q.name, q.unit,
+              value_text(q.values.empty() ? nan : q.values.back(), q.bar.half_width),
+              value_text(q.bar.limit, q.bar.half_width), q.bar.half_width, q.first_error,
+              q.bar.order, in_words(q.bar));
   return {"quantities", "Quantities, each in its unit", table};
 }
 
 Table levels_table(const LadderAnswer& answer) {
-  Table table{{"level", "1"},
-              {answer.in == "time" ? "mean step" : "size", answer.in == "time" ? "s" : "m"},
-              {"particles", "1"},
-              {answer.work_name, "1"},
-              {"processor time", "s"},
-              {"stopped", ""}};
+  Table table{
+      {"level", "1"},          {answer.in == "time" ? "mean step" : "size", refined(answer).unit},
+      {"particles", "1"},      {answer.work_name, "1"},
+      {"processor time", "s"}, {"stopped", ""}};
   for (size_t k = 0; k < answer.sizes.size(); ++k)
     table.row(k + 1, answer.sizes[k], answer.particles[k], answer.work[k], answer.seconds[k],
               answer.stopped[k].empty() ? std::string("no") : answer.stopped[k]);
@@ -108,11 +111,6 @@ std::string as_sentence(std::string words) {
   return words + ".";
 }
 
-/// Steps, or edges, become shorter from level to level.
-std::string shortened(const LadderAnswer& answer) {
-  return answer.in == "time" ? "steps" : "edges";
-}
-
 /// From Richardson's law, error ~ size^order, and a cost that grows as between the finest levels.
 std::string halved_by_order(const LadderAnswer& answer, double order) {
   const size_t last = answer.sizes.size() - 1;
@@ -121,7 +119,7 @@ std::string halved_by_order(const LadderAnswer& answer, double order) {
                         std::log(answer.sizes[last - 1] / answer.sizes[last]);
   return fmt::format(
       "{} {:.2f} times shorter ({:.2g} {}) halve that error, at {:.1f} times the work",
-      shortened(answer), parts, answer.sizes[0] / parts, answer.in == "time" ? "s" : "m",
+      refined(answer).shortened, parts, answer.sizes[0] / parts, refined(answer).unit,
       std::pow(parts, growth));
 }
 
@@ -136,7 +134,8 @@ std::string halved_by_level(const LadderAnswer& answer) {
   }
   if (coarsest == answer.sizes.size()) return "no level of this ladder halves that error";
   return fmt::format("{} {} times shorter at least halve that error, at {:.1f} times the work",
-                     shortened(answer), 1 << coarsest, answer.cost(coarsest) / answer.cost(0));
+                     refined(answer).shortened, 1 << coarsest,
+                     answer.cost(coarsest) / answer.cost(0));
 }
 
 }  // namespace
@@ -168,7 +167,7 @@ std::string in_words(const LadderAnswer& answer) {
   const std::string first = fmt::format(
       "The {} of {} with method {} puts its positions off by {:.2g} m at most; the finest of {} "
       "levels has an error bar of {:.2g} m.",
-      refined(answer), answer.scene, answer.method, positions.first_error, answer.sizes.size(),
+      refined(answer).what, answer.scene, answer.method, positions.first_error, answer.sizes.size(),
       bar.half_width);
   if (bar.reading == Reading::inconclusive)
     return first + " That is a spread and no estimate: " + bar.reason + ".";
@@ -197,7 +196,7 @@ StudyRecord study_of(const LadderAnswer& answer, const std::string& predictable)
       "The same case with its {} refined from level to level. The limit is Richardson's; the error "
       "bar belongs to the finest level and is the grid convergence index. The error as it is "
       "belongs to the first level, bar included.",
-      refined(answer));
+      refined(answer).what);
   if (!predictable.empty()) study.about += " " + as_sentence(predictable);
   for (const std::string& warning : answer.warnings) study.about += " " + as_sentence(warning);
   for (const double seconds : answer.seconds)

@@ -23,7 +23,8 @@ const PriceList* prices_at(const PrecisionAnswer& reference, double wanted) {
 /// Why no longer step has a price although its error is not known to be too large; "" if the
 /// error is the limit.
 std::string limit_in_words(const SolverPrice& price) {
-  if (price.is_whole_frame) return "one step a frame; no longer step can be tried";
+  if (price.price.limit == LimitedBy::not_tried)
+    return "one step a frame; no longer step can be tried";
   if (std::isnan(price.unstable_step)) return "";
   return fmt::format("limited by stability: {:.3g} ms is unstable", price.unstable_step / milli);
 }
@@ -31,10 +32,10 @@ std::string limit_in_words(const SolverPrice& price) {
 std::string price_in_words(const SolverPrice& price) {
   if (!price.because.empty()) return price.because;
   const std::string limit = limit_in_words(price);
+  const auto& [limited_by, step, steps, processor, unfinished, clock] = price.price;
   return fmt::format("h {} {:.3g} ms{}, {:.2g} s of the processor, {:.2g} s by the clock",
-                     price.is_whole_frame ? ">=" : "=", price.step / milli,
-                     limit.empty() ? "" : " (" + limit + ")", price.spent.processor,
-                     price.spent.clock);
+                     limited_by == LimitedBy::not_tried ? ">=" : "=", step / milli,
+                     limit.empty() ? "" : " (" + limit + ")", processor, clock);
 }
 
 std::string beside(const PrecisionAnswer& reference, double wanted) {
@@ -59,18 +60,6 @@ std::string gap_in_words(const SolverPrecision& solver) {
                  : "steps may explain it");
 }
 
-struct CostAxis {
-  const char *name, *title;
-  double (*of_solver)(const SolverStep& step);
-  double (*of_reference)(const PrecisionRun& run, double end);
-};
-
-const CostAxis cost_axes[] = {
-    {"time", "processor time", [](const SolverStep& step) { return step.spent.processor; },
-     [](const PrecisionRun& run, double) { return run.seconds; }},
-    {"step", "step", [](const SolverStep& step) { return step.step; },
-     [](const PrecisionRun& run, double end) { return end / run.steps; }}};
-
 /// The reference's methods that win at some error.
 std::vector<std::string> winning_methods(const PrecisionAnswer& reference) {
   std::vector<std::string> methods;
@@ -80,27 +69,31 @@ std::vector<std::string> winning_methods(const PrecisionAnswer& reference) {
   return methods;
 }
 
+/// Of the runs that have an error.
+Curve measured_curve(PrecisionCurve curve, const CostAxis& cost, double end, double floor) {
+  std::erase_if(curve.runs, [](const PrecisionRun& run) { return !std::isfinite(run.error); });
+  Curve points = error_curve(curve, cost, end, floor);
+  points.marks.clear();
+  return points;
+}
+
 Figure figure_of(const SolverPrecision& solver, const PrecisionAnswer& reference,
                  const CostAxis& cost) {
   Figure figure{cost.name,
                 fmt::format("Error against {}: {}", cost.name, solver.plan.name),
-                {cost.title, "s", Scale::log},
+                cost.axis,
                 {"position error over the motion", "%", Scale::log},
                 nan,
                 "Each program's error is the distance from its own limit. Of the reference the "
                 "methods are shown that are cheapest at a wanted error.",
                 {}};
-  Curve curve{solver.plan.name, {}, {}, nan, {}};
-  for (const SolverStep& step : solver.steps)
-    if (std::isfinite(step.error)) curve.point(cost.of_solver(step), percent * step.error);
-  if (!curve.x.empty()) figure.curves.push_back(curve);
+  const double end = solver.plan.end;
+  Curve curve = measured_curve(solver.curve, cost, end, nan);
+  if (!curve.x.empty()) figure.curves.push_back(std::move(curve));
   for (const std::string& method : winning_methods(reference)) {
     const auto found = std::ranges::find(reference.curves, method, &MethodCurve::method);
-    Curve beside{"reference, " + method, {}, {}, percent * reference.truth.uncertainty, {}};
-    for (const PrecisionRun& run : found->curve.runs)
-      if (std::isfinite(run.error))
-        beside.point(cost.of_reference(run, solver.plan.end), percent * run.error);
-    figure.curves.push_back(std::move(beside));
+    figure.curves.push_back(measured_curve(*found, cost, end, reference.truth.uncertainty));
+    figure.curves.back().label = "reference, " + method;
   }
   return figure;
 }
@@ -116,9 +109,9 @@ Table price_table(const SolverPrecision& solver, const PrecisionAnswer& referenc
               {"note", "1"}};
   for (const SolverPrice& price : solver.prices) {
     const PriceList* list = prices_at(reference, price.wanted);
-    const MethodPrice none{"none", {LimitedBy::not_reached, nan, nan, nan, nan}};
+    const MethodPrice none{"none", {}};
     const MethodPrice& best = list ? list->prices.front() : none;
-    table.row(percent * price.wanted, price.step, price.spent.processor, price.spent.clock,
+    table.row(percent * price.wanted, price.price.step, price.price.seconds, price.price.clock,
               best.method, best.price.step, best.price.seconds,
               price.because.empty() ? limit_in_words(price) : price.because);
   }
@@ -132,9 +125,9 @@ Table step_table(const SolverPrecision& solver) {
               {"processor time", "s"},
               {"by the clock, through the pipe", "s"},
               {"stopped", "1"}};
-  for (const SolverStep& step : solver.steps)
-    table.row(step.parts, step.step, percent * step.error, step.spent.processor, step.spent.clock,
-              step.stopped);
+  for (const PrecisionRun& run : solver.curve.runs)
+    table.row(run.parts, solver.plan.frame / run.parts, percent * run.error, run.seconds, run.clock,
+              run.stopped);
   return {"runs", "Every run; no error where it came to no end, or without an order", table};
 }
 
@@ -162,9 +155,9 @@ StudyRecord solver_precision_record(const SolverPrecision& solver,
       "equal from frame to frame, and halved from run to run. Its error is the distance from its "
       "finest run, and that run's error bar; both over the reference's motion. Prices are "
       "interpolated in logarithms between the two steps that bracket the error.";
-  for (const SolverStep& step : solver.steps) record.seconds += step.spent.clock;
-  for (const CostAxis& cost : cost_axes)
-    record.figures.push_back(figure_of(solver, reference, cost));
+  for (const PrecisionRun& run : solver.curve.runs) record.seconds += run.clock;
+  for (const CostAxis& cost : cost_axes())
+    if (cost.name != "work") record.figures.push_back(figure_of(solver, reference, cost));
   record.tables = {price_table(solver, reference), step_table(solver)};
   return record;
 }

@@ -86,6 +86,22 @@ PlannedRun run_planned(const Subject& subject, const Scene& scene, const RunPlan
   return run;
 }
 
+EnergyRun run_with_energy(const Subject& subject, const Scene& scene, RunPlan plan, double from) {
+  const PerParticle mass = build_system(scene).mass;
+  Worst largest, added;
+  double last = nan;  // J
+  plan.seen = [&](const State& s) {
+    last = 0.5 * s.v.colwise().squaredNorm().dot(mass.transpose());
+    largest.observe(last);
+    if (s.time > from) added.observe(last);
+  };
+  const PlannedRun run = run_planned(subject, scene, plan);
+  const LongerEnergy energy = run.ending == Ending::reached
+                                  ? LongerEnergy{largest.value(), added.value()}
+                                  : LongerEnergy{nan, nan};
+  return {run, energy, last / largest.value()};
+}
+
 PrecisionTruth truth_of(const Subject& subject, const PrecisionProblem& problem) {
   PrecisionTruth truth{};
   measure_limits(subject, problem.scene, truth);
