@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "convergence/any_case/framed_run.h"
+#include "convergence/any_case/level_run.h"
 #include "convergence/any_case/own_error.h"
 #include "reference/bodies/level_set_provider.h"
 #include "reference/dynamics/simulate.h"

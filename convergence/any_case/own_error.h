@@ -45,7 +45,7 @@ double coarseness(const TriangleMesh& mesh, const TriangleMesh& coarser);
 /// of its own [m]:
 ///     |u_coarse - u| / (r - 1),    r the coarseness,
 /// u the displacement since the first frame, the difference as largest_difference takes it
-/// (framed_run.h). That is the error itself if it is of first order in the size of triangles, r + 1
+/// (level_run.h). That is the error itself if it is of first order in the size of triangles, r + 1
 /// times it if it is of second, and less than it, by (sqrt r + 1), if only of order 1/2. Meshes
 /// need not be nested. A particle of the coarser mesh is compared with the point of the scene's
 /// surface that is nearest to it in the first frame, moved linearly with its triangle: cloth that

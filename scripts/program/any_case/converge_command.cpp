@@ -9,7 +9,6 @@
 
 #include "convergence/any_case/converge.h"
 #include "convergence/any_case/error_map.h"
-#include "convergence/any_case/ladder_study.h"
 #include "convergence/any_case/solver_ladder.h"
 #include "convergence/any_case/space_ladder.h"
 #include "scripts/program/command_line/input_files.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "convergence/any_case/ladder_study.h"
+#include "convergence/any_case/converge.h"
 
 namespace foldproof {
 
