@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "convergence/any_case/framed_run.h"
+#include "convergence/any_case/level_run.h"
 #include "convergence/any_case/own_error.h"
 #include "reference/bodies/level_set_provider.h"
 #include "reference/dynamics/simulate.h"
@@ -55,10 +55,6 @@ ObservedRun observe_run(const Case& input_case, const LevelSetProvider& level_se
 /// The case with another scene: what is expected of the case and makes no sense for that
 /// scene is left out.
 Case with_scene(const Case& input_case, Scene scene);
-
-/// The largest difference over the frames that both have: the root mean square over particles,
-/// weighted with their masses (N [kg]), of how far apart they are [m].
-double position_difference(const ObservedRun& a, const ObservedRun& b, const PerParticle& mass);
 
 enum class Need { needed, not_needed, missing, no_effect, cannot_tell };
 

@@ -6,6 +6,7 @@
 
 #include "convergence/any_case/error_bar.h"
 #include "convergence/any_case/level_run.h"
+#include "verification/verdict.h"
 
 namespace foldproof {
 
@@ -73,15 +74,39 @@ struct LadderAnswer {
   double cost(size_t k) const { return work[k] * particles[k]; }
 };
 
-/// An answer with the steps, costs and stops of the runs, without quantities yet.
-LadderAnswer answer_about(const Scene& scene, const std::string& in,
-                          const std::vector<LevelRun>& runs);
+/// Reads the runs of all levels, coarse to fine, of a method or a mesh of this order: all of an
+/// answer but sizes, particles, and what only one kind of ladder has.
+LadderAnswer ladder_answer(const Scene& scene, const std::string& in,
+                           const std::vector<Measurement>& measurements,
+                           const std::vector<LevelRun>& runs, double formal_order);
 
-/// Reads all levels, coarse to fine, of a method of this order.
-LadderAnswer answer_in_time(const LadderPlan& plan, const std::vector<LevelRun>& runs,
-                            double formal_order);
+/// ladder_answer of a ladder in time.
+LadderAnswer time_answer(const LadderPlan& plan, const std::vector<LevelRun>& runs,
+                         double formal_order);
 
-/// The same, of the case's own method.
-LadderAnswer time_answer(const LadderPlan& plan, const std::vector<LevelRun>& runs);
+// The answer as evidence: curves of differences, tables, and a sentence.
+
+/// How large the error of the case as it stands is, in one or two sentences.
+std::string in_words(const LadderAnswer& answer);
+
+/// Letters, digits and hyphens, as names of studies have them.
+std::string as_name(const std::string& words);
+
+/// Says how to halve the error of the positions, and at which price. In the asymptotic range, steps
+/// (edges) are divided by 2^(1/order), and the cost grows as between the two finest levels. Outside
+/// it, the sentence names the first level whose measured error is at most half of the first one's,
+/// or says that no level does, or that nothing is known.
+std::string how_to_halve(const LadderAnswer& answer);
+
+/// One mark a difference of the quantity: measured in the asymptotic range, which ends at the
+/// finest pair and reaches back as long as neighbouring orders agree within same_order; unfinished
+/// (drawn hollow) outside it.
+std::vector<Mark> range_marks(const QuantityOverLevels& quantity);
+
+/// The study "converge.CASE.METHOD.in-time" (or in-space): positions and all other quantities over
+/// the levels, in figures with the method's order as their slope; quantities with order, limit, bar
+/// and reading, and levels with their cost, in tables. predictable: how long the positions are, in
+/// words; "" if nobody asked.
+StudyRecord study_of(const LadderAnswer& answer, const std::string& predictable = {});
 
 }  // namespace foldproof

@@ -94,15 +94,12 @@ double spread(double last, double before, double floor) {
 }  // namespace
 
 std::string_view name_of(Reading reading) {
-  switch (reading) {
-    case Reading::asymptotic:
-      return "asymptotic";
-    case Reading::not_asymptotic:
-      return "not asymptotic";
-    case Reading::inconclusive:
-      break;
-  }
-  return "inconclusive";
+  constexpr std::string_view names[] = {"asymptotic", "not asymptotic", "inconclusive"};
+  return names[size_t(reading)];
+}
+
+std::string in_words(const ErrorBar& bar) {
+  return std::string(name_of(bar.reading)) + (bar.reason.empty() ? "" : ": ") + bar.reason;
 }
 
 double asymptotic_order(const ErrorBar& bar) {

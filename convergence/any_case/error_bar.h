@@ -37,6 +37,9 @@ struct ErrorBar {
   double half_width = std::numeric_limits<double>::quiet_NaN();
 };
 
+/// The reading, with its reason: "not asymptotic: the order still changes from level to level".
+std::string in_words(const ErrorBar& bar);
+
 /// The observed order where the range is asymptotic. NaN elsewhere: two differences that are not
 /// yet (or no longer) of one power of the step have a ratio, but no order.
 double asymptotic_order(const ErrorBar& bar);

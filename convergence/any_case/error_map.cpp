@@ -12,18 +12,17 @@ namespace foldproof {
 
 namespace {
 
-constexpr double coarsest = 8, finest = 1.0 / 4096;  // edges that are searched, over the case's
+constexpr double coarsest_edge = 8,
+                 finest_edge = 1.0 / 4096;  // edges that are searched, over the case's
 constexpr int pairs_an_octave = 64;
 
 /// The step's error may be so many times larger or smaller on another mesh before it is warned of.
 constexpr double same_step_error = 2;
 
-/// log2 of the growth of the last pair of levels.
-double last_growth(double before, double last) { return std::log2(last / before); }
-
-/// Of the last two levels of a ladder whose sizes are halved.
-double last_growth(const std::vector<double>& values) {
-  return last_growth(values[values.size() - 2], values.back());
+/// log2 of the growth from the last level but one to the last.
+template <class Number>
+double last_growth(const std::vector<Number>& values) {
+  return std::log2(double(values.back()) / double(values[values.size() - 2]));
 }
 
 /// Richardson's estimate of the error of the finest level, followed back to the first one [m].
@@ -65,13 +64,6 @@ std::vector<double> costs(const LadderAnswer& answer) {
   return all;
 }
 
-/// `count` values, each `ratio` times the one before.
-std::vector<double> geometric(double first, double ratio, int count) {
-  std::vector<double> values;
-  for (int k = 0; k < count; ++k) values.push_back(first * std::pow(ratio, k));
-  return values;
-}
-
 /// The longest step for the wanted error on this mesh; NaN where the mesh alone exceeds it.
 double step_for(const ErrorMap& map, double wanted, double dx) {
   const double left = wanted - map.mesh_error.at(dx / map.edge);
@@ -82,8 +74,9 @@ double step_for(const ErrorMap& map, double wanted, double dx) {
 
 CheapestPair search(const ErrorMap& map, double wanted) {
   CheapestPair best{wanted, nan, nan, nan, INFINITY, nan, false};
-  const int count = int(std::log2(coarsest / finest)) * pairs_an_octave + 1;
-  for (const double dx : geometric(coarsest * map.edge, std::exp2(-1.0 / pairs_an_octave), count)) {
+  const int count = int(std::log2(coarsest_edge / finest_edge)) * pairs_an_octave + 1;
+  for (int k = 0; k < count; ++k) {
+    const double dx = coarsest_edge * map.edge * std::pow(std::exp2(-1.0 / pairs_an_octave), k);
     const double h = step_for(map, wanted, dx);
     if (const double seconds = map.seconds(h, dx); seconds < best.seconds) {
       best.step = h;
@@ -133,8 +126,7 @@ ErrorMap error_map(const LadderAnswer& in_time, const LadderAnswer& in_space, do
   map.work_by_edge = last_growth(costs(in_space));
   map.seconds_by_work = in_space.seconds.back() / costs(in_space).back();
   map.particles = in_space.particles.front();
-  map.particles_by_edge =
-      last_growth(in_space.particles[in_space.particles.size() - 2], in_space.particles.back());
+  map.particles_by_edge = last_growth(in_space.particles);
   map.longest_by_edge =
       std::log2(map.step / in_space.mean_step) / double(in_space.sizes.size() - 1);
 
@@ -169,7 +161,7 @@ std::vector<std::string> map_in_words(const ErrorMap& map, const std::vector<Che
     if (std::isnan(pair.edge)) {
       lines.push_back(
           fmt::format("{:.3g} %: no mesh of edges from {:g} to 1/{:g} of the case's own",
-                      100 * pair.wanted, coarsest, 1 / finest));
+                      100 * pair.wanted, coarsest_edge, 1 / finest_edge));
       continue;
     }
     lines.push_back(fmt::format(
@@ -181,6 +173,97 @@ std::vector<std::string> map_in_words(const ErrorMap& map, const std::vector<Che
   }
   for (const std::string& warning : map.warnings) lines.push_back("warning: " + warning);
   return lines;
+}
+
+// The map as evidence: a heat map, lines of equal cost, tables.
+
+namespace {
+
+constexpr int columns = 25, rows = 21, steps_an_octave = 3;
+
+/// Ascending, `count` values up to `last`.
+std::vector<double> ascending(double last, int count) {
+  std::vector<double> values;
+  for (int k = 0; k < count; ++k)
+    values.push_back(last * std::exp2(double(k - count + 1) / steps_an_octave));
+  return values;
+}
+
+/// Where the cost is `seconds`: the step for each edge, within the map.
+Curve equal_cost(const ErrorMap& map, const Map& on, double seconds) {
+  Curve curve{fmt::format("{:.2g} s", seconds), {}, {}, nan, {}, nan, {}};
+  for (const double dx : on.y_values) {
+    const double h = map.step * std::pow(map.seconds(map.step, dx) / seconds, 1 / map.work_by_step);
+    if (h >= on.x_values.front() && h <= on.x_values.back()) curve.point(h, dx);
+  }
+  return curve;
+}
+
+/// The cheapest pairs for errors that are halved.
+Curve cheapest_path(const ErrorMap& map, const Map& on) {
+  Curve curve{"cheapest", {}, {}, nan, {}, nan, {}};
+  const double largest = map.error(map.step, map.edge);
+  for (int k = 0; k < 2 * rows; ++k) {
+    const CheapestPair pair = cheapest_pair(map, largest * std::exp2(-k / 2.0));
+    if (pair.step >= on.x_values.front() && pair.step <= on.x_values.back() &&
+        pair.edge >= on.y_values.front() && pair.edge <= on.y_values.back())
+      curve.point(pair.step, pair.edge);
+  }
+  return curve;
+}
+
+Map drawn_map(const ErrorMap& map) {
+  Map drawn{"error",
+            "Error of positions over step and mesh",
+            {"mean step", "s", Scale::log},
+            {"edge", "m", Scale::log},
+            ascending(map.step, columns),
+            ascending(map.edge, rows),
+            {},
+            "error over the motion",
+            "1",
+            Scale::log,
+            "The sum of the step's error and the mesh's, each a power law through its ladder. "
+            "Lines: equal cost, in seconds of one processor; the cheapest pair for each error. "
+            "Without a value: steps longer than the case's own rule takes.",
+            {}};
+  for (const double dx : drawn.y_values)
+    for (const double h : drawn.x_values)
+      drawn.values.push_back(h <= map.longest_step(dx) * (1 + 1e-9) ? map.error(h, dx) : nan);
+  const double own = map.seconds(map.step, map.edge);
+  for (const double times : {1.0, 10.0, 100.0, 1000.0})
+    if (Curve curve = equal_cost(map, drawn, times * own); curve.x.size() > 1)
+      drawn.curves.push_back(std::move(curve));
+  if (Curve path = cheapest_path(map, drawn); path.x.size() > 1)
+    drawn.curves.push_back(std::move(path));
+  return drawn;
+}
+
+Table pairs_table(const ErrorMap& map, const std::vector<CheapestPair>& pairs) {
+  Table table{{"wanted error", "1"},  {"step", "s"},           {"edge", "m"},
+              {"particles", "1"},     {"processor time", "s"}, {"over the case as it is", "1"},
+              {"for half of it", "1"}};
+  for (const CheapestPair& pair : pairs)
+    table.row(pair.wanted, pair.step, pair.edge, pair.particles, pair.seconds,
+              pair.seconds / map.seconds(map.step, map.edge), pair.halving_costs);
+  return {"pairs", "The cheapest pair for each wanted error, forecast", table};
+}
+
+}  // namespace
+
+StudyRecord map_study(const ErrorMap& map, const std::vector<CheapestPair>& pairs) {
+  StudyRecord study;
+  study.name = fmt::format("converge.{}.{}.map", map.scene, map.method);
+  study.source = "Roache 1994; Celik et al. 2008";
+  for (const std::string& line : map_in_words(map, pairs))
+    study.claim += (study.claim.empty() ? "" : ". ") + line;
+  study.about =
+      "Both errors are Richardson's estimates for the finest level of their ladder, and follow the "
+      "order that was observed. Costs follow the growth from the last level but one to the last.";
+  if (!map.reason.empty()) return study;
+  study.maps = {drawn_map(map)};
+  study.tables = {pairs_table(map, pairs)};
+  return study;
 }
 
 }  // namespace foldproof

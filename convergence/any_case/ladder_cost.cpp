@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+
+#include "convergence/work_precision/precision_problem.h"
 
 namespace foldproof {
 
@@ -17,7 +20,7 @@ double growth(double before, double last) { return before > 0 && last > 0 ? last
 LevelCost cost_of(const Level& level, const LevelRun& run) {
   double numbers = double(run.step_ends.size() + run.times.size());
   for (const PerParticle3& x : run.x) numbers += double(x.size());
-  return {run.work * level.input_case.scene.mesh.particles(), run.seconds,
+  return {operator_applications(run.work) * level.input_case.scene.mesh.particles(), run.seconds,
           2 * sizeof(double) * numbers};
 }
 
@@ -31,13 +34,15 @@ std::vector<LevelCost> foreseen_costs(const std::vector<LevelCost>& measured, in
   return all;
 }
 
-double clock_seconds(const std::vector<LevelCost>& costs, size_t first, size_t last, int threads) {
-  double sum = 0, longest = 0;
-  for (size_t k = first; k <= last; ++k) {
-    sum += costs[k].seconds;
-    longest = std::max(longest, costs[k].seconds);
-  }
-  return std::max(longest, sum / threads);
+std::vector<double> seconds_of(const std::vector<LevelCost>& costs, size_t first, size_t last) {
+  std::vector<double> seconds;
+  for (size_t k = first; k <= last; ++k) seconds.push_back(costs[k].seconds);
+  return seconds;
+}
+
+double clock_seconds(const std::vector<double>& seconds, int threads) {
+  return std::max(std::ranges::max(seconds),
+                  std::accumulate(seconds.begin(), seconds.end(), 0.0) / threads);
 }
 
 std::vector<double> parts_of_finest(int finest) {
@@ -47,9 +52,9 @@ std::vector<double> parts_of_finest(int finest) {
 }
 
 double mesh_clock_seconds(double seconds, int finest, int threads) {
-  std::vector<LevelCost> others;
-  for (const double part : parts_of_finest(finest)) others.push_back({0, part * seconds, 0});
-  return seconds + clock_seconds(others, 0, others.size() - 1, threads);
+  std::vector<double> others = parts_of_finest(finest);
+  for (double& other : others) other *= seconds;
+  return seconds + clock_seconds(others, threads);
 }
 
 Affordable affordable_levels(const std::vector<LevelCost>& costs, size_t measured,

@@ -29,8 +29,12 @@ struct LadderLimits {
   double bytes = std::numeric_limits<double>::infinity();
 };
 
-/// Seconds of the clock for levels first .. last, side by side on `threads` cores.
-double clock_seconds(const std::vector<LevelCost>& costs, size_t first, size_t last, int threads);
+/// Seconds of the processor for levels first .. last.
+std::vector<double> seconds_of(const std::vector<LevelCost>& costs, size_t first, size_t last);
+
+/// Seconds of the clock for runs that each take so many of the processor, side by side on `threads`
+/// cores.
+double clock_seconds(const std::vector<double>& seconds, int threads);
 
 /// The other runs of a ladder in space, each as a share of the finest mesh's seconds. The first is
 /// the check of the steps, with twice as many steps and a quarter of the particles; then come the

@@ -4,11 +4,14 @@
 
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "convergence/any_case/error_bar.h"
-#include "convergence/any_case/precision_run.h"
-#include "convergence/work_precision/work_precision.h"
+#include "convergence/any_case/level_run.h"
+#include "convergence/work_precision/precision_curve.h"
+#include "reference/dynamics/integrator.h"
+#include "verification/verdict.h"
 
 namespace foldproof {
 
@@ -44,8 +47,33 @@ PrecisionPlan precision_plan(const Case& input_case, std::vector<std::string> me
                              std::vector<double> wanted, double budget,
                              const LevelSetProvider& level_sets);
 
-/// Runs by method and steps a frame.
-using TrialRuns = std::map<std::string, std::map<int, TrialRun>>;
+/// Throws InputError for an unknown method.
+Family family_of(const std::string& method);
+
+/// Those asked for, then those that the truth needs.
+std::vector<std::string> all_methods(const PrecisionPlan& plan);
+
+/// The length of a frame, or of a shorter run [s].
+double frame_of(const PrecisionPlan& plan);
+
+/// A run to make: a method, with `parts` equal steps from frame to frame. No step is longer than a
+/// frame's interval; events within a frame divide it further.
+struct PrecisionTrial {
+  std::string method;
+  int parts = 1;      // >= 1
+  double budget = 0;  // of the run, > 0 [visits]
+  int times = 1;      // the run's length over the case's [1]
+
+  bool operator==(const PrecisionTrial&) const = default;
+};
+
+/// The run with the trial's method, step and length.
+Level trial_level(const Case& input_case, const PrecisionTrial& trial);
+
+/// Runs of one method, or of another solver, by steps a frame.
+using TrialLevels = std::map<int, LevelRun>;
+
+using TrialRuns = std::map<std::string, TrialLevels>;  // by method
 
 /// All runs so far.
 struct Trials {
@@ -54,7 +82,39 @@ struct Trials {
 };
 
 /// Where the trial's run belongs.
-TrialRun& run_of(Trials& trials, const PrecisionTrial& trial);
+LevelRun& run_of(Trials& trials, const PrecisionTrial& trial);
+
+// The runs of one method over steps that are halved.
+
+/// The first step is at most so many times the elastic limit at the start [1].
+constexpr double beyond_limit = 4;
+
+constexpr int most_parts = 1 << 20;  // steps a frame
+
+/// A price lies between two steps: no run is made between two that are closer than this [1].
+constexpr double narrow = 1.3;
+
+/// Steps a frame to begin with: a power of two whose step is at most beyond_limit times `limit`
+/// [s], and at most a frame [s].
+int first_parts(double frame, double limit);
+
+/// The finest of the halved steps, whole or not; parts 0: there is none.
+std::pair<int, const LevelRun*> finest(const TrialLevels& levels);
+
+/// The whole runs at the fine end of the ladder of halved steps, each with twice as many steps as
+/// the one before, coarse to fine.
+std::vector<std::pair<int, const LevelRun*>> fine_end(const TrialLevels& levels);
+
+/// Error bar of the positions of the last of fine_end. With two runs it is three times their
+/// difference, a spread; with fewer there is none.
+///   formal_order  of the method
+///   floor         of rounding, in differences of positions [m]
+ErrorBar ladder_bar(const TrialLevels& levels, const PerParticle& mass, double formal_order,
+                    double floor);
+
+/// ladder_bar of a method's runs.
+ErrorBar method_bar(const PrecisionPlan& plan, const std::string& method,
+                    const TrialLevels& levels);
 
 /// One method's best estimate of the positions: its finest run, or Richardson's extrapolation of
 /// its last two where their order is asymptotic.
@@ -84,12 +144,8 @@ constexpr double truth_part = 0.1;
 /// The least error that the truth is good for [1]; NaN without a truth.
 inline double least_error(const CaseTruth& truth) { return truth.uncertainty / truth_part; }
 
-/// One method on the case.
-struct MethodCurve {
-  std::string method;
-  PrecisionCurve curve;              // of all its runs, coarse to fine
-  std::vector<int> parts;            // steps a frame of each
-  std::vector<std::string> stopped;  // of each
+/// One method on the case, or another solver; all its runs, coarse to fine.
+struct MethodCurve : PrecisionCurve {
   ErrorBar bar;  // of the positions, by its own halved steps; without three: inconclusive
   // of steps between which the largest stable step lies [s]; NaN: no stable one, no unstable one
   double stable_step = nan, unstable_step = nan;
@@ -160,5 +216,20 @@ struct PrecisionAnswer {
 };
 
 PrecisionAnswer precision_answer(const PrecisionPlan& plan, const Trials& trials);
+
+// The answer in words, figures and tables.
+
+/// One sentence for each wanted error: which method is cheapest, with which step, what the others
+/// cost over it, and which do not reach the error.
+std::vector<std::string> precision_sentences(const PrecisionAnswer& answer);
+
+/// How the truth is known, in a sentence.
+std::string truth_in_words(const PrecisionAnswer& answer);
+
+/// Why methods appear that nobody requested; "" if none does.
+std::string for_truth_in_words(const PrecisionAnswer& answer);
+
+/// As the built-in studies are recorded, under the name precision.CASE. seconds: that it took [s].
+StudyRecord precision_record(const PrecisionAnswer& answer, double seconds);
 
 }  // namespace foldproof

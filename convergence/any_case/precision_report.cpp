@@ -1,4 +1,5 @@
-#include "convergence/any_case/precision_report.h"
+// The answer of the search for the cheapest method, in words, figures and tables.
+#include "convergence/any_case/precision.h"
 
 #include <fmt/format.h>
 
@@ -63,24 +64,6 @@ std::string sentence_of(const PrecisionAnswer& answer, const PriceList& list) {
   return sentence + by_seconds(answer.plan, list);
 }
 
-struct CostAxis {
-  std::string name;
-  Axis axis;
-  double (*of)(const PrecisionRun& run, double end);
-};
-
-std::vector<CostAxis> cost_axes() {
-  return {{"work",
-           {"applications of force operators", "1", Scale::log},
-           [](const PrecisionRun& run, double) { return run.applications / run.part; }},
-          {"time",
-           {"processor time", "s", Scale::log},
-           [](const PrecisionRun& run, double) { return run.seconds / run.part; }},
-          {"step", {"step", "s", Scale::log}, [](const PrecisionRun& run, double end) {
-             return end / run.steps;
-           }}};
-}
-
 Figure figure_of(const PrecisionAnswer& answer, const CostAxis& cost) {
   const Scene& scene = answer.plan.input_case.scene;
   Figure figure{
@@ -93,15 +76,10 @@ Figure figure_of(const PrecisionAnswer& answer, const CostAxis& cost) {
       "distance from the start. In the strip at the top: runs that did not finish or err by more "
       "than the motion. The floor is the distance of the two opinions on the truth.",
       {}};
-  for (const MethodCurve& method : answer.curves) {
-    if (method.curve.runs.empty()) continue;
-    Curve curve{method.method, {}, {}, percent * answer.truth.uncertainty, {}};
-    for (const PrecisionRun& run : method.curve.runs) {
-      curve.point(cost.of(run, scene.schedule.end), percent * run.error);
-      curve.marks.push_back(mark_of(run));
-    }
-    figure.curves.push_back(std::move(curve));
-  }
+  for (const MethodCurve& curve : answer.curves)
+    if (!curve.runs.empty())
+      figure.curves.push_back(
+          error_curve(curve, cost, scene.schedule.end, answer.truth.uncertainty));
   return figure;
 }
 
@@ -134,7 +112,7 @@ Table method_table(const PrecisionAnswer& answer) {
               {"largest stable step found", "s"},
               {"next longer step, unstable", "s"}};
   for (const MethodCurve& curve : answer.curves)
-    table.row(curve.method, curve.curve.integrator.order, asymptotic_order(curve.bar),
+    table.row(curve.method, integrator_named(curve.method).order, asymptotic_order(curve.bar),
               name_of(curve.bar.reading), curve.bar.reason, curve.stable_step, curve.unstable_step);
   return {"methods", "Order and largest stable step of each method on this case", table};
 }
@@ -149,7 +127,7 @@ Table longer_run_table(const PrecisionAnswer& answer) {
               {"energy gain", "1"},
               {"lasts", "1"}};
   for (const MethodCurve& curve : answer.curves)
-    for (const LongerRun& run : curve.curve.longer)
+    for (const LongerRun& run : curve.longer)
       table.row(curve.method, run.step, run.with_step.added, run.with_half.added,
                 run.with_half.largest, energy_gain(run), lasts(run) ? "yes" : "no");
   return {
@@ -171,11 +149,9 @@ Table run_table(const PrecisionAnswer& answer) {
               {"unfinished solves", "1"},
               {"stopped", "1"}};
   for (const MethodCurve& curve : answer.curves)
-    for (size_t k = 0; k < curve.parts.size(); ++k) {
-      const PrecisionRun& run = curve.curve.runs[k];
-      table.row(curve.method, curve.parts[k], run.steps, percent * run.error, run.applications,
-                run.seconds, run.work.unfinished_solves, curve.stopped[k]);
-    }
+    for (const PrecisionRun& run : curve.runs)
+      table.row(curve.method, run.parts, run.steps, percent * run.error, run.applications,
+                run.seconds, run.work.unfinished_solves, run.stopped);
   return {"runs", "Every run; no error where it came to no end", table};
 }
 

@@ -2,10 +2,11 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <ranges>
 #include <set>
 
 #include "convergence/any_case/precision.h"
-#include "convergence/any_case/trial_ladder.h"
+#include "convergence/work_precision/precision_problem.h"
 
 namespace foldproof {
 
@@ -31,31 +32,33 @@ const MethodCurve& curve_of(const Survey& survey, const std::string& method) {
 }
 
 Price price_of(const Survey& survey, const MethodCurve& curve, double wanted) {
-  return price_at(curve.curve, survey.plan.input_case.scene.schedule.end, wanted);
+  return price_at(curve, survey.plan.input_case.scene.schedule.end, wanted);
 }
 
-/// The least work that any method pays for the smallest error that one
-/// reaches; infinite if none does.
+/// The least work that any method pays for the error; infinite if none reaches it.
+double least_work(const Survey& survey, double wanted) {
+  double least = INFINITY;
+  for (const MethodCurve& curve : survey.curves)
+    if (const double work = price_of(survey, curve, wanted).applications; work < least)
+      least = work;
+  return least;
+}
+
+/// The least work for the smallest error that a method reaches; infinite if none does.
 double cheapest_work(const Survey& survey) {
-  for (auto wanted = survey.plan.wanted.rbegin(); wanted != survey.plan.wanted.rend(); ++wanted) {
-    double least = INFINITY;
-    for (const MethodCurve& curve : survey.curves) {
-      const double work = price_of(survey, curve, *wanted).applications;
-      if (work < least) least = work;
-    }
-    if (std::isfinite(least)) return least;
-  }
+  for (const double wanted : survey.plan.wanted | std::views::reverse)
+    if (const double least = least_work(survey, wanted); std::isfinite(least)) return least;
   return INFINITY;
 }
 
-using Cost = std::function<double(const TrialRun&)>;
+using Cost = std::function<double(const LevelRun&)>;
 
 /// Predicted cost of a run with so many steps a frame: the last two halvings continued linearly, or
 /// one alone in proportion. Work of implicit solves hardly grows before steps are short: theirs is
 /// that of the last run and, for each step more, at least least_solve.
 double expected_cost(const TrialLevels& levels, Family family, double parts, const Cost& cost) {
   const int last = finest(levels).first;
-  const TrialRun& run = levels.at(last);
+  const LevelRun& run = levels.at(last);
   const double now = cost(run);
   double each = now / last;
   const auto before = levels.find(last / 2);
@@ -74,11 +77,11 @@ bool is_affordable(const Survey& survey, const std::string& method, double parts
   const Scene& scene = survey.plan.input_case.scene;
   const TrialLevels& levels = survey.trials.runs.at(method);
   const Family family = family_of(method);
-  const auto whole = [](const TrialRun& run) { return std::max(run.part, 1e-3); };
+  const auto whole = [](const LevelRun& run) { return std::max(run.part, 1e-3); };
   return expected_cost(levels, family, parts,
-                       [&](const TrialRun& run) { return visits(scene, run.work) / whole(run); }) <=
+                       [&](const LevelRun& run) { return visits(scene, run.work) / whole(run); }) <=
              budget &&
-         expected_cost(levels, family, parts, [&](const TrialRun& run) {
+         expected_cost(levels, family, parts, [&](const LevelRun& run) {
            return operator_applications(run.work) / whole(run);
          }) <= most_work;
 }
@@ -86,10 +89,10 @@ bool is_affordable(const Survey& survey, const std::string& method, double parts
 /// The method's order as far as it showed in its last two halvings, at most its formal one.
 double seen_order(const MethodCurve& curve, const std::string& method) {
   const double formal = integrator_named(method).order;
-  const auto last = std::ranges::find(curve.parts, curve.parts.back() / 2);
-  if (last == curve.parts.end()) return formal;
-  const double before = curve.curve.runs[size_t(last - curve.parts.begin())].error;
-  const double order = std::log2(before / curve.curve.runs.back().error);
+  const PrecisionRun& last = curve.runs.back();
+  const auto before = std::ranges::find(curve.runs, last.parts / 2, &PrecisionRun::parts);
+  if (before == curve.runs.end()) return formal;
+  const double order = std::log2(before->error / last.error);
   return std::isnan(order) ? formal : std::clamp(order, 0.01, formal);
 }
 
@@ -99,7 +102,7 @@ double parts_needed(const Survey& survey, const std::string& method, int parts, 
   const double order = seen_order(curve_of(survey, method), method);
   for (const double wanted : survey.plan.wanted)
     if (std::isnan(error) || error > wanted) return parts * std::pow(error / wanted, 1 / order);
-  const double unstable = shortest_unstable_step(curve_of(survey, method).curve.longer);
+  const double unstable = shortest_unstable_step(curve_of(survey, method).longer);
   return frame_of(survey.plan) / parts < unstable * (1 - 1e-9) ? 0 : 2. * parts;
 }
 
@@ -117,7 +120,7 @@ bool needs_halving(const Survey& survey, const std::string& method, double most_
   if (!is_whole(*run))
     return parts * hopeless_step < beyond_limit * first && affordable(2. * parts);
   const size_t whole = fine_end(levels).size();
-  const double error = curve_of(survey, method).curve.runs.back().error;
+  const double error = curve_of(survey, method).runs.back().error;
   const double needed = parts_needed(survey, method, parts, error);
   if (needed > parts && !affordable(needed)) return false;
   if (whole < 2 && family_of(method) == Family::fully_implicit) return true;
@@ -129,7 +132,7 @@ bool needs_halving(const Survey& survey, const std::string& method, double most_
 bool needs_coarser(const Survey& survey, const std::string& method) {
   const auto& [coarsest, run] = *survey.trials.runs.at(method).begin();
   if (!is_whole(run) || coarsest % 2 != 0) return false;
-  const double error = curve_of(survey, method).curve.runs.front().error;
+  const double error = curve_of(survey, method).runs.front().error;
   return error <= (family_of(method) == Family::fully_implicit ? survey.plan.wanted.front()
                                                                : diverged_error);
 }
@@ -164,20 +167,13 @@ std::vector<PrecisionTrial> narrowed_brackets(const Survey& survey) {
   std::vector<PrecisionTrial> trials;
   for (const double wanted : survey.plan.wanted) {
     if (!(wanted >= least_error(survey.truth))) continue;
-    double least = INFINITY;
-    for (const MethodCurve& curve : survey.curves) {
-      const double work = price_of(survey, curve, wanted).applications;
-      if (work < least) least = work;
-    }
+    const double least = least_work(survey, wanted);
     for (const MethodCurve& curve : survey.curves) {
       const auto [few, many] = bracket_of(survey.plan, curve, wanted);
       if (few == 0 || !(price_of(survey, curve, wanted).applications <= contender * least))
         continue;
       const PrecisionTrial middle{curve.method, (few + many) / 2, survey.plan.budget};
-      if (many > narrow * few && many - few > 1 &&
-          std::ranges::none_of(trials, [&](const PrecisionTrial& t) {
-            return t.method == middle.method && t.parts == middle.parts;
-          }))
+      if (many > narrow * few && many - few > 1 && !std::ranges::count(trials, middle))
         trials.push_back(middle);
     }
   }

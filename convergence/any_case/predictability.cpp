@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <random>
+#include <tuple>
 
-#include "convergence/any_case/distances.h"
+#include "verification/cases/folds.h"
 #include "verification/seeds.h"
 
 namespace foldproof {
@@ -104,6 +107,39 @@ std::string growth_in_words(const Growth& growth) {
   if (std::isnan(growth.rate)) return "no growth rate: too few frames";
   return fmt::format("growth rate {:.3g} +- {:.2g} 1/s (fit from {:.3g} to {:.3g} s)", growth.rate,
                      growth.uncertainty, growth.from, growth.to);
+}
+
+/// The mean of value(k) over the `frames` whose time is after `from` [s].
+double mean_after(double from, const std::vector<double>& times, size_t frames,
+                  const std::function<double(size_t)>& value) {
+  double sum = 0;
+  int count = 0;
+  for (size_t k = 0; k < std::min(times.size(), frames); ++k)
+    if (times[k] > from) sum += value(k), ++count;
+  return count > 0 ? sum / count : nan;
+}
+
+/// The 97.5 % point of Student's distribution: a table, then the expansion of Cornish and Fisher
+/// (Abramowitz and Stegun 26.7.5), which is off by less than 0.004 from eleven degrees of freedom.
+double student_t(int freedom) {
+  constexpr std::array<double, 10> table = {12.706, 4.303, 3.182, 2.776, 2.571,
+                                            2.447,  2.365, 2.306, 2.262, 2.228};
+  if (freedom <= int(table.size())) return table[size_t(freedom - 1)];
+  const double z = 1.959964, n = freedom;
+  return z + (std::pow(z, 3) + z) / (4 * n) +
+         (5 * std::pow(z, 5) + 16 * std::pow(z, 3) + 3 * z) / (96 * n * n);
+}
+
+void take_ensemble(const std::vector<double>& values, StatisticOverRuns& over) {
+  over.mean = over.spread = over.reach = nan;
+  if (values.size() < 2) return;
+  const double n = double(values.size());
+  double sum = 0, squares = 0;
+  for (const double value : values) sum += value;
+  over.mean = sum / n;
+  for (const double value : values) squares += (value - over.mean) * (value - over.mean);
+  over.spread = std::sqrt(squares / (n - 1));
+  over.reach = reach_factor(int(n)) * over.spread;
 }
 
 }  // namespace
@@ -256,6 +292,59 @@ void limit_to_horizon(const std::vector<Measurement>& measurements,
     if (bar.reading != Reading::asymptotic && !std::isnan(contacts))
       bar.reason += fmt::format("; contacts differ between levels from t = {:.3g} s on", contacts);
   }
+}
+
+std::vector<MotionStatistic> motion_statistics(const Scene& scene, const LevelRun& run,
+                                               double from) {
+  std::vector<MotionStatistic> all;
+  const auto add = [&](const std::string& name, const std::string& unit, size_t frames,
+                       const std::function<double(size_t)>& value) {
+    all.push_back({name, unit, mean_after(from, run.times, frames, value)});
+  };
+  const PerParticle mass = lumped_masses(scene.mesh, scene.density);
+  if (scene.gravity && scene.gravity->norm() > 0) {
+    const Vector3 up = -scene.gravity->normalized();
+    add("height", "m", run.x.size(),
+        [&](size_t k) { return up.dot(run.x[k] * mass) / mass.sum(); });
+  }
+  for (const auto& [name, unit, values] : {std::tuple{"kinetic energy", "J", &run.kinetic},
+                                           {"elastic energy", "J", &run.elastic},
+                                           {"contact points", "1", &run.contacts}})
+    add(name, unit, values->size(), [&](size_t k) { return (*values)[k]; });
+  std::vector<FoldSpectrum> folds(run.x.size());
+  for (size_t k = 0; k < folds.size(); ++k)
+    if (run.times[k] > from) folds[k] = fold_spectrum(scene.mesh, run.x[k]);
+  for (size_t b = 0; b < FoldSpectrum{}.size(); ++b)
+    add("folds of " + name_of_fold_band(b), "1", folds.size(),
+        [&](size_t k) { return folds[k][b]; });
+  return all;
+}
+
+double reach_factor(int n) { return student_t(n - 1) * std::sqrt(1 + 1.0 / n); }
+
+std::vector<StatisticOverRuns> statistics_over_runs(const Scene& scene,
+                                                    const std::vector<LevelRun>& ensemble,
+                                                    const std::vector<LevelRun>& levels,
+                                                    double from) {
+  std::vector<std::vector<MotionStatistic>> of_ensemble, of_levels;
+  for (const LevelRun& run : ensemble)
+    if (run.stopped.empty()) of_ensemble.push_back(motion_statistics(scene, run, from));
+  for (const LevelRun& run : levels) of_levels.push_back(motion_statistics(scene, run, from));
+  std::vector<StatisticOverRuns> all;
+  for (size_t m = 0; m < of_levels.front().size(); ++m) {
+    StatisticOverRuns over;
+    over.name = of_levels.front()[m].name;
+    over.unit = of_levels.front()[m].unit;
+    std::vector<double> values;
+    for (const auto& one : of_ensemble) values.push_back(one[m].value);
+    take_ensemble(values, over);
+    for (size_t k = 0; k < levels.size(); ++k) {
+      over.levels.push_back(levels[k].stopped.empty() ? of_levels[k][m].value : nan);
+      over.agrees.push_back(std::abs(over.levels.back() - over.mean) <= over.reach);
+    }
+    all.push_back(over);
+  }
+  return all;
 }
 
 }  // namespace foldproof

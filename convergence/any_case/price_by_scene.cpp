@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "convergence/any_case/precision_report.h"
+#include "convergence/any_case/precision.h"
 #include "convergence/study.h"
 #include "verification/evidence.h"
 
@@ -93,7 +93,7 @@ PrecisionAnswer answer_for(const SceneKind& kind, Tier tier) {
   Trials all;
   for (auto trials = next_trials(plan, all); !trials.empty(); trials = next_trials(plan, all))
     for (const PrecisionTrial& trial : trials)
-      run_of(all, trial) = run_trial(plan.input_case, trial, level_sets);
+      run_of(all, trial) = run_level(trial_level(plan.input_case, trial), level_sets);
   return precision_answer(plan, all);
 }
 

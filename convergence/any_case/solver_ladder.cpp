@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <variant>
 
-#include "convergence/any_case/portable_case.h"
 #include "reference/dynamics/system.h"
 
 namespace foldproof {
@@ -15,6 +15,86 @@ namespace {
 
 /// A frame may be off by so much of the end [1].
 constexpr double same_frame = 1e-9;
+
+[[noreturn]] void refuse(const std::string& part) {
+  throw InputError("the protocol of other solvers cannot say " + part);
+}
+
+void require_portable(const Scene& scene) {
+  if (is_driven(scene)) refuse("held particles that move");
+  if (scene.strain_limits) refuse("strain limits; remove [strain_limits]");
+  if (!scene.sticky.empty()) refuse("what cloth sticks to");
+}
+
+/// Throws InputError unless it is rigid and stands still.
+const RigidObject& still_body(const Object& object) {
+  const auto* rigid = std::get_if<RigidObject>(&object.body);
+  const auto* motion = rigid ? std::get_if<Motion>(&rigid->motion) : nullptr;
+  if (!motion || motion->velocity.norm() > 0 || motion->amplitude.norm() > 0 ||
+      motion->angular_velocity.norm() > 0)
+    refuse("object '" + object.name + "', which moves or deforms");
+  return *rigid;
+}
+
+void add_object(const Object& object, PortableScene& portable) {
+  const RigidObject& body = still_body(object);
+  const Pose& place = body.place;
+  if (std::holds_alternative<HalfSpace>(body.solid)) {
+    portable.planes.push_back(
+        {place.translation, place.rotation * Vector3::UnitZ(), object.friction});
+    return;
+  }
+  if (const auto* sphere = std::get_if<Sphere>(&body.solid)) {
+    portable.spheres.push_back({place.translation, sphere->radius, object.friction});
+    return;
+  }
+  if (const auto* capsule = std::get_if<Capsule>(&body.solid)) {
+    const Vector3 half = capsule->half_length * (place.rotation * Vector3::UnitZ());
+    portable.capsules.push_back(
+        {place.translation - half, place.translation + half, capsule->radius, object.friction});
+    return;
+  }
+  const auto* box = std::get_if<Box>(&body.solid);
+  if (!box) refuse("object '" + object.name + "', which is no plane, box, sphere or capsule");
+  if (!place.rotation.isApprox(Eigen::Quaterniond::Identity()))
+    refuse("object '" + object.name + "', a box whose edges are not along the axes");
+  portable.boxes.push_back({place.translation, box->half_extents, object.friction});
+}
+
+PortableMaterial material_of(const Scene& scene) {
+  PortableMaterial material{scene.density, 0, 0, 0, 0, 1};
+  if (scene.stretch) {
+    material.young = scene.stretch->stiffness;
+    material.stretch_damping = scene.stretch->damping;
+    material.rest_length_scale = scene.stretch->rest_length_scale;
+  }
+  if (scene.bending) {
+    material.bending_rigidity = scene.bending->stiffness / 4;
+    material.bending_damping = scene.bending->damping;
+  }
+  return material;
+}
+
+/// The scene as physical constants: Young's modulus, bending rigidity B = ke/4, dampings, held
+/// particles, fixed planes, boxes, spheres and capsules, thickness. `dt` is left to the caller.
+/// The reference's own method (bending law, weighting, time integrator) stays out. Throws
+/// InputError naming a part that the protocol cannot say: particles or objects that move, objects
+/// of other shapes, strain limits, sticking.
+PortableScene portable_case(const Scene& scene) {
+  require_portable(scene);
+  PortableScene portable;
+  portable.name = scene.name;
+  portable.mesh = scene.mesh;
+  portable.x = scene.x, portable.v = scene.v;
+  portable.mass = lumped_masses(scene.mesh, scene.density);
+  for (const PrescribedParticle& p : scene.prescribed) portable.held.push_back(p.particle);
+  if (scene.gravity) portable.gravity = *scene.gravity;
+  portable.material = material_of(scene);
+  portable.rest_angles = scene.rest_angles;
+  for (const SceneObject& part : scene.objects) add_object(part.object, portable);
+  if (scene.self_collision) portable.thickness = scene.self_collision->thickness;
+  return portable;
+}
 
 /// Throws InputError unless the solver declares every capability that the scene needs.
 void require_offered(const PortableScene& scene, Trial& solver) {
@@ -90,7 +170,7 @@ LevelRun SolverLadder::run_with(long a_frame) {
   run.values.resize(plan_.measurements.size(), nan);
   run.seconds = solver_.processor_seconds_of_motion();
   run.clock = solver_.seconds_of_motion();
-  run.work = double(steps_.frames * a_frame);
+  run.steps = steps_.frames * a_frame;
   return run;
 }
 
@@ -120,10 +200,14 @@ LevelRun SolverLadder::measured(long a_frame, const std::vector<Snapshot>& frame
 
 LadderAnswer SolverLadder::answer(const std::vector<LevelRun>& runs) {
   const Declaration& declared = solver_.declaration();
-  LadderAnswer answer = answer_in_time(plan_, runs, std::max(1, declared.order));
+  LadderAnswer answer = time_answer(plan_, runs, std::max(1, declared.order));
   answer.method = declared.name + (declared.version.empty() ? "" : " " + declared.version);
   answer.work_name = "steps";
-  for (const LevelRun& run : runs) answer.clock.push_back(run.clock);
+  answer.work.clear();
+  for (const LevelRun& run : runs) {
+    answer.work.push_back(double(run.steps));
+    answer.clock.push_back(run.clock);
+  }
   if (declared.order < 1)
     answer.warnings.emplace_back(
         "the solver claims no order; its steps are read as of first order");

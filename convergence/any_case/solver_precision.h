@@ -2,19 +2,13 @@
 // its error is the distance from its own limit, as `precision` measures the reference's methods.
 #pragma once
 
-#include <map>
 #include <string>
 #include <vector>
 
-#include "convergence/any_case/error_bar.h"
-#include "convergence/any_case/level_run.h"
 #include "convergence/any_case/precision.h"
 #include "verification/verdict.h"
 
 namespace foldproof {
-
-/// Runs of one solver, by steps a frame.
-using SolverRuns = std::map<int, LevelRun>;
 
 struct SolverPlan {
   std::string name;                // of the solver
@@ -32,37 +26,20 @@ struct SolverPlan {
 /// error bar of the finest is a tenth of the smallest wanted error, or rounding; or until a run
 /// would take more than most_seconds. They are doubled, up to a frame, while they reach the largest
 /// wanted error. Where the next longer step is unstable, steps between are tried.
-int next_parts(const SolverPlan& plan, const SolverRuns& runs);
+int next_parts(const SolverPlan& plan, const TrialLevels& runs);
 
-/// The time a run takes [s].
-struct Seconds {
-  double processor = nan;  // of the solver's processes; NaN: not known, or it came to no end
-  double clock = nan;      // through the pipe
-};
-
-/// One step of the solver.
-struct SolverStep {
-  int parts;      // steps a frame
-  double step;    // s
-  double error;   // over the motion, the finest run's bar included [1]; NaN: no end, or no bar
-  Seconds spent;  // on the run
-  std::string stopped;
-};
-
-/// The price of a wanted error.
+/// The price of a wanted error. Seconds are of the solver's processes. LimitedBy::not_tried: the
+/// step is a whole frame, the longest there is.
 struct SolverPrice {
-  double wanted;                // 1
-  double step = nan;            // s; NaN: there is no price
-  Seconds spent = {};           // on a run with this step
-  bool is_whole_frame = false;  // the step is a whole frame, the longest there is
-  double unstable_step = nan;   // the next longer one, if it is not stable [s]
-  std::string because = "";     // why there is none; or ""
+  double wanted;               // 1
+  Price price;                 // applications: steps
+  double unstable_step = nan;  // the next longer one, if it is not stable [s]
+  std::string because = "";    // why there is none; or ""
 };
 
 struct SolverPrecision {
   SolverPlan plan;
-  ErrorBar bar;                   // of the finest run's positions [m]
-  std::vector<SolverStep> steps;  // coarse to fine
+  MethodCurve curve;  // errors include the finest run's bar; NaN: no end, or no order
   std::vector<SolverPrice> prices;
   // the finest run's distance from the reference's truth [m], NaN: not known; and how much of it
   // both errors explain
@@ -74,7 +51,7 @@ struct SolverPrecision {
 /// An error has a price where the halved steps show an order. It is interpolated in
 /// logarithms between the two steps that bracket the error. truth: of the reference, whose
 /// frames are at `times`.
-SolverPrecision solver_precision(const SolverPlan& plan, const SolverRuns& runs,
+SolverPrecision solver_precision(const SolverPlan& plan, const TrialLevels& runs,
                                  const CaseTruth& truth, const std::vector<double>& times);
 
 /// A sentence for each wanted error, with the reference's cheapest method beside it; then how far

@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <numeric>
 
-#include "convergence/any_case/distances.h"
 #include "reference/scene/key_file.h"
 #include "reference/scene/read_cloth_mesh.h"
 #include "reference/scene/refine_cloth.h"
@@ -107,10 +106,19 @@ std::vector<std::string> remapped_lists(const std::vector<ParticleList>& lists,
   return overrides;
 }
 
-/// Cells of level sets as much smaller as edges of the cloth.
-std::vector<std::string> object_overrides(const KeyTable& keys, int k) {
+/// What all finer levels are made from.
+struct Refinement {
+  const CaseSource& source;
+  const KeyTable& keys;
+  const Case& coarse;
+  ObjectsToo objects;
+};
+
+/// Cells of level sets as much smaller as edges of the cloth, if they are to be refined.
+std::vector<std::string> object_overrides(const Refinement& of, int k) {
+  if (of.objects == ObjectsToo::no) return {};
   std::vector<std::string> overrides;
-  const auto objects = keys.tables("object");
+  const auto objects = of.keys.tables("object");
   for (size_t j = 0; j < objects.size(); ++j) {
     const KeyTable& object = *objects[j];
     const bool has_cells =
@@ -126,17 +134,17 @@ std::vector<std::string> object_overrides(const KeyTable& keys, int k) {
 }
 
 /// A thickness that level k allows, where the case's is too much for it.
-std::vector<std::string> thickness_override(const CaseSource& source,
-                                            const std::vector<std::string>& finer,
-                                            const Case& coarse) {
-  if (!coarse.scene.self_collision) return {};
-  const CaseKeys keys = keys_of(source, finer);
+std::vector<std::string> thickness_override(const Refinement& of,
+                                            const std::vector<std::string>& finer) {
+  const auto& self_collision = of.coarse.scene.self_collision;
+  if (!self_collision) return {};
+  const CaseKeys keys = keys_of(of.source, finer);
   const auto cloth = keys.keys->table("cloth");
   PlacedMesh placed =
-      read_cloth_mesh(*cloth, std::filesystem::path(source.path).parent_path().string(), {});
+      read_cloth_mesh(*cloth, std::filesystem::path(of.source.path).parent_path().string(), {});
   const double height = smallest_height(placed.mesh.triangles, placed.mesh.rest);
   const double allowed = 0.49 * std::ldexp(height, -refinements_of(*cloth));
-  if (coarse.scene.self_collision->thickness <= allowed) return {};
+  if (self_collision->thickness <= allowed) return {};
   return {fmt::format("self_collision.thickness={:.17g}", allowed)};
 }
 
@@ -160,52 +168,61 @@ double mean_edge(const TriangleMesh& mesh) {
   return std::sqrt(4 / std::sqrt(3.0) * area / double(mesh.triangles.size()));
 }
 
-SpaceLevel level_with(const CaseSource& source, std::vector<std::string> finer, const Case& coarse,
-                      int k) {
-  const std::vector<std::string> thickness = thickness_override(source, finer, coarse);
-  finer.insert(finer.end(), thickness.begin(), thickness.end());
-  SpaceLevel level{finer, read_level(source, finer, k), {}, 0};
+void add_all(const std::vector<std::string>& more, std::vector<std::string>& overrides) {
+  overrides.insert(overrides.end(), more.begin(), more.end());
+}
+
+SpaceLevel level_with(const Refinement& of, std::vector<std::string> finer, int k) {
+  add_all(thickness_override(of, finer), finer);
+  SpaceLevel level{finer, read_level(of.source, finer, k), {}, 0};
   level.edge = mean_edge(level.input_case.scene.mesh);
   return level;
 }
 
-SpaceLevel level_by_middles(const CaseSource& source, const Case& coarse,
-                            const std::vector<std::string>& objects, int k) {
-  const CaseKeys keys = keys_of(source, {});
-  const int own = refinements_of(*keys.keys->table("cloth"));
+std::vector<int> all_particles(const Case& input_case) {
+  std::vector<int> all(size_t(input_case.scene.mesh.particles()));
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+/// A way to make level k.
+using Refine = SpaceLevel (*)(const Refinement& of, int k);
+
+SpaceLevel level_by_middles(const Refinement& of, int k) {
+  const int own = refinements_of(*of.keys.table("cloth"));
   std::vector<std::string> finer = {fmt::format("cloth.refine={}", own + k)};
-  finer.insert(finer.end(), objects.begin(), objects.end());
-  SpaceLevel level = level_with(source, finer, coarse, k);
-  level.common.resize(size_t(coarse.scene.mesh.particles()));
-  std::iota(level.common.begin(), level.common.end(), 0);
+  add_all(object_overrides(of, k), finer);
+  SpaceLevel level = level_with(of, finer, k);
+  level.common = all_particles(of.coarse);
   return level;
 }
 
-/// Level k by numbers; without `common` where its particles are not those of level 0.
-SpaceLevel level_by_numbers(const CaseSource& source, const Case& coarse,
-                            const std::vector<std::string>& objects, int k) {
-  const CaseKeys keys = keys_of(source, {});
-  const auto cloth = keys.keys->table("cloth");
-  std::vector<std::string> finer = number_overrides(*cloth, k);
-  const CaseKeys finer_keys = keys_of(source, finer);
+/// By numbers; without `common` where its particles are not those of level 0.
+SpaceLevel level_by_numbers(const Refinement& of, int k) {
+  std::vector<std::string> finer = number_overrides(*of.keys.table("cloth"), k);
+  const CaseKeys finer_keys = keys_of(of.source, finer);
   const TriangleMesh mesh = read_cloth_mesh(*finer_keys.keys->table("cloth"), "", {}).mesh;
-  const double tolerance = same_place * longest_side(coarse.scene.mesh.rest);
-  std::vector<int> common = matching_points(coarse.scene.mesh.rest, mesh.rest, tolerance);
+  const PerParticle3& rest = of.coarse.scene.mesh.rest;
+  const double tolerance = same_place * longest_side(rest);
+  const std::vector<int> common = matching_points(rest, mesh.rest, tolerance);
   if (common.empty()) return {};
-  for (const auto& more : {remapped_lists(particle_lists(*keys.keys), common), objects})
-    finer.insert(finer.end(), more.begin(), more.end());
-  SpaceLevel level = level_with(source, finer, coarse, k);
+  add_all(remapped_lists(particle_lists(of.keys), common), finer);
+  add_all(object_overrides(of, k), finer);
+  SpaceLevel level = level_with(of, finer, k);
   const PerParticle3 starts = level.input_case.scene.x(Eigen::all, common);
-  if ((starts - coarse.scene.x).cwiseAbs().maxCoeff() <= tolerance) level.common = common;
+  if ((starts - of.coarse.scene.x).cwiseAbs().maxCoeff() <= tolerance) level.common = common;
   return level;
 }
 
-SpaceLevel level_as_it_is(Case input_case) {
-  SpaceLevel level{{}, std::move(input_case), {}, 0};
-  level.common.resize(size_t(level.input_case.scene.mesh.particles()));
-  std::iota(level.common.begin(), level.common.end(), 0);
-  level.edge = mean_edge(level.input_case.scene.mesh);
-  return level;
+/// Level 0, and the finer ones; empty if one of them lacks particles of the case.
+std::vector<SpaceLevel> refined_levels(const Refinement& of, int levels, Refine refine) {
+  std::vector<SpaceLevel> all{
+      {{}, of.coarse, all_particles(of.coarse), mean_edge(of.coarse.scene.mesh)}};
+  for (int k = 1; k < levels; ++k) {
+    all.push_back(refine(of, k));
+    if (all.back().common.empty()) return {};
+  }
+  return all;
 }
 
 /// Why the meshes are not refined by numbers; "" if they can be.
@@ -215,33 +232,6 @@ std::string why_by_middles(const KeyTable& keys) {
   if (refinements_of(*cloth) > 0) return "[cloth] refine is set";
   if (numbers_of(*cloth).empty()) return "shape '" + cloth->text("shape") + "' has no finer one";
   return what_goes_by_number(keys);
-}
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string all;
-  for (const std::string& word : words) all += (all.empty() ? "" : ", ") + word;
-  return all;
-}
-
-/// By numbers; empty if a finer mesh lacks particles of the case.
-std::vector<SpaceLevel> levels_by_numbers(const CaseSource& source, const SpaceLevel& first,
-                                          int levels,
-                                          const std::vector<std::vector<std::string>>& objects) {
-  std::vector<SpaceLevel> all{first};
-  for (int k = 1; k < levels; ++k) {
-    all.push_back(level_by_numbers(source, first.input_case, objects[size_t(k)], k));
-    if (all.back().common.empty()) return {};
-  }
-  return all;
-}
-
-std::vector<SpaceLevel> levels_by_middles(const CaseSource& source, const SpaceLevel& first,
-                                          int levels,
-                                          const std::vector<std::vector<std::string>>& objects) {
-  std::vector<SpaceLevel> all{first};
-  for (int k = 1; k < levels; ++k)
-    all.push_back(level_by_middles(source, first.input_case, objects[size_t(k)], k));
-  return all;
 }
 
 /// Of what the case names, what does not mean the same on a finer mesh.
@@ -336,20 +326,18 @@ std::vector<int> matching_points(const PerParticle3& of, const PerParticle3& amo
 }
 
 SpaceLadder space_ladder(const CaseSource& source, int levels, ObjectsToo objects_too) {
-  const SpaceLevel first = level_as_it_is(case_of(source));
+  const Case coarse = case_of(source);
   const CaseKeys keys = keys_of(source, {});
-  std::vector<std::vector<std::string>> objects(static_cast<size_t>(levels));
-  if (objects_too == ObjectsToo::yes)
-    for (int k = 1; k < levels; ++k) objects[size_t(k)] = object_overrides(*keys.keys, k);
+  const Refinement of{source, *keys.keys, coarse, objects_too};
   SpaceLadder ladder;
   std::string why = why_by_middles(*keys.keys);
   if (why.empty()) {
-    ladder.levels = levels_by_numbers(source, first, levels, objects);
-    ladder.refined_by = joined(numbers_of(*keys.keys->table("cloth")));
+    ladder.levels = refined_levels(of, levels, level_by_numbers);
+    ladder.refined_by = fmt::format("{}", fmt::join(numbers_of(*keys.keys->table("cloth")), ", "));
     if (ladder.levels.empty()) why = "finer meshes of this shape lack particles of the case";
   }
   if (!why.empty()) {
-    ladder.levels = levels_by_middles(source, first, levels, objects);
+    ladder.levels = refined_levels(of, levels, level_by_middles);
     ladder.refined_by = "middles of edges, since " + why;
   }
   ladder.warnings = warnings_of(*keys.keys, ladder);
@@ -376,8 +364,8 @@ Level step_check_level(const SpaceLadder& ladder, const std::vector<double>& ste
 LadderAnswer space_answer(const SpaceLadder& ladder, const std::vector<LevelRun>& runs,
                           const LevelRun& halved) {
   const Scene& scene = ladder.levels.front().input_case.scene;
-  LadderAnswer answer = answer_about(scene, "space", runs);
-  answer.formal_order = order_in_space;
+  LadderAnswer answer = ladder_answer(
+      scene, "space", measurements_of(ladder.levels.front().input_case), runs, order_in_space);
   for (const SpaceLevel& level : ladder.levels) {
     answer.sizes.push_back(level.edge);
     answer.particles.push_back(level.input_case.scene.mesh.particles());
@@ -385,10 +373,6 @@ LadderAnswer space_answer(const SpaceLadder& ladder, const std::vector<LevelRun>
   }
   answer.refined_by = ladder.refined_by;
   answer.warnings = ladder.warnings;
-  const std::vector<Measurement> measurements = measurements_of(ladder.levels.front().input_case);
-  answer.quantities.push_back(positions_over_levels(scene, runs, order_in_space));
-  for (size_t m = 0; m < measurements.size(); ++m)
-    answer.quantities.push_back(value_over_levels(measurements[m], m, runs, order_in_space));
   add_step_errors(scene, runs[runs.size() - 2], halved, answer);
   return answer;
 }

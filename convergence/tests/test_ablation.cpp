@@ -4,7 +4,6 @@
 #include <map>
 
 #include "convergence/any_case/ablation.h"
-#include "convergence/any_case/coarser_mesh.h"
 #include "reference/forces/bending.h"
 #include "reference/mesh/shapes.h"
 #include "reference/scene/refine_cloth.h"

@@ -1,7 +1,7 @@
 // The study that `foldproof converge` writes for reports.
 #include <catch2/catch.hpp>
 
-#include "convergence/any_case/ladder_study.h"
+#include "convergence/any_case/converge.h"
 #include "convergence/any_case/solver_ladder.h"
 
 namespace foldproof {

@@ -4,6 +4,7 @@
 
 #include "convergence/any_case/converge.h"
 #include "convergence/any_case/ladder_cost.h"
+#include "convergence/work_precision/precision_problem.h"
 #include "reference/scene/refine_cloth.h"
 #include "verification/specimens/scratch_folder.h"
 
@@ -34,7 +35,7 @@ struct Stored {
   Level level = time_level(trial(), 0, {});
   std::string key = key_of(level, "p");
 
-  LevelRun run() { return stored_level(level, computing_provider(), store, "p"); }
+  LevelRun run() { return stored_level(level, {computing_provider(), store, "p"}); }
 };
 
 }  // namespace
@@ -116,12 +117,13 @@ TEST_CASE("a level is run once, and then read from the store bit for bit") {
   Stored stored;
   const LevelRun made = stored.run();
   ResultStore later(stored.folder);
-  const LevelRun read = stored_level(stored.level, computing_provider(), later, "p");
+  const LevelRun read = stored_level(stored.level, {computing_provider(), later, "p"});
   CHECK(read.x == made.x);
   CHECK(read.times == made.times);
   CHECK(read.values == made.values);
   CHECK(read.step_ends == made.step_ends);
-  CHECK(read.work == made.work);
+  CHECK(operator_applications(read.work) == operator_applications(made.work));
+  CHECK(read.steps == made.steps);
   CHECK(later.starts(stored.key) == 1);
 }
 
@@ -171,8 +173,8 @@ TEST_CASE("what levels will cost grows as it did from one to the next") {
   CHECK(costs[1].seconds == 2);
   // a run that was read, or stopped at once, says nothing
   CHECK(foreseen_costs({{0, 0, 0}, {30, 2, 400}}, 3)[2].seconds == Approx(2));
-  CHECK(clock_seconds(costs, 2, 3, 1) == Approx(24));
-  CHECK(clock_seconds(costs, 2, 3, 2) == Approx(18));
+  CHECK(clock_seconds(seconds_of(costs, 2, 3), 1) == Approx(24));
+  CHECK(clock_seconds(seconds_of(costs, 2, 3), 2) == Approx(18));
 }
 
 TEST_CASE("a ladder in space takes the finest mesh, then all others with its steps") {
@@ -185,7 +187,8 @@ TEST_CASE("levels that do not fit are refused with the numbers") {
   const std::vector<LevelCost> costs = {{1, 10, 1e9}, {2, 20, 1e9}, {4, 40, 2e9}, {8, 80, 2e9}};
   const auto affordable = [&](double seconds, double bytes, int threads = 1) {
     return affordable_levels(
-        costs, 2, [&](size_t last) { return 30 + clock_seconds(costs, 2, last, threads); },
+        costs, 2,
+        [&](size_t last) { return 30 + clock_seconds(seconds_of(costs, 2, last), threads); },
         {seconds, bytes});
   };
   CHECK(affordable(1e9, 1e12).levels == 4);
@@ -197,6 +200,21 @@ TEST_CASE("levels that do not fit are refused with the numbers") {
   CHECK(affordable(69, 1e12).levels == 2);
   CHECK(affordable(1e9, 5.9e9).levels == 3);
   CHECK_THAT(affordable(1e9, 5.9e9).refusal, Contains("would keep 2 GB, the ladder up to it 6 GB"));
+}
+
+TEST_CASE("distances of runs are root mean squares by mass, the worst over common frames") {
+  PerParticle3 start(3, 2), later(3, 2);
+  start << 0, 1, 0, -2, 0, 0.5;
+  later = start;
+  later.col(0) += Vector3(3, 0, 4);
+  const PerParticle mass = Eigen::Array2d(1, 3);
+  CHECK(longest_side(start) == 2);
+  CHECK(mean_square_root(later - start, mass) == Approx(5.0 / 2));
+  CHECK(largest_difference({start, start}, {start, later}, mass) == Approx(5.0 / 2));
+  CHECK(largest_difference({start}, {start, later}, mass) == 0);
+  CHECK(largest_motion({start, later, start}, mass) == Approx(5.0 / 2));
+  later(1, 1) = std::nan("");
+  CHECK(std::isnan(largest_difference({start, later}, {start, start}, mass)));
 }
 
 }  // namespace foldproof

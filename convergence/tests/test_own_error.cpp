@@ -3,7 +3,6 @@
 #include <catch2/catch.hpp>
 
 #include "convergence/any_case/own_error.h"
-#include "convergence/any_case/coarser_mesh.h"
 #include "verification/specimens/scratch_folder.h"
 
 using namespace foldproof;
@@ -26,8 +25,10 @@ struct Asked {
       "",
       0};
 
-  KeptRuns by() { return {computing_provider(), store, "p"}; }
-  LevelRun run(const Level& level) { return stored_level(level, computing_provider(), store, "p"); }
+  LevelSetProvider level_sets = computing_provider();
+
+  KeptRuns by() { return {level_sets, store, "p"}; }
+  LevelRun run(const Level& level) { return stored_level(level, by()); }
   LadderPlan plan() const { return {case_of(source), 3, measurements_of(case_of(source))}; }
   PerParticle mass() const {
     const Scene scene = case_of(source).scene;
@@ -51,7 +52,7 @@ TEST_CASE(
   for (const int k : {1, 2})
     runs.push_back(asked.run(time_level(asked.plan(), k, runs[0].step_ends)));
   const ErrorPart error = error_of_steps(asked.source, asked.by());
-  require_of_ladder(error, time_answer(asked.plan(), runs));
+  require_of_ladder(error, time_answer(asked.plan(), runs, 2));
 }
 
 TEST_CASE("of two meshes a scene's own error is their difference, and a spread as its bar") {

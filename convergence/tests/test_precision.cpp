@@ -1,7 +1,8 @@
 // The cheapest method of a case: found on motions whose error is known by formula.
 #include <catch2/catch.hpp>
 
-#include "convergence/any_case/precision_report.h"
+#include "convergence/any_case/precision.h"
+#include "convergence/work_precision/precision_problem.h"
 #include "reference/mesh/shapes.h"
 #include "verification/specimens/scratch_folder.h"
 
@@ -42,8 +43,8 @@ struct Law {
 using Laws = std::map<std::string, Law>;
 
 /// The run that the law makes of the trial. Free particles move by t, from 0 to 0.7 m.
-TrialRun run_by(const Law& law, const PrecisionTrial& trial, const PrecisionPlan& plan) {
-  TrialRun run;
+LevelRun run_by(const Law& law, const PrecisionTrial& trial, const PrecisionPlan& plan) {
+  LevelRun run;
   run.steps = long(frames) * trial.parts * trial.times;
   const bool grows = trial.parts < law.lasting_parts && trial.times > law.quiet_times;
   if (trial.times > 1 && law.visits_of_step * double(run.steps) > trial.budget) {
@@ -185,7 +186,8 @@ TEST_CASE("only steps that win or tie are asked whether they last") {
 }
 
 TEST_CASE("a longer run keeps its step and its largest energy") {
-  const TrialRun run = run_trial(falling(), {"RK4", 4, 1e6, longer}, computing_provider());
+  const Level trial = trial_level(falling(), {"RK4", 4, 1e6, longer});
+  const LevelRun run = run_level(trial, computing_provider());
   CHECK(run.steps == longer * frames * 4);
   CHECK(run.times.back() == Approx(longer * end_time));
   CHECK(run.energy.added == run.energy.largest);
@@ -253,10 +255,10 @@ TEST_CASE("forward Euler's error in free fall is the step over the time") {
   for (auto next = next_trials(made.plan, made.trials); !next.empty();
        next = next_trials(made.plan, made.trials))
     for (const PrecisionTrial& trial : next)
-      run_of(made.trials, trial) = run_trial(falling(), trial, computing_provider());
+      run_of(made.trials, trial) = run_level(trial_level(falling(), trial), computing_provider());
   made.answer = precision_answer(made.plan, made.trials);
   CHECK(made.answer.truth.motion == Approx(9 * end_time * end_time / 2));
-  for (const PrecisionRun& run : made.curve("forward-euler").curve.runs)
+  for (const PrecisionRun& run : made.curve("forward-euler").runs)
     CHECK(run.error == Approx(1. / run.steps).epsilon(1e-6));
   CHECK(made.price(0, "forward-euler").price.step == Approx(0.02 * end_time).epsilon(1e-3));
   CHECK(made.price(0, "B").price.limit == LimitedBy::not_tried);
@@ -277,7 +279,7 @@ TEST_CASE("a case in which nothing moves has no truth and no price") {
 TEST_CASE("held particles do not dilute errors") {
   const MadeUp made({}, {1e-2});
   const MethodCurve& curve = made.curve("B");
-  CHECK(curve.curve.runs[0].error == Approx(0.3 / std::pow(curve.parts[0], 2)).epsilon(1e-3));
+  CHECK(curve.runs[0].error == Approx(0.3 / std::pow(curve.runs[0].parts, 2)).epsilon(1e-3));
   CHECK_THROWS_AS(precision_plan(falling({0, 1, 2, 3}), {"A"}, {1e-2}, 1e6, computing_provider()),
                   InputError);
 }
@@ -286,11 +288,12 @@ TEST_CASE("a kept run is found again, and made again only for a larger budget") 
   const ScratchFolder folder;
   const auto run = [&](double budget) {
     ResultStore store(folder.file("store"));
-    return stored_trial(falling(), {"RK4", 64, budget}, computing_provider(), store, "me");
+    return stored_level(trial_level(falling(), {"RK4", 64, budget}),
+                        {computing_provider(), store, "me"});
   };
   CHECK(run(1000).over_budget == 1000);
   CHECK(run(1000).stopped == "its work exceeds the budget");
-  const TrialRun whole = run(1e6), again = run(1000);
+  const LevelRun whole = run(1e6), again = run(1000);
   CHECK(whole.stopped.empty());
   CHECK(whole.steps == 7 * 64);
   CHECK(again.steps == whole.steps);

@@ -187,7 +187,6 @@ TEST_CASE("a ladder in space is read with the order two, and its steps' error be
     runs[k].values = {1 + 0.3 * std::pow(0.25, k)};
     runs[k].times = {0};
     runs[k].x = {PerParticle3::Constant(3, 20, runs[k].values[0])};
-    runs[k].work = 100;
   }
   LevelRun halved = runs[2];
   halved.values[0] += 3e-5;

@@ -9,7 +9,7 @@ namespace {
 
 /// A method whose only run reaches every error at that cost.
 PrecisionCurve costing(const std::string& method, double applications) {
-  return {integrator_named(method), {{40, 1e-5, applications, 1e-3 * applications, 1, {}}}};
+  return {method, {{40, 1e-5, applications, 1e-3 * applications, 1, {}}}};
 }
 
 /// Steps are tried by a ratio of 1.5.
@@ -60,7 +60,7 @@ TEST_CASE("a step lasts whose energy is at most twice that of half the step", "[
 
 TEST_CASE("a price rests on no step that a longer run shows to be unstable", "[work-precision]") {
   // errors of second order; steps of 0.04, 0.02, 0.01 and 0.005 s
-  PrecisionCurve curve{integrator_named("B"), {}};
+  PrecisionCurve curve{"B", {}};
   for (int n = 20; n <= 160; n *= 2)
     curve.runs.push_back({n, 6.4 / n / n, double(n), 0.01 * n, 1, {}});
   const auto price = [&](double wanted) { return price_at(curve, 0.8, wanted); };

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <optional>
 
-#include "convergence/work_precision/longer_run.h"
 #include "convergence/work_precision/precision_problem.h"
 #include "convergence/study.h"
 #include "reference/dynamics/integrator.h"
@@ -40,28 +39,10 @@ Scene sheet_over_ball(int cells) {
   return scene;
 }
 
-struct LongRun {
-  LongerEnergy energy;  // NaN: the run diverged
-  double stopped;       // when [s]
-  double applications;  // of force operators, for a second of motion [1/s]
-  double energy_left;   // kinetic energy at the end over the largest [1]
-};
-
 /// A run with constant steps of at most h [s].
-LongRun long_run(const Subject& subject, const Scene& scene, double h) {
-  const PerParticle mass = build_system(scene).mass;
-  Worst largest, added;
-  double last = nan;  // J
-  RunPlan plan{length, int(std::ceil(length / h)), farthest, INFINITY};
-  plan.seen = [&](const State& s) {
-    last = 0.5 * s.v.colwise().squaredNorm().dot(mass.transpose());
-    largest.observe(last);
-    if (s.time > settling) added.observe(last);
-  };
-  const PlannedRun run = run_planned(subject, scene, plan);
-  const bool is_over = run.ending == Ending::reached;
-  return {is_over ? LongerEnergy{largest.value(), added.value()} : LongerEnergy{nan, nan},
-          run.last.time, operator_applications(run.work) / run.last.time, last / largest.value()};
+EnergyRun long_run(const Subject& subject, const Scene& scene, double h) {
+  return run_with_energy(subject, scene, {length, int(std::ceil(length / h)), farthest, INFINITY},
+                         settling);
 }
 
 /// A method's longest step that lasts, and the next one, twice as long.
@@ -79,19 +60,19 @@ LongestStep longest_step(const Subject& subject, Scene scene, const Integrator& 
                          double limit) {
   scene.integrator = std::string(method.name);
   LongestStep longest{&method, {}};
-  LongRun half = long_run(subject, scene, limit / 2);
+  EnergyRun half = long_run(subject, scene, limit / 2);
   for (int doublings = 0; doublings <= most_doublings; ++doublings) {
     const double h = limit * (1 << doublings);
-    const LongRun run = long_run(subject, scene, h);
+    const EnergyRun run = long_run(subject, scene, h);
     const double gain = energy_gain({h, run.energy, half.energy});
     if (doublings == 0) longest.gain_at_limit = gain;
     if (!(gain <= most_energy_gain)) {
       longest.gain_beyond = gain;
-      longest.stopped_beyond = run.stopped;
+      longest.stopped_beyond = run.last.time;
       break;
     }
     longest.doublings = doublings;
-    longest.applications = run.applications;
+    longest.applications = operator_applications(run.work) / run.last.time;
     longest.energy_left = run.energy_left;
     half = run;
   }

@@ -1,41 +1,21 @@
-#include "convergence/work_precision/work_precision.h"
+#include "convergence/work_precision/precision_curve.h"
 
-#include <algorithm>
 #include <cmath>
-
-#include "convergence/work_precision/timed_run.h"
 
 namespace foldproof {
 
 namespace {
 
-constexpr double coarsest = 1. / 8;  // steps of the first run over those at the elastic limit
-constexpr double far_away = 20;  // displacement over the motion beyond which a run is stopped [1]
+constexpr double same_step = 1e-9;  // steps that differ by less are the same one [1]
 
 double log_between(double from, double to, double part) {
   return std::exp((1 - part) * std::log(from) + part * std::log(to));
 }
 
-int measured_runs(const PrecisionCurve& curve) {
-  return int(std::ranges::count_if(curve.runs,
-                                   [](const PrecisionRun& run) { return !std::isnan(run.error); }));
-}
-
-/// The work of a run with so many steps: that of the two runs before it, continued linearly; 0 if
-/// they do not tell.
-double expected_work(const PrecisionCurve& curve, int steps) {
-  if (curve.runs.size() < 2) return 0;
-  const PrecisionRun &last = curve.runs.back(), &before = curve.runs[curve.runs.size() - 2];
-  if (last.part < 1 || before.part < 1) return 0;
-  return last.applications + (last.applications - before.applications) /
-                                 (last.steps - before.steps) * (steps - last.steps);
-}
-
-constexpr Price price_of_none{LimitedBy::not_reached, nan, nan, nan, nan};
-
 Price price_of_run(const PrecisionRun& run, double end, LimitedBy limit) {
-  return {limit, end / run.steps, run.applications, run.seconds,
-          double(run.work.unfinished_solves)};
+  return {
+      limit,    end / run.steps, run.applications, run.seconds, double(run.work.unfinished_solves),
+      run.clock};
 }
 
 /// The price between the first run that reaches the error and the one before it.
@@ -44,74 +24,89 @@ Price price_between(const PrecisionCurve& curve, size_t first, double end, doubl
   if (first == 0) return price_of_run(fine, end, LimitedBy::not_tried);
   const PrecisionRun& coarse = curve.runs[first - 1];
   Price price = price_of_run(fine, end, LimitedBy::stability);
-  if (std::isnan(coarse.error)) return price;
+  if (!(coarse.error <= diverged_error)) return price;
   const double part = std::log(coarse.error / wanted) / std::log(coarse.error / fine.error);
-  return {LimitedBy::accuracy, log_between(end / coarse.steps, price.step, part),
+  return {LimitedBy::accuracy,
+          log_between(end / coarse.steps, price.step, part),
           log_between(coarse.applications, fine.applications, part),
-          log_between(coarse.seconds, fine.seconds, part), price.unfinished};
+          log_between(coarse.seconds, fine.seconds, part),
+          price.unfinished,
+          log_between(coarse.clock, fine.clock, part)};
 }
 
 }  // namespace
+
+double energy_gain(const LongerRun& run) {
+  const double energy = run.with_step.added,
+               allowed = run.with_half.added + small_energy * run.with_half.largest;
+  if (!std::isfinite(energy) || !std::isfinite(allowed)) return INFINITY;
+  return energy == 0 ? 0 : energy / allowed;
+}
+
+bool lasts(const LongerRun& run) { return energy_gain(run) <= most_energy_gain; }
+
+double shortest_unstable_step(const std::vector<LongerRun>& runs) {
+  double shortest = INFINITY;
+  for (const LongerRun& run : runs)
+    if (!lasts(run)) shortest = std::min(shortest, run.step);
+  return shortest;
+}
+
+const LongerRun* longer_run_of(const std::vector<LongerRun>& runs, double step) {
+  for (const LongerRun& run : runs)
+    if (std::abs(run.step / step - 1) <= same_step) return &run;
+  return nullptr;
+}
 
 Mark mark_of(const PrecisionRun& run) {
   if (std::isnan(run.error)) return Mark::diverged;
   return run.work.unfinished_solves > 0 ? Mark::unfinished : Mark::measured;
 }
 
-PrecisionCurve precision_curve(const Subject& subject, const PrecisionProblem& problem,
-                               const PrecisionTruth& truth, const Integrator& integrator,
-                               double finest_error) {
-  PrecisionCurve curve{integrator, {}};
-  Scene scene = problem.scene;
-  scene.integrator = std::string(integrator.name);
-  double count = std::max(2., coarsest * problem.end / truth.elastic_limit);
-  for (bool again = true; again; count *= problem.ratio) {
-    const RunPlan plan{problem.end, int(std::lround(count)), far_away * truth.motion,
-                       problem.budget};
-    const bool is_short = plan.steps > problem.end / truth.elastic_limit;
-    if (is_short && expected_work(curve, plan.steps) > problem.budget) break;
-    const auto [run, seconds] = timed_run([&] { return run_planned(subject, scene, plan); });
-    if (run.ending == Ending::over_budget) {
-      if (is_short) break;
-      continue;  // long steps can be dearer than short ones, for Newton's method
-    }
-    const double error =
-        run.ending == Ending::reached ? largest_distance(run.last.x, truth.x) / truth.motion : nan;
-    curve.runs.push_back({plan.steps, error <= diverged_error ? error : nan,
-                          operator_applications(run.work), seconds, double(run.steps) / plan.steps,
-                          run.work});
-    again = !(error <= finest_error) || measured_runs(curve) < problem.min_points;
-  }
-  return curve;
+size_t first_exact(const PrecisionCurve& curve, double wanted) {
+  size_t first = curve.runs.size();
+  while (first > 0 && curve.runs[first - 1].error <= wanted) --first;
+  return first;
 }
 
 std::string_view name_of(LimitedBy limit) {
-  switch (limit) {
-    case LimitedBy::accuracy:
-      return "accuracy";
-    case LimitedBy::stability:
-      return "stability";
-    case LimitedBy::longer_run:
-      return "stability of longer runs";
-    case LimitedBy::not_tried:
-      return "longer steps not tried";
-    case LimitedBy::not_reached:
-      return "not reached in range";
-  }
-  return "";
+  constexpr std::string_view names[] = {"accuracy", "stability", "stability of longer runs",
+                                        "longer steps not tried", "not reached in range"};
+  return names[size_t(limit)];
 }
 
 Price price_at(const PrecisionCurve& curve, double end, double wanted) {
   const std::vector<PrecisionRun>& runs = curve.runs;
-  size_t first = runs.size();
-  while (first > 0 && runs[first - 1].error <= wanted) --first;
-  if (first == runs.size()) return price_of_none;
+  size_t first = first_exact(curve, wanted);
+  if (first == runs.size()) return {};
   const double unstable = shortest_unstable_step(curve.longer);
   const Price price = price_between(curve, first, end, wanted);
   if (price.step < unstable) return price;
   while (first < runs.size() && !(end / runs[first].steps < unstable * (1 - 1e-9))) ++first;
-  return first == runs.size() ? price_of_none
-                              : price_of_run(runs[first], end, LimitedBy::longer_run);
+  return first == runs.size() ? Price{} : price_of_run(runs[first], end, LimitedBy::longer_run);
+}
+
+std::vector<CostAxis> cost_axes() {
+  const auto of_step = [](const PrecisionRun& run, double end) { return end / run.steps; };
+  return {{"work",
+           "work",
+           {"applications of force operators", "1", Scale::log},
+           [](const PrecisionRun& run, double) { return run.applications / run.part; }},
+          {"time",
+           "time",
+           {"processor time", "s", Scale::log},
+           [](const PrecisionRun& run, double) { return run.seconds / run.part; }},
+          {"step", "step", {"step", "s", Scale::log}, of_step}};
+}
+
+Curve error_curve(const PrecisionCurve& curve, const CostAxis& cost, double end, double floor) {
+  constexpr double percent = 100;
+  Curve points{curve.method, {}, {}, percent * floor, {}};
+  for (const PrecisionRun& run : curve.runs) {
+    points.point(cost.of(run, end) / cost.unit, percent * run.error);
+    points.marks.push_back(mark_of(run));
+  }
+  return points;
 }
 
 }  // namespace foldproof

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "convergence/work_precision/precision_curve.h"
 #include "reference/scene/scene.h"
 #include "verification/subject.h"
 
@@ -65,6 +66,15 @@ double operator_applications(const Work& work);
 /// Runs the scene with its integrator. NaN, a lost element or a particle beyond
 /// farthest is divergence.
 PlannedRun run_planned(const Subject& subject, const Scene& scene, const RunPlan& plan);
+
+/// A run and its kinetic energy.
+struct EnergyRun : PlannedRun {
+  LongerEnergy energy;  // NaN: the run did not reach its end
+  double energy_left;   // at the end over the largest [1]
+};
+
+/// run_planned; the added time of the energy begins after `from` [s].
+EnergyRun run_with_energy(const Subject& subject, const Scene& scene, RunPlan plan, double from);
 
 /// Both opinions; may take a second.
 PrecisionTruth truth_of(const Subject& subject, const PrecisionProblem& problem);

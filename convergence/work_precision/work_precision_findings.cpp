@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "convergence/work_precision/work_precision.h"
+#include "reference/dynamics/integrator.h"
 
 namespace foldproof {
 
@@ -53,12 +54,12 @@ NamedFinding errors_fall(const PrecisionScene& scene) {
   for (const PrecisionCurve& curve : scene.curves) {
     const size_t i = finest_judged(curve, scene.truth.uncertainty);
     if (i == 0) {
-      left_out += " " + std::string(curve.integrator.name);
+      left_out += " " + curve.method;
       continue;
     }
     const PrecisionRun &coarse = curve.runs[i - 1], &fine = curve.runs[i];
     const double left = shrinkage(coarse, fine);
-    shrinkages.row(curve.integrator.name, coarse.error, fine.error, left);
+    shrinkages.row(curve.method, coarse.error, fine.error, left);
     worst.observe(left);
     worst_with_uncertainty.observe(left * (1 + 2 * scene.truth.uncertainty / fine.error));
   }
@@ -81,8 +82,8 @@ NamedFinding errors_fall(const PrecisionScene& scene) {
 double largest_explicit_step(const PrecisionScene& scene, double wanted) {
   double largest = nan;
   for (const PrecisionCurve& curve : scene.curves) {
-    if (curve.integrator.family != Family::fully_explicit) continue;
-    const double step = price_at(curve, scene.problem.end, wanted).step;
+    if (integrator_named(curve.method).family != Family::fully_explicit) continue;
+    const double step = price_of(scene, curve, wanted).step;
     if (!(step <= largest) && !std::isnan(step)) largest = step;
   }
   return largest;
@@ -90,7 +91,7 @@ double largest_explicit_step(const PrecisionScene& scene, double wanted) {
 
 /// One scheme's largest step at a wanted error [s].
 double step_of(const PrecisionScene& scene, std::string_view scheme, double wanted) {
-  return price_at(curve_of(scene, scheme), scene.problem.end, wanted).step;
+  return price_of(scene, curve_of(scene, scheme), wanted).step;
 }
 
 /// Damping limits explicit steps at best to 2.785/c (RK4), elasticity those of A and B to 2/omega.
@@ -200,7 +201,7 @@ NamedFinding one_more_solve(const std::vector<PrecisionScene>& scenes) {
 
 /// The gain of energy with the step that has the price; infinite if it was not asked.
 double gain_at(const PrecisionScene& scene, const PrecisionCurve& curve, double wanted) {
-  const double step = price_at(curve, scene.problem.end, wanted).step;
+  const double step = price_of(scene, curve, wanted).step;
   const LongerRun* run = longer_run_of(curve.longer, step);
   return run ? energy_gain(*run) : INFINITY;
 }
@@ -213,13 +214,13 @@ NamedFinding cheapest_steps_last(const std::vector<PrecisionScene>& scenes) {
   for (const PrecisionScene& scene : scenes)
     for (const double wanted : wanted_errors)
       for (const Currency& currency : currencies)
-        for (const size_t k : contenders(scene, wanted, currency)) {
+        for (const size_t k : podium(scene, wanted, currency).contenders) {
           const PrecisionCurve& curve = scene.curves[k];
           const double gain = gain_at(scene, curve, wanted);
           // clocks name other contenders from run to run: those that last are left out
           if (currency.name == "seconds" && gain <= most) continue;
-          steps.row(scene.problem.description, wanted, currency.name, curve.integrator.name,
-                    price_at(curve, scene.problem.end, wanted).step, gain);
+          steps.row(scene.problem.description, wanted, currency.name, curve.method,
+                    price_of(scene, curve, wanted).step, gain);
         }
   return {"work-precision.cheapest-steps-last",
           "The steps of the cheapest methods, of those tied with them and of the next are stable "
@@ -244,15 +245,14 @@ NamedFinding C_loses_at_small_errors(const std::vector<PrecisionScene>& scenes) 
   for (const PrecisionScene& scene : scenes) {
     if (scene.problem.name != "damped-hinge" && scene.problem.name != "light-sheet") continue;
     const auto work = [&](const PrecisionCurve& curve) {
-      const double applications = price_at(curve, scene.problem.end, wanted).applications;
+      const double applications = price_of(scene, curve, wanted).applications;
       return std::isnan(applications) ? INFINITY : applications;
     };
     const PrecisionCurve* cheapest = nullptr;
     for (const PrecisionCurve& curve : scene.curves)
-      if (curve.integrator.name != "C" && (!cheapest || work(curve) < work(*cheapest)))
-        cheapest = &curve;
+      if (curve.method != "C" && (!cheapest || work(curve) < work(*cheapest))) cheapest = &curve;
     const double c = work(curve_of(scene, "C"));
-    shares.row(scene.problem.description, cheapest->integrator.name, work(*cheapest), c,
+    shares.row(scene.problem.description, cheapest->method, work(*cheapest), c,
                work(*cheapest) / c);
   }
   return {"work-precision.C-costs-more-than-twice-at-small-errors",

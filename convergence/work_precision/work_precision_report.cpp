@@ -10,41 +10,6 @@ namespace {
 
 constexpr double percent = 100;
 
-/// Horizontal axis for a run. A run that diverged on the way stands where all of its steps would
-/// have cost as much as those that it took.
-struct CostAxis {
-  std::string name, words;
-  Axis axis;
-  double (*of)(const PrecisionScene& scene, const PrecisionRun& run);
-};
-
-std::vector<CostAxis> cost_axes() {
-  return {
-      {"work",
-       "work",
-       {"applications of force operators", "1", Scale::log},
-       [](const PrecisionScene&, const PrecisionRun& run) { return run.applications / run.part; }},
-      {"seconds",
-       "time",
-       {"processor time", "s", Scale::log},
-       [](const PrecisionScene&, const PrecisionRun& run) { return run.seconds / run.part; }},
-      {"step",
-       "step",
-       {"step over bound of elastic limit", "1", Scale::log},
-       [](const PrecisionScene& scene, const PrecisionRun& run) {
-         return scene.problem.end / run.steps / scene.truth.elastic_limit;
-       }}};
-}
-
-Curve curve_of(const PrecisionScene& scene, const PrecisionCurve& curve, const CostAxis& cost) {
-  Curve points{std::string(curve.integrator.name), {}, {}, percent * scene.truth.uncertainty, {}};
-  for (const PrecisionRun& run : curve.runs) {
-    points.point(cost.of(scene, run), percent * run.error);
-    points.marks.push_back(mark_of(run));
-  }
-  return points;
-}
-
 const char* const caption =
     "Largest position error at the end over the largest motion. In the strip at the top: runs that "
     "diverged or err by more than the motion; a diverged run is placed at the cost of all its "
@@ -59,26 +24,19 @@ std::string short_curves(const PrecisionScene& scene) {
         curve.runs, [&](const PrecisionRun& run) { return run.error > scene.truth.uncertainty; });
     if (seen >= enough || curve.runs.empty()) continue;
     const bool is_fine = curve.runs.back().error <= wanted_errors.back();
-    list += (list.empty() ? " " : ", ") + std::string(curve.integrator.name) + " (" +
-            std::to_string(seen) +
+    list += (list.empty() ? " " : ", ") + curve.method + " (" + std::to_string(seen) +
             (is_fine ? ": exact enough from its longest stable steps on)"
                      : ": shorter steps exceed the budget)");
   }
   return list.empty() ? "" : " Curves with fewer than five runs above the floor:" + list + ".";
 }
 
-/// The other methods whose cost is within the ratio of two steps that were tried: runs that far
-/// apart do not tell them from the cheapest.
-std::string tied(const PrecisionScene& scene, double wanted, const Currency& currency,
-                 const Podium& podium) {
+std::string tied(const PrecisionScene& scene, const Podium& podium) {
   std::string names;
-  for (const PrecisionCurve& curve : scene.curves) {
-    const std::string name(curve.integrator.name);
-    const double cost = price_at(curve, scene.problem.end, wanted).*currency.cost;
-    if (name == podium.first || !(cost <= scene.problem.ratio * (podium.best.*currency.cost)))
-      continue;
-    names += (names.empty() ? "" : ", ") + name;
-  }
+  for (const size_t k : podium.contenders)
+    if (const std::string& name = scene.curves[k].method;
+        name != podium.first && name != podium.second)
+      names += (names.empty() ? "" : ", ") + name;
   return names;
 }
 
@@ -104,7 +62,7 @@ Table cheapest(const std::vector<PrecisionScene>& scenes) {
         table.row(scene.problem.description, percent * wanted, currency.name, at.first, best.step,
                   best.step / scene.truth.elastic_limit, name_of(best.limit), best.applications,
                   best.seconds, at.scheme_C.*currency.cost / best.*currency.cost, at.second,
-                  at.next.*currency.cost / best.*currency.cost, tied(scene, wanted, currency, at));
+                  at.next.*currency.cost / best.*currency.cost, tied(scene, at));
       }
   return {"cheapest",
           "The cheapest method for a wanted position error, by counted work and by seconds; tied "
@@ -127,8 +85,8 @@ Table prices(const std::vector<PrecisionScene>& scenes) {
   for (const PrecisionScene& scene : scenes)
     for (double wanted : wanted_errors)
       for (const PrecisionCurve& curve : scene.curves) {
-        const Price price = price_at(curve, scene.problem.end, wanted);
-        table.row(scene.problem.description, percent * wanted, curve.integrator.name, price.step,
+        const Price price = price_of(scene, curve, wanted);
+        table.row(scene.problem.description, percent * wanted, curve.method, price.step,
                   price.step / scene.truth.elastic_limit, name_of(price.limit), price.applications,
                   price.seconds, price.unfinished,
                   longer_run_of(curve.longer, price.step) ? "yes" : "no");
@@ -163,19 +121,14 @@ Table coverage(const std::vector<PrecisionScene>& scenes) {
               {"diverged", "1"}};
   for (const PrecisionScene& scene : scenes)
     for (const PrecisionCurve& curve : scene.curves) {
-      const auto count = [&](const auto& is_counted) {
-        return std::ranges::count_if(curve.runs, is_counted);
-      };
-      const auto is_measured = [](const PrecisionRun& run) { return !std::isnan(run.error); };
-      const auto is_seen = [&](const PrecisionRun& run) {
-        return run.error > scene.truth.uncertainty;
-      };
-      const auto is_unfinished = [](const PrecisionRun& run) {
-        return mark_of(run) == Mark::unfinished;
-      };
-      table.row(scene.problem.description, curve.integrator.name, curve.runs.size(),
-                count(is_measured), count(is_seen), count(is_unfinished),
-                long(curve.runs.size()) - count(is_measured));
+      int measured = 0, seen = 0, unfinished = 0;
+      for (const PrecisionRun& run : curve.runs) {
+        measured += !std::isnan(run.error);
+        seen += run.error > scene.truth.uncertainty;
+        unfinished += mark_of(run) == Mark::unfinished;
+      }
+      table.row(scene.problem.description, curve.method, curve.runs.size(), measured, seen,
+                unfinished, int(curve.runs.size()) - measured);
     }
   return {"coverage", "How many runs each curve has", table};
 }
@@ -197,7 +150,7 @@ Table all_runs(const std::vector<PrecisionScene>& scenes) {
     for (const PrecisionCurve& curve : scene.curves)
       for (const PrecisionRun& run : curve.runs) {
         const Work& w = run.work;
-        table.row(scene.problem.description, curve.integrator.name, run.steps, percent * run.error,
+        table.row(scene.problem.description, curve.method, run.steps, percent * run.error,
                   w.elastic_evaluations, w.damping_preparations, w.damping_products,
                   w.stiffness_preparations, w.stiffness_products, run.applications,
                   w.unfinished_solves, run.seconds);
@@ -219,7 +172,7 @@ Table longer_runs(const std::vector<PrecisionScene>& scenes) {
   for (const PrecisionScene& scene : scenes)
     for (const PrecisionCurve& curve : scene.curves)
       for (const LongerRun& run : curve.longer)
-        table.row(scene.problem.description, curve.integrator.name, run.step,
+        table.row(scene.problem.description, curve.method, run.step,
                   run.step / scene.truth.elastic_limit, run.with_step.added, run.with_half.added,
                   run.with_half.largest, energy_gain(run), lasts(run) ? "yes" : "no");
   return {"longer-runs",
@@ -233,41 +186,35 @@ Table longer_runs(const std::vector<PrecisionScene>& scenes) {
 
 Podium podium(const PrecisionScene& scene, double wanted, const Currency& currency) {
   Podium podium;
+  std::vector<double> costs;
   for (const PrecisionCurve& curve : scene.curves) {
-    const Price price = price_at(curve, scene.problem.end, wanted);
-    if (curve.integrator.name == "C") podium.scheme_C = price;
-    const double cost = price.*currency.cost;
+    const Price price = price_of(scene, curve, wanted);
+    if (curve.method == "C") podium.scheme_C = price;
+    const double cost = costs.emplace_back(price.*currency.cost);
     if (std::isnan(cost) || cost >= podium.best.*currency.cost) continue;
     podium.best = price;
-    podium.first = curve.integrator.name;
+    podium.first = curve.method;
   }
   const double tied_below = scene.problem.ratio * (podium.best.*currency.cost);
-  for (const PrecisionCurve& curve : scene.curves) {
-    const Price price = price_at(curve, scene.problem.end, wanted);
-    const double cost = price.*currency.cost;
+  for (size_t k = 0; k < costs.size(); ++k) {
+    const double cost = costs[k];
     if (!(cost > tied_below) || cost >= podium.next.*currency.cost) continue;
-    podium.next = price;
-    podium.second = curve.integrator.name;
+    podium.next = price_of(scene, scene.curves[k], wanted);
+    podium.second = scene.curves[k].method;
   }
+  for (size_t k = 0; k < costs.size(); ++k)
+    if (costs[k] <= tied_below || scene.curves[k].method == podium.second)
+      podium.contenders.push_back(k);
   return podium;
 }
 
-std::vector<size_t> contenders(const PrecisionScene& scene, double wanted,
-                               const Currency& currency) {
-  const Podium at = podium(scene, wanted, currency);
-  std::vector<size_t> found;
-  for (size_t k = 0; k < scene.curves.size(); ++k) {
-    const double cost = price_at(scene.curves[k], scene.problem.end, wanted).*currency.cost;
-    if (scene.curves[k].integrator.name == at.second ||
-        cost <= scene.problem.ratio * (at.best.*currency.cost))
-      found.push_back(k);
-  }
-  return found;
-}
-
 std::vector<Figure> precision_figures(const PrecisionScene& scene) {
+  std::vector<CostAxis> axes = cost_axes();
+  axes[1].name = "seconds";
+  axes[2].axis = {"step over bound of elastic limit", "1", Scale::log};
+  axes[2].unit = scene.truth.elastic_limit;
   std::vector<Figure> figures;
-  for (const CostAxis& cost : cost_axes()) {
+  for (const CostAxis& cost : axes) {
     Figure figure{scene.problem.name + "-" + cost.name,
                   "Error against " + cost.words + ": " + scene.problem.description,
                   cost.axis,
@@ -276,7 +223,7 @@ std::vector<Figure> precision_figures(const PrecisionScene& scene) {
                   caption,
                   {}};
     for (const PrecisionCurve& curve : scene.curves) {
-      Curve points = curve_of(scene, curve, cost);
+      Curve points = error_curve(curve, cost, scene.problem.end, scene.truth.uncertainty);
       if (points.x.empty())
         figure.caption += " No run of " + points.label + " ended within its budget.";
       else

@@ -95,7 +95,7 @@ class Names(unittest.TestCase):
         cases = {Path(name).name for name in self.listed["cases"]}
         self.assertLessEqual({row["case"] for row in needs}, cases)
         parts = "\n".join(path.read_text(encoding="utf-8")
-                          for path in (ROOT / "convergence").rglob("scene_parts.cpp"))
+                          for path in (ROOT / "convergence").rglob("ablation.cpp"))
         for row in needs:
             for part in row["parts"]:
                 name = part["name"].split("'")[0]

@@ -12,8 +12,6 @@
 
 #include "scripts/program/command_line/options_of_commands.h"
 #include "convergence/any_case/ablation.h"
-#include "convergence/any_case/coarser_mesh.h"
-#include "convergence/any_case/distances.h"
 #include "convergence/any_case/own_error.h"
 #include "reference/bodies/level_set_provider.h"
 #include "scripts/program/command_line/input_files.h"
@@ -39,7 +37,6 @@ struct Ablation {
   std::vector<ScenePart> parts;
   ObservedRun scene;
   int mesh_levels;
-  ErrorPart of_steps, of_mesh;
   std::vector<ObservedRun> toggled;  // one a part
   size_t runs_left = 0;
   DiscretisationError error;
@@ -66,9 +63,9 @@ Ablation plan_ablation(const std::string& file, const Options& options,
   reject_unknown_parts(input_case, plan.parts);
   plan.toggled.resize(plan.parts.size());
   plan.source.until = ablation_end(input_case);
-  plan.of_mesh.unknown = declared_reason(input_case, finer_mesh);
+  plan.error.mesh.unknown = declared_reason(input_case, finer_mesh);
   if (input_case.coarser_mesh.empty()) return plan;
-  if (!plan.of_mesh.unknown.empty())
+  if (!plan.error.mesh.unknown.empty())
     throw InputError(file + ": [ablation] does without a finer mesh, and names a coarser one");
   std::vector<std::string> overrides = options.overrides;
   overrides.insert(overrides.end(), input_case.coarser_mesh.begin(), input_case.coarser_mesh.end());
@@ -121,11 +118,11 @@ double length_of_meshes(int levels) { return 1.5 * std::pow(8, levels - 1); }
 Job mesh_job(Ablation& one, const KeptRuns& by, const AfterRun& after) {
   const std::vector<std::string>& coarser = one.input_case.coarser_mesh;
   const auto act = [&one, &coarser, &by] {
-    one.of_mesh = coarser.empty() ? error_of_mesh(one.source, one.mesh_levels, by)
-                                  : error_from_coarser_mesh(one.source, coarser, by);
+    one.error.mesh = coarser.empty() ? error_of_mesh(one.source, one.mesh_levels, by)
+                                     : error_from_coarser_mesh(one.source, coarser, by);
   };
   const double length = coarser.empty() ? length_of_meshes(one.mesh_levels) : 0.2;
-  return job_of(one, length, act, one.of_mesh.unknown, after);
+  return job_of(one, length, act, one.error.mesh.unknown, after);
 }
 
 /// Case by case, so that what is cut off has whole cases.
@@ -136,9 +133,9 @@ std::vector<Job> jobs_of(std::vector<Ablation>& all, const KeptRuns& by, const A
     jobs.push_back(run_job(
         one, 1, [](Scene s) { return s; }, one.scene, after));
     jobs.push_back(job_of(
-        one, 7, [&one, &by] { one.of_steps = error_of_steps(one.source, by); },
-        one.of_steps.unknown, after));
-    if (one.of_mesh.unknown.empty()) jobs.push_back(mesh_job(one, by, after));
+        one, 7, [&one, &by] { one.error.time = error_of_steps(one.source, by); },
+        one.error.time.unknown, after));
+    if (one.error.mesh.unknown.empty()) jobs.push_back(mesh_job(one, by, after));
     for (size_t k = 0; k < one.parts.size(); ++k)
       jobs.push_back(run_job(one, 1.1, one.parts[k].toggled, one.toggled[k], after));
     for (size_t k = earlier; k < jobs.size(); ++k) jobs[k].group = int(&one - all.data());
@@ -155,7 +152,7 @@ void forget_positions(Ablation& one) {
 void judge(Ablation& one) {
   const TriangleMesh& mesh = one.input_case.scene.mesh;
   const PerParticle mass = lumped_masses(mesh, one.input_case.scene.density);
-  one.error = {one.of_steps, one.of_mesh, 1e-6 * longest_side(mesh.rest)};
+  one.error.floor = 1e-6 * longest_side(mesh.rest);
   for (size_t k = 0; k < one.parts.size(); ++k) {
     one.judged_parts.push_back(
         judge_part(one.parts[k], one.scene, std::move(one.toggled[k]), one.error, mass));
@@ -216,8 +213,8 @@ nlohmann::json to_json(const Ablation& one, const std::vector<std::string>& over
             {"floor", one.error.floor},
             {"value", one.error.value()},
             {"without_bar", one.error.seen()},
-            {"without_time", one.of_steps.unknown},
-            {"without_mesh", one.of_mesh.unknown},
+            {"without_time", one.error.time.unknown},
+            {"without_mesh", one.error.mesh.unknown},
             {"coarser_mesh", one.input_case.coarser_mesh}}},
           {"run", to_json(one.scene)},
           {"parts", std::move(parts)}};
@@ -261,10 +258,9 @@ std::string mesh_error_text(const Ablation& one) {
 }
 
 void print(const Ablation& one) {
-  const double whole = one.input_case.scene.schedule.end,
-               expected_keys = ablation_end(one.input_case);
+  const double whole = one.input_case.scene.schedule.end, end = ablation_end(one.input_case);
   const std::string first =
-      expected_keys < whole ? fmt::format(" (its first {:g} s of {:g})", expected_keys, whole) : "";
+      end < whole ? fmt::format(" (its first {:g} s of {:g})", end, whole) : "";
   fmt::print("{}{}: {:.2f} s; own error {:.2g} m, {:.2g} m with its error bar\n",
              one.input_case.scene.name, first, one.scene.seconds, one.error.seen(),
              one.error.value());

@@ -3,29 +3,29 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "scripts/program/command_line/options_of_commands.h"
 #include "convergence/any_case/converge.h"
 #include "convergence/any_case/error_map.h"
-#include "convergence/any_case/ladder_study.h"
+#include "convergence/any_case/solver_ladder.h"
 #include "convergence/any_case/space_ladder.h"
 #include "scripts/program/command_line/input_files.h"
 #include "scripts/program/command_line/out_folder.h"
 #include "scripts/program/command_line/typed_words.h"
-#include "scripts/program/any_case/converge_file.h"
 #include "scripts/program/any_case/converge_report.h"
 #include "scripts/program/interruption.h"
 #include "scripts/program/json_text.h"
 #include "scripts/program/any_case/ladder_runs.h"
-#include "scripts/program/any_case/predictability_runs.h"
-#include "scripts/program/any_case/solver_runs.h"
 #include "scripts/program/program_json.h"
 #include "scripts/program/progress.h"
+#include "scripts/program/provenance.h"
 #include "scripts/program/run_case.h"
 #include "scripts/program/typed_solver.h"
 #include "verification/files/atomic_file.h"
+#include "verification/files/results_file.h"
 
 namespace foldproof {
 
@@ -43,10 +43,8 @@ struct Told {
 };
 
 /// How the questions of one call are answered.
-struct Answering {
+struct Answering : LevelRunner {
   const Options& options;
-  const LevelSetProvider& level_sets;
-  ResultStore& store;
 };
 
 void require_asked_before_end(const std::vector<Measurement>& measurements, double end) {
@@ -56,24 +54,74 @@ void require_asked_before_end(const std::vector<Measurement>& measurements, doub
                                    m.time, end));
 }
 
-/// The first level, and the others, which divide its steps.
+/// The first level, disturbed; those that the store has are read from it.
+std::vector<LevelRun> disturbed_runs(const Level& first, const std::vector<double>& step_ends,
+                                     const std::vector<Disturbance>& disturbances,
+                                     const std::string& label, const Answering& by) {
+  std::vector<Level> levels;
+  for (const Disturbance& one : disturbances)
+    levels.push_back(disturbed_level(first, step_ends, one));
+  return run_levels(levels, std::vector<double>(levels.size(), 1), label, by);
+}
+
+/// Runs the twins of the ladder's first level, and beyond a horizon the ensemble.
+PredictabilityAnswer run_twins(const LadderPlan& plan, const std::vector<LevelRun>& runs,
+                               const Answering& by) {
+  const Scene& scene = plan.input_case.scene;
+  const double fraction = by.options.fraction;
+  const int members = by.options.ensemble;
+  const Level first = time_level(plan, 0, {});
+  const std::vector<double>& ends = runs.front().step_ends;
+  const std::vector<Disturbance> two = twin_disturbances(scene, runs, fraction);
+  const std::vector<LevelRun> twins = disturbed_runs(first, ends, two, "its start disturbed", by);
+  PredictabilityAnswer answer{predictability(scene, runs.front(), two, twins, fraction), 0, {}};
+  if (!(answer.of.horizon < answer.of.end) || members < 2) return answer;
+  std::vector<Disturbance> further;
+  for (int n = 2; n <= members; ++n) further.push_back({two[1].size, unsigned(n)});
+  std::vector<LevelRun> ensemble =
+      disturbed_runs(first, ends, further, "an ensemble of such starts", by);
+  ensemble.push_back(twins[1]);
+  answer.ensemble = members;
+  answer.statistics = statistics_over_runs(scene, ensemble, runs, answer.of.horizon);
+  return answer;
+}
+
+/// The first level, and the others, which divide its steps; positions before the horizon only.
 Told told_in_time(const LadderPlan& plan, const Answering& by) {
   const auto level = [&](int k, const std::vector<LevelRun>& runs) {
     return time_level(plan, k, k > 0 ? runs[0].step_ends : std::vector<double>());
   };
-  const LadderRuns done = run_ladder({plan.levels, level}, by.level_sets, by.store,
-                                     by.options.running, limits_of(by.options.hours));
+  const LadderRuns done = run_ladder({plan.levels, level}, by, limits_of(by.options.hours));
   if (!done.refused.empty()) log_line(done.refused);
-  PredictabilityAnswer twins = run_twins(plan, done.runs, by.level_sets, by.store, by.options);
-  LadderAnswer ladder = answer_before_horizon(plan, done.runs, twins);
+  PredictabilityAnswer twins = run_twins(plan, done.runs, by);
+  const double horizon = twins.of.horizon;
+  LadderAnswer ladder =
+      time_answer(plan, horizon < twins.of.end ? frames_until(done.runs, horizon) : done.runs,
+                  integrator_named(plan.input_case.scene.integrator).order);
+  limit_to_horizon(plan.measurements, done.runs, twins.of, ladder);
   return {std::move(ladder), std::move(twins), {}, {}, done.runs.back()};
+}
+
+/// The runs of another solver, coarse to fine, one after the other. None is kept in a store: the
+/// program behind the command may change.
+std::vector<LevelRun> solver_runs(SolverLadder& ladder, int levels) {
+  std::vector<LevelRun> runs;
+  ProgressLine line("levels of the solver");
+  const double all = std::exp2(levels) - 1;  // if each takes twice the one before
+  for (int k = 0; k < levels; ++k) {
+    runs.push_back(ladder.run(k));
+    if (k == 0 && !runs[0].stopped.empty())
+      throw InputError("the solver comes to no end with the case's own step: " + runs[0].stopped);
+    line.show((std::exp2(k + 1) - 1) / all);
+  }
+  return runs;
 }
 
 /// Of another solver, asked before the reference's horizon only.
 Told told_of_solver(const LadderPlan& plan, const Told& reference, const Answering& by) {
   Trial solver(solver_command(by.options));
-  SolverLadder ladder(plan, solver, by.level_sets);
-  std::vector<LevelRun> runs = run_solver(ladder, by.options.levels);
+  SolverLadder ladder(plan, solver, by.kept.level_sets);
+  std::vector<LevelRun> runs = solver_runs(ladder, by.options.levels);
   const double horizon = reference.twins->of.horizon;
   LevelRun finest = reference.finest;
   if (horizon < reference.twins->of.end) {
@@ -89,10 +137,20 @@ Told told_of_solver(const LadderPlan& plan, const Told& reference, const Answeri
 
 Told told_in_space(const CaseSource& source, const Answering& by) {
   const auto objects = by.options.refines_objects ? ObjectsToo::yes : ObjectsToo::no;
-  const SpaceRuns done = run_meshes(space_ladder(source, by.options.levels, objects), by.level_sets,
-                                    by.store, by.options.running, limits_of(by.options.hours));
+  const SpaceRuns done =
+      run_meshes(space_ladder(source, by.options.levels, objects), by, limits_of(by.options.hours));
   if (!done.levels.refused.empty()) log_line(done.levels.refused);
   return {space_answer(done.ladder, done.levels.runs, done.halved), {}, {}, {}};
+}
+
+/// motion: of the case as it is [m].
+MapAnswer map_answer(const LadderAnswer& in_time, const LadderAnswer& in_space, double motion,
+                     const Options& options) {
+  MapAnswer answer{error_map(in_time, in_space, motion), {}};
+  if (answer.map.reason.empty())
+    for (const std::string& error : options.errors)
+      answer.pairs.push_back(cheapest_pair(answer.map, std::stod(error)));
+  return answer;
 }
 
 std::vector<Told> told_for(const CaseSource& source, const Answering& by) {
@@ -192,9 +250,10 @@ int converge(const Options& options) {
                                   typed_again(options.words));
   std::vector<Told> all;
   std::vector<StudyRecord> studies;
+  const Answering by{{{level_sets, store, program_identity()}, options.running}, options};
   for (const std::string& method : methods) {
     source.method = method;
-    for (Told& told : told_for(source, {options, level_sets, store})) {
+    for (Told& told : told_for(source, by)) {
       const std::string further = told.twins ? in_words(told.twins->of)
                                   : told.gap ? in_words(*told.gap, told.ladder.method)
                                              : "";
@@ -203,7 +262,11 @@ int converge(const Options& options) {
       all.push_back(std::move(told));
     }
   }
-  write_studies(options.out + "/converge.h5", std::move(studies), options.command);
+  RunRecord run;
+  run.provenance = provenance(options.command);
+  for (const StudyRecord& study : studies) run.seconds += study.seconds;
+  run.studies = std::move(studies);
+  write_run(options.out + "/converge.h5", run);
   return report(all, options);
 }
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "convergence/any_case/ladder_study.h"
+#include "convergence/any_case/converge.h"
 
 namespace foldproof {
 
@@ -20,11 +20,6 @@ std::string orders_in_words(const ErrorBar& bar) {
   for (const double order : bar.orders)
     words += (words.empty() ? "" : " ") + (std::isnan(order) ? "-" : fmt::format("{:.2f}", order));
   return words;
-}
-
-std::string reading_in_words(const ErrorBar& bar) {
-  const std::string name(name_of(bar.reading));
-  return bar.reason.empty() ? name : name + ": " + bar.reason;
 }
 
 bool is_in_space(const LadderAnswer& answer) { return answer.in == "space"; }
@@ -73,16 +68,27 @@ json to_json(const QuantityOverLevels& q) {
           {"error_of_steps", q.step_error}};
 }
 
-}  // namespace
-
-MapAnswer map_answer(const LadderAnswer& in_time, const LadderAnswer& in_space, double motion,
-                     const Options& options) {
-  MapAnswer answer{error_map(in_time, in_space, motion), {}};
-  if (answer.map.reason.empty())
-    for (const std::string& error : options.errors)
-      answer.pairs.push_back(cheapest_pair(answer.map, std::stod(error)));
-  return answer;
+json to_json(const Twin& twin) {
+  return {{"disturbance", twin.disturbance},
+          {"distances", twin.distances},
+          {"horizon", twin.horizon},
+          {"stopped", twin.stopped}};
 }
+
+json to_json(const StatisticOverRuns& s) {
+  return {{"name", s.name},   {"unit", s.unit},     {"mean", s.mean},    {"spread", s.spread},
+          {"reach", s.reach}, {"levels", s.levels}, {"agrees", s.agrees}};
+}
+
+/// "all" or the numbers of the levels that do not agree.
+std::string levels_outside(const StatisticOverRuns& s) {
+  std::string outside;
+  for (size_t k = 0; k < s.agrees.size(); ++k)
+    if (!s.agrees[k]) outside += (outside.empty() ? "" : ", ") + std::to_string(k + 1);
+  return outside.empty() ? "-" : outside;
+}
+
+}  // namespace
 
 void print(const MapAnswer& answer) {
   fmt::print("\nstep and mesh together:\n");
@@ -127,7 +133,7 @@ void print(const LadderAnswer& answer) {
   for (const QuantityOverLevels& q : answer.quantities)
     fmt::print("{:<24} {:<10} {:<16} {:>12} {:>10.2g} {:>10.2g}{}  {}\n", q.name, q.unit,
                orders_in_words(q.bar), number(q.bar.limit), q.bar.half_width, q.first_error,
-               in_space ? fmt::format(" {:>10.2g}", q.step_error) : "", reading_in_words(q.bar));
+               in_space ? fmt::format(" {:>10.2g}", q.step_error) : "", in_words(q.bar));
   print_notes(answer);
 }
 
@@ -153,6 +159,39 @@ json to_json(const LadderAnswer& answer) {
   for (const QuantityOverLevels& q : answer.quantities)
     answer_json["quantities"].push_back(to_json(q));
   return answer_json;
+}
+
+void print(const PredictabilityAnswer& answer) {
+  fmt::print("{}\n", in_words(answer.of));
+  if (answer.statistics.empty()) return;
+  fmt::print(
+      "\nmeans over the time beyond it, of {} runs with disturbed starts:\n{:<28} {:<4} {:>12} "
+      "{:>10} {:>10}  {}\n",
+      answer.ensemble, "statistic", "unit", "mean", "spread", "+-", "levels outside");
+  for (const StatisticOverRuns& s : answer.statistics)
+    fmt::print("{:<28} {:<4} {:>12.5g} {:>10.2g} {:>10.2g}  {}\n", s.name, s.unit, s.mean, s.spread,
+               s.reach, levels_outside(s));
+  fmt::print("+-: 95 of 100 further runs lie within it of the mean (Student's t)\n");
+}
+
+json to_json(const PredictabilityAnswer& answer) {
+  const Predictability& p = answer.of;
+  json told = {{"in_words", in_words(p)},
+               {"horizon", p.horizon},
+               {"fraction", p.fraction},
+               {"motion", p.motion},
+               {"end", p.end},
+               {"times", p.times},
+               {"growth_rate", p.growth.rate},
+               {"growth_rate_uncertainty", p.growth.uncertainty},
+               {"fitted_from", p.growth.from},
+               {"fitted_to", p.growth.to},
+               {"because", p.reason},
+               {"twins", {to_json(p.rounding), to_json(p.error)}},
+               {"ensemble", answer.ensemble},
+               {"statistics", json::array()}};
+  for (const StatisticOverRuns& s : answer.statistics) told["statistics"].push_back(to_json(s));
+  return told;
 }
 
 }  // namespace foldproof

@@ -5,13 +5,22 @@
 
 #include "convergence/any_case/converge.h"
 #include "convergence/any_case/error_map.h"
-#include "scripts/program/options.h"
+#include "convergence/any_case/predictability.h"
 
 namespace foldproof {
 
 void print(const LadderAnswer& answer);
-
 nlohmann::json to_json(const LadderAnswer& answer);
+
+/// How long the positions of a ladder in time are predictable.
+struct PredictabilityAnswer {
+  Predictability of;
+  int ensemble = 0;                           // runs
+  std::vector<StatisticOverRuns> statistics;  // beyond the horizon; empty if there is none
+};
+
+void print(const PredictabilityAnswer& answer);
+nlohmann::json to_json(const PredictabilityAnswer& answer);
 
 /// The map of a ladder in time and one in space, with the pairs for the errors that are wanted.
 struct MapAnswer {
@@ -19,12 +28,7 @@ struct MapAnswer {
   std::vector<CheapestPair> pairs;
 };
 
-/// motion: of the case as it is [m].
-MapAnswer map_answer(const LadderAnswer& in_time, const LadderAnswer& in_space, double motion,
-                     const Options& options);
-
 void print(const MapAnswer& answer);
-
 nlohmann::json to_json(const MapAnswer& answer);
 
 }  // namespace foldproof

@@ -1,6 +1,8 @@
-// foldproof precision: which integrator is cheapest for a case at a wanted error.
+// foldproof precision: which integrator is cheapest for a case at a wanted error, and which step of
+// another solver reaches it.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <map>
@@ -9,8 +11,11 @@
 #include <utility>
 
 #include "scripts/program/command_line/options_of_commands.h"
-#include "convergence/any_case/precision_report.h"
-#include "scripts/program/any_case/precision_of_solver.h"
+#include "convergence/any_case/precision.h"
+#include "convergence/any_case/solver_ladder.h"
+#include "convergence/any_case/solver_precision.h"
+#include "convergence/work_precision/precision_problem.h"
+#include "scripts/program/any_case/ladder_runs.h"
 #include "scripts/program/command_line/input_files.h"
 #include "scripts/program/command_line/out_folder.h"
 #include "scripts/program/command_line/typed_words.h"
@@ -20,6 +25,7 @@
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
 #include "scripts/program/run_case.h"
+#include "scripts/program/typed_solver.h"
 
 namespace foldproof {
 
@@ -28,6 +34,12 @@ namespace {
 using nlohmann::json;
 
 constexpr double usual_budget = 2.5e8;  // of one run [visits]: two to eight seconds
+constexpr double usual_seconds = 10;    // of one run of another solver, by the clock
+
+/// With three digits; "-" for NaN.
+std::string three_digits(double value) {
+  return std::isnan(value) ? "-" : fmt::format("{:.3g}", value);
+}
 
 PrecisionPlan plan_of(const Options& options, const LevelSetProvider& level_sets) {
   Case input_case = read_case(case_file(options.file), options.overrides);
@@ -52,52 +64,45 @@ double end_of_case(const Options& options) {
 }
 
 /// Makes what is missing, round by round, until nothing is.
-Trials all_trials(const PrecisionPlan& plan, const LevelSetProvider& level_sets, ResultStore& store,
-                  const JobSettings& running) {
-  const std::string program = program_identity();
+Trials all_trials(const PrecisionPlan& plan, const LevelRunner& by) {
   Trials all;
   for (int round = 1;; ++round) {
     const std::vector<PrecisionTrial> trials = next_trials(plan, all);
     if (trials.empty()) return all;
-    std::vector<TrialRun> made(trials.size());
-    std::vector<Job> jobs;
-    for (size_t k = 0; k < trials.size(); ++k)
-      jobs.push_back({trials[k].method, double(trials[k].parts), [&, k](const Progress&) {
-                        made[k] =
-                            stored_trial(plan.input_case, trials[k], level_sets, store, program);
-                        return RunRecord{};
-                      }});
-    RunRecord of_errors;
-    run_jobs(jobs, fmt::format("round {}: {} runs", round, trials.size()), running, of_errors);
-    if (!of_errors.records.empty())
-      throw std::runtime_error(of_errors.records.front().finding.note);
+    std::vector<Level> levels;
+    std::vector<double> lengths;
+    for (const PrecisionTrial& trial : trials) {
+      levels.push_back(trial_level(plan.input_case, trial));
+      lengths.push_back(trial.parts);
+    }
+    std::vector<LevelRun> made =
+        run_levels(levels, lengths, fmt::format("round {}: {} runs", round, trials.size()), by);
     for (size_t k = 0; k < trials.size(); ++k) run_of(all, trials[k]) = std::move(made[k]);
   }
 }
+
+bool is_priced(const MethodPrice& price) { return !std::isnan(price.price.applications); }
 
 void print_methods(const PrecisionAnswer& answer) {
   fmt::print("\n{:<22} {:>6} {:>12} {:>12}", "method", "order", "stable [s]", "not [s]");
   for (const double wanted : answer.plan.wanted)
     fmt::print("  {:>21}", fmt::format("price of {:.3g} %", 100 * wanted));
   fmt::print("  {}\n", "reading of its order");
-  const auto number = [](double value, const char* form) {
-    return std::isnan(value) ? std::string("-") : fmt::format(fmt::runtime(form), value);
-  };
   for (const MethodCurve& curve : answer.curves) {
+    const double order = asymptotic_order(curve.bar);
     fmt::print("{:<22} {:>6} {:>12} {:>12}", curve.method,
-               number(asymptotic_order(curve.bar), "{:.2f}"), number(curve.stable_step, "{:.3g}"),
-               number(curve.unstable_step, "{:.3g}"));
+               std::isnan(order) ? "-" : fmt::format("{:.2f}", order),
+               three_digits(curve.stable_step), three_digits(curve.unstable_step));
     for (const PriceList& list : answer.lists) {
       const auto price = std::ranges::find(list.prices, curve.method, &MethodPrice::method);
       if (price == list.prices.end())
         fmt::print("  {:>21}", "for the truth only");
       else
-        fmt::print(
-            "  {:>10} {:>10}", number(price->price.applications, "{:.4g}"),
-            std::isnan(price->price.seconds) ? "-" : fmt::format("{:.3g} s", price->price.seconds));
+        fmt::print("  {:>10} {:>10}",
+                   is_priced(*price) ? fmt::format("{:.4g}", price->price.applications) : "-",
+                   is_priced(*price) ? fmt::format("{:.3g} s", price->price.seconds) : "-");
     }
-    fmt::print("  {}{}\n", name_of(curve.bar.reading),
-               curve.bar.reason.empty() ? "" : ": " + curve.bar.reason);
+    fmt::print("  {}\n", in_words(curve.bar));
   }
 }
 
@@ -113,7 +118,7 @@ void print_lasting(const PrecisionAnswer& answer, const Trials& trials) {
         "steps that win were tried until {:.3g} s, as were half of them: {} runs, {:.3g} s\n",
         lasting_end(answer.plan), runs, seconds);
   for (const MethodCurve& curve : answer.curves)
-    if (const double step = shortest_unstable_step(curve.curve.longer); std::isfinite(step))
+    if (const double step = shortest_unstable_step(curve.longer); std::isfinite(step))
       fmt::print(
           "{}: steps of {:.3g} s or longer are not priced: unstable in a run until {:.3g} s\n",
           curve.method, step, lasting_end(answer.plan));
@@ -122,7 +127,7 @@ void print_lasting(const PrecisionAnswer& answer, const Trials& trials) {
 /// The command that runs the case with the cheapest method at its step: the one that was tried
 /// until lasting_end, or else the automatic one; "" without a price.
 std::string command_with(const MethodPrice& cheapest, const Options& options) {
-  if (std::isnan(cheapest.price.applications)) return "";
+  if (!is_priced(cheapest)) return "";
   std::string command = "foldproof simulate " + options.file;
   for (const std::string& change : options.overrides) command += fmt::format(" --set '{}'", change);
   const std::string step =
@@ -167,7 +172,15 @@ struct SolverAnswer {
 };
 
 void print(const SolverAnswer& solver, const PrecisionAnswer& reference, double case_end) {
-  print(solver.precision, reference);
+  fmt::print("\n");
+  for (const std::string& sentence : solver_sentences(solver.precision, reference))
+    fmt::print("{}\n", sentence);
+  fmt::print("\n{:>14} {:>12} {:>12} {:>14} {:>12}\n", "steps a frame", "step [s]", "error [%]",
+             "processor [s]", "clock [s]");
+  for (const PrecisionRun& run : solver.precision.curve.runs)
+    fmt::print("{:>14} {:>12.3g} {:>12} {:>14} {:>12}  {}\n", run.parts,
+               solver.precision.plan.frame / run.parts, three_digits(100 * run.error),
+               three_digits(run.seconds), three_digits(run.clock), run.stopped);
   if (const double end = reference.plan.input_case.scene.schedule.end; end < case_end)
     fmt::print("its steps were tried until {:.3g} s; the case ends at {:.3g} s\n", end, case_end);
   for (const auto& [key, value] : solver.mapping) fmt::print("mapping of {}: {}\n", key, value);
@@ -196,18 +209,16 @@ json to_json(const MethodPrice& price) {
 
 json to_json(const MethodCurve& curve) {
   json runs = json::array();
-  for (size_t k = 0; k < curve.parts.size(); ++k) {
-    const PrecisionRun& run = curve.curve.runs[k];
-    runs.push_back({{"steps_a_frame", curve.parts[k]},
+  for (const PrecisionRun& run : curve.runs)
+    runs.push_back({{"steps_a_frame", run.parts},
                     {"steps", run.steps},
                     {"error", run.error},
                     {"applications", run.applications},
                     {"seconds", run.seconds},
                     {"unfinished_solves", run.work.unfinished_solves},
-                    {"stopped", curve.stopped[k]}});
-  }
+                    {"stopped", run.stopped}});
   json longer_runs = json::array();
-  for (const LongerRun& run : curve.curve.longer)
+  for (const LongerRun& run : curve.longer)
     longer_runs.push_back({{"step", run.step},
                            {"kinetic_energy", run.with_step.added},
                            {"kinetic_energy_with_half_the_step", run.with_half.added},
@@ -246,20 +257,94 @@ json to_json(const PrecisionAnswer& answer, const Options& options) {
   return told;
 }
 
+json to_json(const SolverAnswer& solver, const PrecisionAnswer& reference) {
+  const SolverPrecision& precision = solver.precision;
+  const ErrorBar& bar = precision.curve.bar;
+  json told = {{"name", precision.plan.name},
+               {"sentences", solver_sentences(precision, reference)},
+               {"order", asymptotic_order(bar)},
+               {"reading", name_of(bar.reading)},
+               {"because", bar.reason},
+               {"error_bar", bar.half_width},
+               {"from_truth", precision.from_truth},
+               {"explained_by_steps", precision.explained},
+               {"runs", json::array()},
+               {"prices", json::array()}};
+  for (const PrecisionRun& run : precision.curve.runs)
+    told["runs"].push_back({{"steps_a_frame", run.parts},
+                            {"step", precision.plan.frame / run.parts},
+                            {"error", run.error},
+                            {"processor", run.seconds},
+                            {"clock", run.clock},
+                            {"stopped", run.stopped}});
+  for (const SolverPrice& price : precision.prices)
+    told["prices"].push_back({{"error", price.wanted},
+                              {"step", price.price.step},
+                              {"processor", price.price.seconds},
+                              {"clock", price.price.clock},
+                              {"is_whole_frame", price.price.limit == LimitedBy::not_tried},
+                              {"unstable_step", price.unstable_step},
+                              {"because", price.because}});
+  for (const auto& [key, value] : solver.mapping) told["mapping"][key] = value;
+  return told;
+}
+
 /// The answer, with the program, and how the case was asked.
 json to_json(const PrecisionAnswer& answer, const std::optional<SolverAnswer>& solver,
              const Options& options) {
   json all = to_json(answer, options);
-  if (solver) {
-    all["solver"] = to_json(solver->precision, answer);
-    for (const auto& [key, value] : solver->mapping) all["solver"]["mapping"][key] = value;
-  }
+  if (solver) all["solver"] = to_json(*solver, answer);
   all["end"] = end_of_case(options);
   all["tried_until"] = lasting_end(answer.plan);
   all["asked_end"] = answer.plan.input_case.scene.schedule.end;
   all["overrides"] = options.overrides;
   all["program"] = program_json(options.command);
   return all;
+}
+
+/// The solver of one call, on its case. No run of it is kept: the program behind the command may
+/// change.
+struct OtherSolver {
+  Trial trial;
+  SolverLadder ladder;
+
+  /// Starts it. Throws InputError for a case that the protocol cannot say, or that the solver does
+  /// not offer.
+  OtherSolver(const Options& options, const PrecisionPlan& plan, const LevelSetProvider& level_sets)
+      : trial(solver_command(options)), ladder({plan.input_case, 0, {}}, trial, level_sets) {}
+};
+
+SolverPlan plan_of(OtherSolver& solver, const PrecisionAnswer& reference, double effort) {
+  const Declaration& declared = solver.trial.declaration();
+  const Scene& scene = reference.plan.input_case.scene;
+  SolverPlan plan;
+  plan.name = declared.name + (declared.version.empty() ? "" : " " + declared.version);
+  plan.wanted = reference.plan.wanted;
+  plan.mass = reference.plan.mass;
+  plan.motion = reference.truth.motion;
+  plan.end = scene.schedule.end;
+  plan.frame = solver.ladder.steps().interval;
+  plan.formal_order = std::max(1, declared.order);
+  plan.floor = 1e3 * declared.rounding() * longest_side(scene.x);
+  plan.first = first_parts(plan.frame, plan.frame / double(solver.ladder.steps().a_frame));
+  plan.most_seconds = effort * usual_seconds;
+  return plan;
+}
+
+/// Runs it with steps that are halved. times: of the frames of the reference's truth. Throws
+/// InputError if it declines the case.
+SolverAnswer solver_answer(OtherSolver& solver, const PrecisionAnswer& reference,
+                           const std::vector<double>& times, double effort) {
+  const SolverPlan plan = plan_of(solver, reference, effort);
+  TrialLevels runs;
+  for (int parts = next_parts(plan, runs); parts > 0; parts = next_parts(plan, runs)) {
+    log_line(fmt::format("{}: {} steps a frame", plan.name, parts));
+    const LevelRun& run = runs[parts] = solver.ladder.run_with(parts);
+    // a step longer than the case's own may be declined
+    if (parts >= solver.ladder.steps().a_frame && run.stopped.starts_with("the solver declines"))
+      throw InputError(run.stopped);
+  }
+  return {solver_precision(plan, runs, reference.truth, times), solver.trial.mapping()};
 }
 
 /// Frames of the run that the truth is made of [s].
@@ -271,9 +356,8 @@ std::vector<double> times_of_truth(const PrecisionAnswer& answer, const Trials& 
 }
 
 bool is_answered(const PrecisionAnswer& answer) {
-  return std::ranges::all_of(answer.lists, [](const PriceList& list) {
-    return !std::isnan(list.prices.front().price.applications);
-  });
+  return std::ranges::all_of(answer.lists,
+                             [](const PriceList& list) { return is_priced(list.prices.front()); });
 }
 
 }  // namespace
@@ -283,20 +367,18 @@ int precision(const Options& options) {
   const LevelSetProvider level_sets =
       memoizing_provider(provider_for(options.cache, threads_of(options.running)));
   const PrecisionPlan plan = plan_of(options, level_sets);
-  std::optional<PrecisionOfSolver> other;  // refuses now what it cannot run
+  std::optional<OtherSolver> other;  // refuses now what it cannot run
   if (!options.solver.empty()) other.emplace(options, plan, level_sets);
   const OutFolder folder(options.out);
   log_warnings(plan.input_case.scene);
   ResultStore store(options.out + "/store");
   const InterruptionNotice notice("finished runs are kept in " + options.out + "/store",
                                   typed_again(options.words));
-  const Trials trials = all_trials(plan, level_sets, store, options.running);
+  const Trials trials =
+      all_trials(plan, {{level_sets, store, program_identity()}, options.running});
   const PrecisionAnswer answer = precision_answer(plan, trials);
   std::optional<SolverAnswer> solver;
-  if (other) {
-    SolverPrecision of_solver = other->answer(answer, times_of_truth(answer, trials));
-    solver = {std::move(of_solver), other->mapping()};
-  }
+  if (other) solver = solver_answer(*other, answer, times_of_truth(answer, trials), options.effort);
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   RunRecord run;
