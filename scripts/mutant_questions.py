@@ -104,9 +104,14 @@ def batches_of(file: str, seconds: dict[str, float], studies: set[str]) -> list[
 
 @functools.cache
 def faults_listed() -> list[dict]:
-    lists = (ROOT / "verification/faults").glob("*.toml")
-    return [row for path in lists
-            for row in tomllib.loads(path.read_text(encoding="utf-8")).get("fault", [])]
+    """Rows of all lists; one that names no file has that of the row above."""
+    rows = []
+    for path in (ROOT / "verification/faults").glob("*.toml"):
+        file = ""
+        for row in tomllib.loads(path.read_text(encoding="utf-8")).get("fault", []):
+            file = row.get("file", file)
+            rows.append({**row, "file": file})
+    return rows
 
 
 def likely_catchers(file: str) -> set[str]:

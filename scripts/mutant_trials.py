@@ -246,10 +246,8 @@ def read_explained() -> set[tuple[str, str, str]]:
     edits = read_explained_edits()
     for edit in edits:
         text = (ROOT / edit.file).read_text(encoding="utf-8")
-        occurrences = [row.strip() for row in text.splitlines()].count(edit.line)
-        if occurrences != edit.times:
-            raise Unusable(
-                f"{EXPLAINED.name}: '{edit.line}' stands {occurrences} times in"
-                f" {edit.file}, not {edit.times}"
-            )
+        times = [row.strip() for row in text.splitlines()].count(edit.line)
+        if times != edit.times:
+            raise Unusable(f"{EXPLAINED.name}: '{edit.line}' stands {times} times in {edit.file},"
+                           f" not {edit.times}")
     return {(edit.file, edit.line, edit.becomes) for edit in edits}

@@ -6,6 +6,7 @@ import unittest
 
 from script_module import ROOT
 from edits import Change
+from mutant_questions import faults_listed
 from mutant_trials import Mutant, Questions, Target
 from reach import Table, from_json, functions_of, missed_catchers, to_json
 
@@ -125,6 +126,10 @@ class Reaching(unittest.TestCase):
             self.assertEqual(missed_catchers(table, [fault]), missed)
         elsewhere = TABLE._replace(reached={})
         self.assertEqual(missed_catchers(elsewhere, [fault]), [])
+
+    def test_every_seeded_fault_has_a_file(self) -> None:
+        for fault in faults_listed():  # some name none: they have that of the row above
+            self.assertTrue((ROOT / fault["file"]).is_file(), fault["name"])
 
     def test_a_mutant_is_asked_what_reaches_it_and_what_was_not_measured(self) -> None:
         for line, file, table, names, what in (
