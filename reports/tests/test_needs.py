@@ -225,7 +225,7 @@ class Record(unittest.TestCase):
                 self.assertEqual(
                     [typed for typed in case.overrides if not typed.startswith("ablation.")], []
                 )
-                self.assertEqual([part.name for part in case.parts if not part.fits], [], ask)
+                self.assertEqual([part.name for part in case.parts if not part.as_it_should_be], [], ask)
                 self.assertTrue(case.parts)
 
     def test_reasons_and_what_was_asked_are_those_of_the_cases(self) -> None:

@@ -7,6 +7,7 @@ import json
 import re
 import tempfile
 from pathlib import Path
+from unittest import mock
 
 import h5py
 import numpy as np
@@ -79,7 +80,8 @@ class OnePage(FolderTest):
 
     def made(self, earlier: Path | None = None) -> tuple[str, str]:
         """Words of the page, and the Markdown."""
-        outs = make_summary(self.root, earlier)
+        with mock.patch("make_report.print_page"):  # a browser takes seconds
+            outs = make_summary(self.root, earlier)
         text = outs[0].read_text(encoding="utf-8")
         body = re.sub(r"<[^>]+>", "", text[text.index("<body"):].replace("</dt>", " "))
         return re.sub(r"\s", " ", body), outs[1].read_text(encoding="utf-8")
@@ -193,7 +195,8 @@ class OnePage(FolderTest):
         put_priced_run(self.root)
         with h5py.File(self.root / "run.h5", "a") as file:
             put(file, subject=HOSTILE)
-        outs = make_summary(self.root, None)
+        with mock.patch("make_report.print_page"):
+            outs = make_summary(self.root, None)
         text = outs[0].read_text(encoding="utf-8")
         self.assertEqual(re.findall(r'(?:src|href)="|url\(|@import|<script|<link', text), [])
         self.assertNotIn("<img", text)
