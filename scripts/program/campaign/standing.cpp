@@ -179,7 +179,7 @@ Standing stand(OpenCampaign& of, const std::function<void(const BatchJob&)>& tak
   return standing;
 }
 
-// ---- in words ------------------------------------------------------------------------------------
+// ---- in words -----------------------------------------------------------------------------------
 
 namespace {
 
