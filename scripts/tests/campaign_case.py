@@ -99,7 +99,11 @@ class SlurmCluster:
     def __init__(self, folder: Path, environment: dict[str, str], nodes: int = 3) -> None:
         self.folder = folder
         environment["SLURM_CONF"] = str(folder / "slurm.conf")
-        self.here("up", str(nodes))
+        try:
+            self.here("up", str(nodes))
+        except subprocess.CalledProcessError:
+            self.here("down")
+            raise
 
     def here(self, what: str, *words: str) -> None:
         """`down`, or `node K` and `controller` to start again what was killed."""

@@ -146,12 +146,16 @@ class CampaignTest(CampaignCase):
             self.assertEqual(self.table_code, code, (share, bound))
 
     def test_runs_that_are_kept_have_folders_of_their_own(self) -> None:
-        self.campaign("run", self.campaign_file('keep = "all"\n' + GRID))
-        kept = {line["result"]: line["kept"] for line in self.lines() if "result" in line}
-        self.assertEqual(len(set(kept.values())), 6)
+        text = GRID.replace("3e-3]", "-1]")  # two jobs are refused, and have no frames
+        for keep in ("", 'keep = "all"\n', 'keep = "all"\n'):
+            self.assertEqual(self.campaign("run", self.campaign_file(keep + text)).returncode, 1)
+        kept = {line["result"]: line["kept"] for line in self.lines() if line.get("kept")}
+        self.assertEqual(len(set(kept.values())), 4)
         for key, folder in kept.items():
             self.assertIn(key, folder)
             self.assertTrue((self.out / "store" / folder / "hinge.h5").is_file())
+        # once without frames, once with them
+        self.assertEqual(sum("result" in line for line in self.lines()), 10)
 
     def test_shipped_campaigns_have_the_jobs_that_their_page_says(self) -> None:
         shipped = ROOT / "cases/campaigns"

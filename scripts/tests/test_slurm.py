@@ -11,6 +11,7 @@ import os
 import signal
 import subprocess
 import sys
+import tempfile
 import time
 import unittest
 from collections.abc import Callable
@@ -37,7 +38,9 @@ class SlurmTest(CampaignCase):
 
     def setUp(self) -> None:
         super().setUp()
-        self.cluster = SlurmCluster(self.path / "slurm", self.environment)
+        folder = tempfile.TemporaryDirectory(prefix="foldproof-slurm-")  # Slurm bears no blank
+        self.addCleanup(folder.cleanup)
+        self.cluster = SlurmCluster(Path(folder.name), self.environment)
         self.addCleanup(self.cluster.here, "down")
 
     def grid(self, count: int, end: float, name: str = "grid") -> str:

@@ -145,6 +145,10 @@ bool JobIndex::add_result(const std::string& key, const std::string& content,
   add.bind(result.kept, result.host, result.date, result.commit).run();
   if (database_->changes() > 0) return true;
   database_->query("insert or ignore into repeated values(?, ?)").bind(key, shard).run();
+  if (!result.kept.empty())  // repeated for the sake of its files
+    database_->query("update results set kept = ?, bytes = ? where key = ? and kept = ''")
+        .bind(result.kept, result.bytes, key)
+        .run();
   SqliteQuery first = database_->query("select content from results where key = ?");
   if (first.bind(key).next() && first.text(0) != content)
     database_->query("insert or ignore into conflicts values(?, ?, ?)")

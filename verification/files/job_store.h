@@ -47,7 +47,8 @@ std::string units_line(const Units& units);             // before the first valu
 ///   repeated(key, shard)            every repetition
 ///   open_starts(key, count)         starts without an end
 ///   units(name, unit)
-/// It can be deleted at any time; the next merge() makes it anew from the shards.
+/// The first result of a key counts, and the first of its files. It can be deleted at any time; the
+/// next merge() makes it anew from the shards.
 class JobIndex {
  public:
   /// Throws InputError if the store is not a folder, std::runtime_error if it cannot be written.

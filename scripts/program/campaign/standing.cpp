@@ -78,10 +78,12 @@ std::set<std::string> keys_in(const std::vector<Batch>& batches) {
 }
 
 /// Whether a result answers what the campaign asks: frames that it wants may be missing.
-bool answers(const OpenCampaign& of, const JobResult& result) {
-  if (of.campaign.run != "simulate" || !result.kept.empty()) return true;
-  return of.campaign.keep == Keep::none ||
-         (of.campaign.keep == Keep::failures && result.end == JobEnd::holds);
+bool answers(const Campaign& campaign, const JobResult& result) {
+  const bool has_frames =
+      result.end == JobEnd::holds || result.end == JobEnd::fails || result.end == JobEnd::stopped;
+  const bool wants_frames = campaign.keep == Keep::all ||
+                            (campaign.keep == Keep::failures && result.end != JobEnd::holds);
+  return campaign.run != "simulate" || !has_frames || !wants_frames || !result.kept.empty();
 }
 
 }  // namespace
@@ -153,7 +155,7 @@ Standing stand(OpenCampaign& of, const std::function<void(const BatchJob&)>& tak
   for (size_t i = 0; i < of.campaign.root.jobs; ++i) {
     const std::string key = of.keys.key_of(job_assignments(of.campaign, i));
     const std::optional<JobResult> result = of.index.find(key);
-    if (result && answers(of, *result)) {
+    if (result && answers(of.campaign, *result)) {
       ++standing.ended[result->end];
       if (result->end != JobEnd::holds)
         ++standing.reasons[{result->end, result->reason.substr(0, result->reason.find(" ("))}];
@@ -177,7 +179,7 @@ Standing stand(OpenCampaign& of, const std::function<void(const BatchJob&)>& tak
   return standing;
 }
 
-// ---- in words ------------------------------------------------------------------------------------
+// ---- in words -----------------------------------------------------------------------------------
 
 namespace {
 

@@ -126,6 +126,11 @@ TEST_CASE("job store: a repetition that finds the same is counted, another one i
   REQUIRE(index.conflicts().size() == 1);
   CHECK((index.conflicts()[0].key == "k1" && index.conflicts()[0].shard == "batch/c"));
   CHECK(index.find("k1").value().values.at("height") == 1.0 / 3);
+  for (const char* kept : {"", "first files", "later files"})
+    store.add("batch/shards/g.jsonl",
+              line_with("k2", "holds", std::string(",\"kept\":\"") + kept + "\""));
+  CHECK(index.merge() == 1);
+  CHECK(index.find("k2").value().kept == "first files");
 }
 
 TEST_CASE("job store: starts without an end are counted, ends and interruptions take them back") {
