@@ -20,25 +20,23 @@ class OnPlanes(Toy):
         self.planes = scene.header["scene"].get("planes", [])
 
     def step(self, dt: float) -> None:
-        before = self.x.astype("f8")
+        self.before, self.dt = self.x.astype("f8"), float(dt)
         super().step(dt)
-        self.meet_obstacles(before, float(dt))
+        self.meet_obstacles()
 
-    def meet_obstacles(self, before: np.ndarray, dt: float) -> None:
+    def meet_obstacles(self) -> None:
         for plane in self.planes:
-            self.respond(plane, before, dt)
+            self.respond(plane)
 
-    def respond(self, plane: dict, before: np.ndarray, dt: float) -> None:
+    def respond(self, plane: dict) -> None:
         normal, v = np.array(plane["normal"]), self.v.astype("f8")
-        gap = (before + dt * v - np.array(plane["point"])) @ normal
-        self.touch(np.tile(normal, (len(v), 1)), gap, plane["friction"], before, dt)
+        gap = (self.before + self.dt * v - np.array(plane["point"])) @ normal
+        self.touch(np.tile(normal, (len(v), 1)), gap, plane["friction"])
 
-    def touch(
-        self, normals: np.ndarray, gap: np.ndarray, friction: float, before: np.ndarray, dt: float
-    ) -> None:
+    def touch(self, normals: np.ndarray, gap: np.ndarray, friction: float) -> None:
         """Where the gap at the step's end is negative, along the normals (N, 3)."""
         v = self.v.astype("f8")
-        push = self.push(gap, dt)
+        push = self.push(gap)
         v += push[:, None] * normals
         tangential = v - np.sum(v * normals, axis=1)[:, None] * normals
         speed = np.linalg.norm(tangential, axis=1)
@@ -46,10 +44,10 @@ class OnPlanes(Toy):
         touched = push > 0
         v[touched] -= ((1 - kept)[:, None] * tangential)[touched]
         self.v = v.astype(self.number)
-        self.x = (before + dt * v).astype(self.number)
+        self.x = (self.before + self.dt * v).astype(self.number)
 
-    def push(self, gap: np.ndarray, dt: float) -> np.ndarray:
-        return np.maximum(0, -gap / dt)
+    def push(self, gap: np.ndarray) -> np.ndarray:
+        return np.maximum(0, -gap / self.dt)
 
     def kept(self, most: np.ndarray, speed: np.ndarray) -> np.ndarray:
         """The share of the tangential speed that friction leaves."""
@@ -71,37 +69,37 @@ class OnPlanesBackwardEulerSingle(OnPlanes, BackwardEulerSingle):
 class SinksIn(OnPlanes):
     """A soft plane."""
 
-    def push(self, gap: np.ndarray, dt: float) -> np.ndarray:
-        return np.maximum(0, -gap * dt * 2e3)
+    def push(self, gap: np.ndarray) -> np.ndarray:
+        return np.maximum(0, -gap * self.dt * 2e3)
 
 
 class Jitters(OnPlanes):
     """Overcorrects: a particle that was below the plane ends above it."""
 
-    def push(self, gap: np.ndarray, dt: float) -> np.ndarray:
-        return np.where(gap < 0, -gap / dt * 4, 0)
+    def push(self, gap: np.ndarray) -> np.ndarray:
+        return np.where(gap < 0, -gap / self.dt * 4, 0)
 
 
 class PlanesAreLevel(OnPlanes):
     """A plane's point counts, its normal does not."""
 
-    def respond(self, plane: dict, before: np.ndarray, dt: float) -> None:
-        super().respond({**plane, "normal": [0, 0, 1]}, before, dt)
+    def respond(self, plane: dict) -> None:
+        super().respond({**plane, "normal": [0, 0, 1]})
 
 
 class PlanesPassTheOrigin(OnPlanes):
     """A plane's normal counts, its point does not."""
 
-    def respond(self, plane: dict, before: np.ndarray, dt: float) -> None:
-        super().respond({**plane, "point": [0, 0, 0]}, before, dt)
+    def respond(self, plane: dict) -> None:
+        super().respond({**plane, "point": [0, 0, 0]})
 
 
 class FrictionPerAxis(OnPlanes):
     """A pyramid in place of Coulomb's cone: two directions in the plane, each with its limit."""
 
-    def respond(self, plane: dict, before: np.ndarray, dt: float) -> None:
-        normal, (x, v) = np.array(plane["normal"]), (before, self.v)
-        super().respond({**plane, "friction": 0}, before, dt)
+    def respond(self, plane: dict) -> None:
+        normal, v = np.array(plane["normal"]), self.v
+        super().respond({**plane, "friction": 0})
         push, friction = (self.v - v) @ normal, plane["friction"]
         first = np.cross(normal, [1.0, 0, 0])
         first /= np.linalg.norm(first)
@@ -109,19 +107,19 @@ class FrictionPerAxis(OnPlanes):
             speed = v @ axis
             taken = np.sign(speed) * np.minimum(np.abs(speed), friction * push)
             self.v = self.v - taken[:, None] * axis
-        self.x = x + dt * self.v
+        self.x = self.before + self.dt * self.v
 
 
 class FrictionTurns(OnPlanes):
     """Friction acts 20 degrees beside the motion: it hardly slows less, and pushes sideways."""
 
-    def respond(self, plane: dict, before: np.ndarray, dt: float) -> None:
+    def respond(self, plane: dict) -> None:
         normal, v = np.array(plane["normal"]), self.v
-        super().respond(plane, before, dt)
+        super().respond(plane)
         push = ((self.v - v) @ normal)[:, None] * normal
         friction, turn = self.v - v - push, np.radians(20)
         self.v = v + push + np.cos(turn) * friction + np.sin(turn) * np.cross(normal, friction)
-        self.x = before + dt * self.v
+        self.x = self.before + self.dt * self.v
 
 
 class BouncesTooHigh(OnPlanes):
@@ -129,10 +127,10 @@ class BouncesTooHigh(OnPlanes):
 
     slowest = 0.5  # m/s, that it throws back
 
-    def respond(self, plane: dict, before: np.ndarray, dt: float) -> None:
+    def respond(self, plane: dict) -> None:
         normal = np.array(plane["normal"])
         came, gap = -self.v @ normal, (self.x - np.array(plane["point"])) @ normal
-        super().respond(plane, before, dt)
+        super().respond(plane)
         thrown = np.where((gap < 0) & (came > self.slowest), 1.2 * came - self.v @ normal, 0)
         self.v = self.v + thrown[:, None] * normal
 
@@ -163,10 +161,10 @@ class BendsOnPlanes(OnPlanes, Bends):
 class BendsOnPlanesFrictionOfWeight(BendsOnPlanes):
     """Friction as much as a particle's own weight calls for, whatever else presses it on."""
 
-    def respond(self, plane: dict, before: np.ndarray, dt: float) -> None:
-        self.own = dt * max(0.0, -self.gravity @ np.array(plane["normal"]))
+    def respond(self, plane: dict) -> None:
+        self.own = self.dt * max(0.0, -self.gravity @ np.array(plane["normal"]))
         self.friction = plane["friction"]
-        super().respond(plane, before, dt)
+        super().respond(plane)
 
     def kept(self, most: np.ndarray, speed: np.ndarray) -> np.ndarray:
         return super().kept(np.full_like(most, self.friction * self.own), speed)
@@ -175,14 +173,14 @@ class BendsOnPlanesFrictionOfWeight(BendsOnPlanes):
 class BendsOnPlanesThatHoldDown(BendsOnPlanes):
     """What lies on a plane leaves it no more slowly than by 0.2 m/s."""
 
-    def respond(self, plane: dict, before: np.ndarray, dt: float) -> None:
-        super().respond(plane, before, dt)
+    def respond(self, plane: dict) -> None:
+        super().respond(plane)
         normal = np.array(plane["normal"])
-        lay = np.abs((before - np.array(plane["point"])) @ normal) < 1e-6
+        lay = np.abs((self.before - np.array(plane["point"])) @ normal) < 1e-6
         speed = self.v @ normal
         stays = lay & (speed > 0) & (speed < 0.2)
         self.v[stays] -= speed[stays, None] * normal
-        self.x[stays] = before[stays] + dt * self.v[stays]
+        self.x[stays] = self.before[stays] + self.dt * self.v[stays]
 
 
 class OnBoxes(Toy):

@@ -20,12 +20,12 @@ class OnRoundBodies(OnPlanes):
         self.bodies = [{"a": body["centre"], "b": body["centre"], **body}
                        for body in constants.get("spheres", [])] + constants.get("capsules", [])
 
-    def meet_obstacles(self, before: np.ndarray, dt: float) -> None:
+    def meet_obstacles(self) -> None:
         for body in self.bodies:
-            out = self.from_axis(body, before + dt * self.v.astype("f8"))
+            out = self.from_axis(body, self.before + self.dt * self.v.astype("f8"))
             length = np.linalg.norm(out, axis=1)
             normals, gap = out / length[:, None], length - self.scale * body["radius"]
-            self.touch(normals, gap, body["friction"], before, dt)
+            self.touch(normals, gap, body["friction"])
 
     def from_axis(self, body: dict, p: np.ndarray) -> np.ndarray:
         """From the nearest point of the body's segment to each p."""
@@ -52,10 +52,8 @@ class ChokesOnRoundBodies(OnRoundBodies):
 class StopsFromAbove(OnRoundBodies):
     """Sees what comes from above alone: cloth that hangs down beside a ball swings into it."""
 
-    def touch(
-        self, normals: np.ndarray, gap: np.ndarray, friction: float, before: np.ndarray, dt: float
-    ) -> None:
-        super().touch(normals, np.where(normals[:, 2] > 0.7, gap, 1), friction, before, dt)
+    def touch(self, normals: np.ndarray, gap: np.ndarray, friction: float) -> None:
+        super().touch(normals, np.where(normals[:, 2] > 0.7, gap, 1), friction)
 
 
 class ThrowsBack(OnRoundBodies):
@@ -63,14 +61,12 @@ class ThrowsBack(OnRoundBodies):
 
     slowest = 0.0  # m/s, that it throws back
 
-    def touch(
-        self, normals: np.ndarray, gap: np.ndarray, friction: float, before: np.ndarray, dt: float
-    ) -> None:
+    def touch(self, normals: np.ndarray, gap: np.ndarray, friction: float) -> None:
         inward = np.maximum(0, -np.sum(self.v * normals, axis=1))
         inward[inward < self.slowest] = 0
-        super().touch(normals, gap, friction, before, dt)
+        super().touch(normals, gap, friction)
         self.v = self.v + np.where(gap < 0, 2.0 * inward, 0)[:, None] * normals
-        self.x = before + dt * self.v
+        self.x = self.before + self.dt * self.v
 
 
 class ThrowsBackWhenFast(ThrowsBack):
@@ -80,13 +76,12 @@ class ThrowsBackWhenFast(ThrowsBack):
 class RoundBodiesTurn(OnRoundBodies):
     """Friction against a body that turns about the vertical axis, though it is fixed."""
 
-    def touch(
-        self, normals: np.ndarray, gap: np.ndarray, friction: float, before: np.ndarray, dt: float
-    ) -> None:
+    def touch(self, normals: np.ndarray, gap: np.ndarray, friction: float) -> None:
         carried = 0.3 * np.cross([0, 0, 1], normals)
-        self.v = self.v - carried
-        super().touch(normals, gap, friction, before + dt * carried, dt)
-        self.v = self.v + carried
+        self.v, before = self.v - carried, self.before
+        self.before = before + self.dt * carried
+        super().touch(normals, gap, friction)
+        self.v, self.before = self.v + carried, before
 
 
 class RoundBodiesWithoutFriction(OnRoundBodies):
@@ -97,12 +92,10 @@ class RoundBodiesWithoutFriction(OnRoundBodies):
 class RoundBodiesStick(OnRoundBodies):
     """Friction as on a level plane, whose normal force is the weight: too large on a slope."""
 
-    def touch(
-        self, normals: np.ndarray, gap: np.ndarray, friction: float, before: np.ndarray, dt: float
-    ) -> None:
+    def touch(self, normals: np.ndarray, gap: np.ndarray, friction: float) -> None:
         steep = np.maximum(0.1, normals[:, 2])
         self.excess = 1 / steep
-        super().touch(normals, gap, friction, before, dt)
+        super().touch(normals, gap, friction)
 
     def kept(self, most: np.ndarray, speed: np.ndarray) -> np.ndarray:
         return super().kept(most * self.excess, speed)
