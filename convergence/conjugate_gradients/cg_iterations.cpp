@@ -2,14 +2,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <random>
 
 #include "convergence/study.h"
 #include "reference/forces/bending.h"
 #include "reference/mesh/shapes.h"
-#include "verification/seeds.h"
 #include "verification/subject.h"
 #include "verification/specimens/specimens.h"
+#include "verification/specimens/random.h"
 
 namespace foldproof {
 
@@ -39,8 +38,8 @@ constexpr double bending = 2.3e-4;  // ke [J]
 
 /// Waves and noise: every mode of the mesh takes part, so that no solve is easy by its start.
 void set_motion(Scene& scene) {
-  std::mt19937_64 generator(shifted_seed(914));
-  const auto noise = [&generator] { return double(generator() >> 11) * 0x1p-53 - 0.5; };
+  Random random(914);
+  const auto noise = [&random] { return random.uniform(-0.5, 0.5); };
   for (Eigen::Index i = 0; i < scene.x.cols(); ++i) {
     const double a = scene.mesh.rest(0, i) / side, b = scene.mesh.rest(1, i) / side;
     scene.x(2, i) += 0.06 * std::sin(5.3 * a + 1.7 * b);

@@ -3,14 +3,13 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <random>
 
 #include "convergence/study.h"
 #include "reference/dynamics/integrator.h"
 #include "reference/mesh/shapes.h"
-#include "verification/seeds.h"
 #include "verification/specimens/specimens.h"
 #include "verification/specimens/stepper.h"
+#include "verification/specimens/random.h"
 
 namespace foldproof {
 
@@ -67,9 +66,7 @@ Table asymmetry_of_run(const Subject& subject, const Scene& scene, double end) {
 }
 
 Scene disturb(Scene scene) {
-  std::mt19937_64 random(shifted_seed(77));
-  for (double& component : scene.x.reshaped())
-    component += disturbance * (2 * double(random() >> 11) * 0x1p-53 - 1);
+  scene.x += disturbance * Random(77).vectors(scene.x.cols(), 1);
   for (PrescribedParticle& p : scene.prescribed) p.start = scene.x.col(p.particle);
   return scene;
 }

@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 #include "reference/dynamics/integrator.h"
-#include "verification/seeds.h"
+#include "verification/specimens/random.h"
 
 namespace foldproof {
 
@@ -226,11 +225,10 @@ namespace {
 std::vector<double> random_steps(double ratio) {
   constexpr int length = 8;
   std::vector<double> steps;
-  std::mt19937_64 generator(shifted_seed(20030726));
+  Random random(20030726);
   double sum = 0;
   for (int i = 0; i < length; ++i) {
-    const double uniform = double(generator() >> 11) * 0x1p-53;
-    steps.push_back(std::pow(ratio, uniform));
+    steps.push_back(std::pow(ratio, random.uniform(0, 1)));
     sum += steps.back();
   }
   for (double& step : steps) step *= length / sum;

@@ -1,11 +1,10 @@
 #include "convergence/stability/stable_step.h"
 
 #include <cmath>
-#include <random>
 
 #include "reference/mesh/shapes.h"
-#include "verification/seeds.h"
 #include "verification/specimens/stepper.h"
+#include "verification/specimens/random.h"
 
 namespace foldproof {
 
@@ -28,13 +27,7 @@ bool stays(Stepper& stepper, int steps, double h) {
 
 }  // namespace
 
-PerParticle3 disturbance_shape(Eigen::Index n) {
-  std::mt19937_64 generator(shifted_seed(6021));
-  PerParticle3 values(3, n);
-  for (Eigen::Index i = 0; i < values.size(); ++i)
-    values.data()[i] = double(generator() >> 11) * 0x1p-53 - 0.5;
-  return values;
-}
+PerParticle3 disturbance_shape(Eigen::Index n) { return Random(6021).vectors(n, 0.5); }
 
 Scene flat_sheet(int cells) {
   Scene scene = scene_at_rest(
