@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "convergence/any_case/converge.h"
+
 namespace foldproof {
 
 namespace {
