@@ -225,7 +225,8 @@ class Record(unittest.TestCase):
                 self.assertEqual(
                     [typed for typed in case.overrides if not typed.startswith("ablation.")], []
                 )
-                self.assertEqual([part.name for part in case.parts if not part.as_it_should_be], [], ask)
+                wrong = [part.name for part in case.parts if not part.as_it_should_be]
+                self.assertEqual(wrong, [], ask)
                 self.assertTrue(case.parts)
 
     def test_reasons_and_what_was_asked_are_those_of_the_cases(self) -> None:
