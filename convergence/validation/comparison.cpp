@@ -60,7 +60,10 @@ Finding judge_comparisons(Table table, double resolution, std::string why_resolu
 
 Finding judge_comparison(const Comparison& comparison, double resolution,
                          std::string why_resolution, std::string note) {
-  return judge_comparison(comparison, resolution, std::move(why_resolution), std::move(note));
+  Table table = no_comparisons("1");
+  add_comparison(table, comparison, resolution);
+  return judge_comparisons(std::move(table), resolution, std::move(why_resolution),
+                           std::move(note));
 }
 
 }  // namespace foldproof
