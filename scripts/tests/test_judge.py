@@ -131,12 +131,14 @@ class Judge(JudgeCase):
         self.assert_rejected("judge", "--frames", ".", "--case", "hanging_sheet", "held")
 
     def test_the_laws_are_listed(self) -> None:
+        def shown(law: dict[str, Any]) -> str:
+            return law["claim"] + (f" [{law['needs']}]" if law.get("needs") else "")
         listed, all_kinds = json.loads(run("list", "--json").stdout), run("list").stdout
         for laws, kind in ((listed["laws"], "laws"), (listed["frame_laws"], "frame-laws")):
             lines = run("list", kind).stdout.splitlines()
             self.assertRegex(all_kinds, rf"(?m)^{kind} +{len(lines)} ")
             self.assertEqual([line.split(maxsplit=1) for line in lines],
-                             [[law["name"], law["claim"]] for law in laws])
+                             [[law["name"], shown(law)] for law in laws])
 
     def test_the_example_of_the_help_works(self) -> None:
         told = run("subject", "--help").stdout
