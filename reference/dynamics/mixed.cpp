@@ -25,7 +25,7 @@ PerParticle3 implicit_half_step(const System& system, const Forces& at, const Pe
   return w;
 }
 
-/// The state a step of h [s] later, at the places where the velocity v leads.
+/// The state h [s] later, with the positions moved by the velocity v.
 State moved(const System& system, const State& now, const PerParticle3& v, double h) {
   return {now.time + h, moved(system.team, now.x, h, v), v, now.bonds};
 }

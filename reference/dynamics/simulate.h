@@ -16,8 +16,8 @@ namespace foldproof {
 /// or an object's velocity jumps (dynamics/events.h); multistep methods restart there.
 struct StepRule {
   double fixed = 0;  // the largest step allowed [s]; 0: automatic
-  // automatic: fraction of the elastic limit 2/omega, and for fully explicit methods of the damping
-  // limit 2/c too, c being the bound on the largest damping rate [1]
+  // automatic: fraction of the elastic limit 2/omega, and for fully explicit methods also of the
+  // damping limit 2/c, where c bounds the largest damping rate [1]
   double safety = 0.5;
   // automatic: no edge's length changes by more than this fraction of its rest length [1]
   double strain_per_step = 0.1;

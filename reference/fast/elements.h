@@ -49,15 +49,15 @@ struct OwnedParticles {
   bool has(int particle) const { return first <= particle && particle < end; }
 };
 
-/// The particles of the only thread, and of a run of elements inside a thread's.
+/// All particles: for the only thread, or for a run of elements inside one thread's range.
 struct AllParticles {
   static constexpr bool has(int) { return true; }
 };
 
-/// How a number of elements is divided; null: one thread has them all.
+/// How a list of elements is divided; a null Division gives one thread all of them.
 struct DividedElements {
   size_t elements = 0;
-  std::vector<OwnedParticles> owners;  // one a thread
+  std::vector<OwnedParticles> owners;  // one per thread
 };
 using Division = std::shared_ptr<const DividedElements>;
 
@@ -66,7 +66,7 @@ using Division = std::shared_ptr<const DividedElements>;
 Division divide(const Team& team, Eigen::Index particles,
                 const std::vector<std::array<int, 4>>& elements);
 
-/// Where an element adds: to those of its particles that belong to the thread.
+/// The target of an element: adds only to its particles that belong to the thread.
 template <class Owner, class Target>
 class Adder {
  public:
@@ -105,7 +105,7 @@ class Elements {
   void reserve(size_t count) { all_.reserve(count); }
   void push_back(const Element& one) { all_.push_back(one); }
 
-  /// Divides the list, whose length must then stay.
+  /// Divides the list, whose length must not change afterwards.
   void divide(const Team& team, Eigen::Index particles) {
     std::vector<std::array<int, 4>> corners;
     if (team.threads() > 1)
@@ -113,7 +113,7 @@ class Elements {
     division_ = foldproof::divide(team, particles, corners);
   }
 
-  /// Adds another list behind; a list of two parts runs on one thread.
+  /// Appends another list; the joined list runs on one thread.
   void append(Elements more) {
     if (empty()) {
       *this = std::move(more);
@@ -123,7 +123,7 @@ class Elements {
     all_.insert(all_.end(), more.all_.begin(), more.all_.end());
   }
 
-  /// act(element, to): what the element adds to its particles by to.add(i, value).
+  /// act(element, to) adds to the element's particles by to.add(i, value).
   template <class Target, class Act>
   void push(Target& target, const Act& act) const {
     push_each(target, [&](size_t k, const auto& to) { act(all_[k], to); });
@@ -202,7 +202,7 @@ class Elements {
           run.is_inside ? call(loop, run, AllParticles{}) : call(loop, run, own);
       });
     } catch (...) {
-      call(loop, all, AllParticles{});  // throws at the first element that one thread would meet
+      call(loop, all, AllParticles{});  // throws at the element where one thread would fail first
       throw;
     }
   }

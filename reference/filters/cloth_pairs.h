@@ -25,7 +25,7 @@ struct ClothTree {
   std::vector<OwnedFeatures> own;   // M
   BoxTree tree;                     // over the triangles
   double mean_edge;                 // at rest [m]
-  Team team = {};                   // that searches
+  Team team = {};                   // searches run on it
 };
 
 ClothTree make_cloth_tree(const TriangleMesh& mesh);
@@ -42,8 +42,8 @@ std::vector<FeaturePair> near_pairs(const ClothTree& cloth, const PerParticle3& 
 /// later searches only select from these pairs.
 struct PairsAhead {
   std::vector<Bounds> boxes;       // N: one per particle, widened by half that margin
-  std::vector<FeaturePair> pairs;  // near_pairs of them
-  Team team = {};                  // that selects
+  std::vector<FeaturePair> pairs;  // near_pairs of these boxes
+  Team team = {};                  // selection runs on it
 };
 
 /// Is a particle of the pair marked?

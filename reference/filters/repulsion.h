@@ -17,7 +17,7 @@ struct SelfCollisionSettings {
   double friction = 0;   // mu, Coulomb's coefficient between layers [1]
   // rounds of impulses against crossings before colliding parts move as rigid zones
   int rounds = 8;
-  // a start that crosses itself is run, with a message; false: it is refused
+  // runs a start that crosses itself, with a message; false: refuses it
   bool untangle = true;
 };
 
