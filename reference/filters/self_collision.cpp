@@ -131,7 +131,7 @@ void SelfCollision::look_ahead(const State& s, const Work& work) const {
   if (!work.kept) return;
   const double spare = spare_share * cloth.mean_edge;
   PairsAhead& latest = work.kept->of<PairsAhead>(*this);
-  // the other half is left for the coming step
+  // half of the margin is left for the coming step
   if (is_inside(latest, s.x, settings.thickness + spare / 2)) return;
   latest = pairs_ahead(cloth, s.x, settings.thickness + spare);
 }

@@ -23,7 +23,7 @@ enum class SweepOrder {
 };
 
 struct StrainLimits {
-  double extension = 0.10, compression = 0;  // share of the rest length [1]
+  double extension = 0.10, compression = 0;  // fraction of the rest length [1]
   SweepOrder order = SweepOrder::gauss_seidel;
   int sweeps = 20;          // maximum per call
   double tolerance = 1e-3;  // relative violation at which sweeps end [1]

@@ -88,13 +88,13 @@ struct Sticking {
                                 ForceDifferential& differential) const;
   void add_force_differential(const State& s, ForceDifferential& differential) const;
 
-  /// Adds to rows (N [N/m]) each particle's share of a bound on the elastic stiffness; see
-  /// forces/force.h. It covers the springs, and the part that forecasts do not stabilise: frames of
-  /// cloth that turn while springs pull.
+  /// Adds to rows (N [N/m]) a bound on each particle's row of the elastic stiffness; see
+  /// forces/force.h. It covers the springs, and the part that forecasts do not stabilise: cloth
+  /// frames that turn while springs pull on them.
   void add_stiffness_bound(const State& s, PerParticle& rows) const;
   void add_bound_without_springs(const State& s, PerParticle& rows) const;
 
-  /// The shortest tau_s of a patch that has bonds [s]; infinite without any.
+  /// The shortest tau_s of any patch that has bonds [s]; infinite without bonds.
   double shortest_forecast(const State& s) const;
 };
 

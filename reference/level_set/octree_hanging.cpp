@@ -7,7 +7,7 @@ namespace {
 
 using Cell = std::array<int, 3>;
 
-/// Is the cell of this level a leaf? False outside of the cube.
+/// Is the cell of this level a leaf, or inside one? False outside the cube.
 bool is_leaf(const Octree& tree, int level, const Cell& cell) {
   for (int axis : cell)
     if (axis < 0 || axis >= 1 << level) return false;
