@@ -1,4 +1,4 @@
-// Exact signs of determinants of coordinates: on which side of a plane or line a point lies, or
+// Exact signs of determinants of coordinates: the side of a plane or line on which a point lies, or
 // whether it lies on it.
 #pragma once
 

@@ -6,7 +6,7 @@ namespace foldproof {
 
 namespace {
 
-/// Gives each corner the particle of its fan. fans: as fans_of names them. Returns copy_of.
+/// Gives each corner the particle of its fan. fans: as returned by fans_of. Returns copy_of.
 std::vector<int> number_fans(const std::vector<int>& fans, TriangleSoup& soup) {
   std::vector<int> copy_of, particle_of(fans.size(), -1);  // of a fan's first corner
   for (int v = 0; v < int(soup.rest.cols()); ++v) copy_of.push_back(v);

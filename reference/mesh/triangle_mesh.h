@@ -35,8 +35,8 @@ struct TriangleMesh {
   int particles() const { return int(rest.cols()); }
 };
 
-/// Where the parts of a mesh were read, so that a refusal can name the line. Empty for
-/// meshes made by code.
+/// The lines from which the parts of a mesh were read, for error messages. Empty for meshes made by
+/// code.
 struct MeshOrigin {
   std::string file;
   std::vector<int> vertex_lines;    // N, 1-based
