@@ -9,7 +9,7 @@ namespace foldproof {
 
 /// The distances between which a map works.
 struct DepthBand {
-  double nearest;  // eps: how far out the deepest points come to lie [m]
+  double nearest;  // eps: distance outside at which the deepest points end up [m]
   double reach;    // tau: points farther out than this stay where they are [m]
   double deepest;  // t^: the deepest penetration that is still distinguished [m]
 };

@@ -19,7 +19,7 @@ double positive_or(const KeyTable& keys, const std::string& key, double fallback
 double non_negative_or(const KeyTable& keys, const std::string& key, double fallback);
 long count_or(const KeyTable& keys, const std::string& key, long fallback);  // 1 .. 1,000,000,000
 
-/// The value of the choice that the key names; the first is the default.
+/// The value of the choice named by the key; the first is the default.
 template <class Choice>
 Choice choice(const KeyTable& keys, const std::string& key,
               std::vector<std::pair<std::string, Choice>> choices) {
