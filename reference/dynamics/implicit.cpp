@@ -20,7 +20,7 @@ constexpr double forcing = 1e-3;  // relative residual to which a Newton step is
 // required relative decrease of the residual or work, per fraction of the step taken
 constexpr double min_decrease = 1e-4;
 
-/// The stage equation's data: see the header.
+/// The data of the stage equation (see the header).
 struct Stage {
   double time;              // t [s]
   PerParticle3 X;           // 3 x N [m]
@@ -80,7 +80,7 @@ Trial line_search(const System& system, const Stage& stage, const Trial& from,
   return {from.w, from.residual, from.norm, false};
 }
 
-/// The Newton step by conjugate gradients, from the elastic derivative alone: exact where it is
+/// The Newton step by conjugate gradients, from the elastic derivative only: exact where it is
 /// definite, else semidefinite element by element.
 PerParticle3 symmetric_step(const System& system, const Stage& stage, const Trial& from,
                             Work& work) {

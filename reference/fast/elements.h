@@ -1,9 +1,9 @@
 // Springs, hinges, dampers: lists of elements that push on particles, and the loops over them.
 //
-// For speed, elements are divided among the threads of a team by particle: each thread owns a range
-// of particles, visits the elements that touch it in ascending order, and adds to its own particles
-// only. So each particle adds up the same numbers in the same order as on one thread. An element
-// across a border is computed by each of its owners.
+// For speed, elements are divided among the threads of a team by particle. Each thread owns a range
+// of particles, visits the elements that touch it in ascending order, and adds only to its own
+// particles. So each particle adds up the same numbers in the same order as on one thread. An
+// element across a border is computed by each of its owners.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@
 
 namespace foldproof {
 
-/// An allocator that leaves new elements of a vector unfilled, for threads to fill.
+/// An allocator that leaves new elements of a vector uninitialised, for threads to fill.
 template <class T>
 struct Unfilled : std::allocator<T> {
   template <class U>
@@ -54,7 +54,7 @@ struct AllParticles {
   static constexpr bool has(int) { return true; }
 };
 
-/// How a list of elements is divided; a null Division gives one thread all of them.
+/// The division of a list of elements; if null, one thread has them all.
 struct DividedElements {
   size_t elements = 0;
   std::vector<OwnedParticles> owners;  // one per thread
@@ -135,7 +135,7 @@ class Elements {
     push_each(target, [&](size_t k, const auto& to) { act(all_[k], others[k], to); });
   }
 
-  /// A list of make(element), or of make(element, other), divided in the same way.
+  /// The list of make(element), or make(element, other), divided in the same way.
   template <class Make>
   auto map(const Make& make) const {
     return map_each([&](size_t k) { return make(all_[k]); });
@@ -176,7 +176,7 @@ class Elements {
   template <class>
   friend class Elements;
 
-  /// The corners of an element that names them in a list, or the ends of one from a to b, twice.
+  /// The corners of an element that lists them, or the two ends a and b of one, each twice.
   static std::array<int, 4> particles_of(const Element& one) {
     if constexpr (requires { one.particles; })
       return one.particles;

@@ -18,8 +18,8 @@ namespace foldproof {
 namespace {
 
 #ifdef FOLDPROOF_HAS_TBB
-/// An arena of at most `parts` threads, one per core, including the calling thread, which keeps it
-/// for its next loop.
+/// An arena of at most `parts` threads and at most one per core, including the calling thread,
+/// which keeps it for its next loop.
 tbb::task_arena& arena_of(int parts) {
   const int threads = std::min(parts, tbb::info::default_concurrency());
   thread_local std::unique_ptr<tbb::task_arena> arena;

@@ -106,8 +106,8 @@ long act_in_order(const Team& team, const Items& items, const Ask& ask,
 // Block size for long sums; smaller blocks do not reduce the rounding error further.
 inline constexpr Eigen::Index block_of_sums = 8192;
 
-/// Calls act(first, count) for blocks of n items: for loops whose work, but not whose results,
-/// depend on where they start.
+/// Calls act(first, count) for blocks of n items: for loops whose cost, but not result, depends on
+/// where blocks start.
 template <class Act>
 void for_each_block(const Team& team, Eigen::Index n, Eigen::Index block, const Act& act) {
   for_each_range(team, (n + block - 1) / block, [&](Eigen::Index first, Eigen::Index count) {

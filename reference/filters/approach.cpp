@@ -15,8 +15,8 @@ constexpr int max_planes = 1000;
 //         | N          normal parts them as long as every point of the first is beyond every point
 //   ------o------      of the second:
 //    second feature      (x_i - x_j).N + tau (w_i - w_j).N > 0  for all i of the first, j of the
-//                      second, each linear in tau, the time from t on. Whatever N is, this is a
-//                      proof; the nearest points only make it last long.
+//                      second, each linear in tau, the time from t on. This is a proof for any N;
+//                      the N between nearest points only makes it last long.
 //
 /// The time for which a plane with normal N keeps the features at least `gap` [m] apart, from
 /// positions x at the rates `displacement`. Infinite if they do not close, negative if they are

@@ -30,9 +30,9 @@ struct ClothTree {
 
 ClothTree make_cloth_tree(const TriangleMesh& mesh);
 
-/// Pairs of features without a common particle whose boxes, over their straight path from x to
-/// `end` and widened by margin/2 on all sides, overlap: includes all pairs that come nearer than
-/// `margin` on the way. The order depends on the tree alone.
+/// Pairs of features without a common particle whose boxes overlap. Boxes cover the straight path
+/// from x to `end`, widened by margin/2 on all sides, so all pairs that come nearer than `margin`
+/// are included. The order depends only on the tree.
 ///   moved   N, or empty: pairs without a marked particle are left out
 std::vector<FeaturePair> near_pairs(const ClothTree& cloth, const PerParticle3& x,
                                     const PerParticle3& end, double margin,

@@ -37,9 +37,8 @@ Nearness no_nearness() {
 }
 
 //      x3         The vertex x0 over the triangle. The foot of its perpendicular has the weights
-//     /  \        w2, w3 (and w1 = 1 - w2 - w3); a negative weight says that it lies beyond the
-//   x1 -- x2      side across from that corner, and then the nearest point is on a side for which
-//                 that is so.
+//     /  \        w2, w3 (and w1 = 1 - w2 - w3); a negative weight means that it lies beyond the
+//   x1 -- x2      side opposite that corner; the nearest point is then on such a side.
 Nearness vertex_triangle(const Corners4& x) {
   const Vector3 e2 = x.col(2) - x.col(1), e3 = x.col(3) - x.col(1), r = x.col(0) - x.col(1);
   const Vector3 N = e2.cross(e3);  // twice the area [m^2]

@@ -36,7 +36,7 @@ struct LimitedSpring {
 };
 
 /// The filter: if the predicted length of a spring at the end of a step, |d + h dv|, violates a
-/// limit, equal and opposite impulses along the current d bring it back to that limit. So a call
+/// limit, equal and opposite impulses along the current d bring it back to that limit. Each call
 /// conserves linear and angular momentum to rounding. Prescribed particles, and springs within
 /// rounding of their limits, are unchanged bit for bit.
 struct StrainLimiter {

@@ -156,7 +156,7 @@ struct Bending {
 std::vector<double> hinge_angles(const TriangleMesh& mesh, const PerParticle3& x);
 
 /// One element per hinge, with the given rest angles (H values [rad]). Throws InputError for a
-/// negative or NaN constant, an unknown law, or a wrong number of angles or one outside [-pi, pi].
+/// negative or NaN constant, an unknown law, a wrong number of angles, or one outside [-pi, pi].
 Bending make_bending(const TriangleMesh& mesh, const BendingMaterial& material,
                      const std::vector<double>& rest_angles);
 

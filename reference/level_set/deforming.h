@@ -37,8 +37,8 @@ PerParticle3 positions_at(const MeshSequence& sequence, double t);
 /// first file's, or a file that read_obj refuses.
 MeshSequence read_obj_sequence(const std::string& folder, double interval, long most = 1000);
 
-/// A frame's level set. The displacement at a node is that of the nearest surface point, so it is
-/// constant along N.
+/// A frame's level set. A node has the displacement of the nearest surface point, so it is constant
+/// along N.
 struct DeformingFrame {
   double time;  // s
   Octree field;
@@ -66,10 +66,10 @@ struct DeformingBody {
 
 /// Level sets of every frame, as octrees that cover the cube of the settings. Within the settings'
 /// band around the surface a node's value is exact. Beyond it a frame reuses the nearest points of
-/// the previous frame where they are still close enough: there |phi| may be too large by half of a
-/// cell's allowed error, beyond (|phi| - band)/2, and the displacement is that of the reused point.
-/// Throws what make_octree throws, and InputError for a sequence without frames, with times that do
-/// not rise or numbers of vertices that differ. The same bits for every team.
+/// the previous frame while they are close enough. There |phi| may be too large by half of a cell's
+/// allowed error, beyond (|phi| - band)/2, and the displacement is the reused point's. Throws what
+/// make_octree throws, and InputError for a sequence without frames, with times that do not rise or
+/// numbers of vertices that differ. The same bits for every team.
 DeformingBody make_deforming_body(const MeshSequence& sequence, const OctreeSettings& settings,
                                   BetweenFrames between, const Team& team = {});
 

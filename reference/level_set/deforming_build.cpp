@@ -59,7 +59,7 @@ class NodeValues {
       : mesh_(make_mesh_distance(sequence.positions[frame], sequence.triangles)),
         settings_(settings) {}
 
-  /// `displacement`: the farthest that a vertex has moved since the frame before [m].
+  /// displacement: the farthest that any vertex has moved since the frame before [m].
   void follow(const NodeValues& before, double displacement) {
     before_ = &before.known_;
     displacement_ = displacement;

@@ -13,10 +13,10 @@
 
 namespace foldproof {
 
-/// A mesh prepared for queries. The sign is the sign of (p - nearest point) . n, where n is the
-/// face normal, at an edge the sum of both face normals, or at a vertex their angle-weighted sum
-/// (Baerentzen and Aanaes 2005). This sign is correct everywhere on a closed, consistently oriented
-/// surface without self-intersections, but not on other surfaces, see bodies/closed_mesh.h.
+/// A mesh prepared for queries. The sign is the sign of (p - nearest point) . n (Baerentzen and
+/// Aanaes 2005): n is the face normal, at an edge the sum of both, at a vertex their angle-weighted
+/// sum. This sign is correct everywhere on a closed, consistently oriented surface without
+/// self-intersections, but not on other surfaces, see bodies/closed_mesh.h.
 ///
 /// Accuracy: |phi| to a few roundings of |p| and of the mesh's extent. Closer than that the
 /// sign is undefined.

@@ -24,7 +24,7 @@ enum class HangingNodes {
   free          // it keeps its own value: phi jumps there
 };
 
-/// How finely to sample.
+/// Sampling density and error tolerances.
 struct OctreeSettings {
   Vector3 corner;     // lowest corner of the covered cube [m]
   double width;       // of the cube [m]
@@ -74,12 +74,12 @@ struct Octree {
 };
 
 /// Covers the union of bodies, which must lie inside the cube. Within the band the interpolation
-/// error is at most the tolerance at the edge, face and cell midpoints where it was tested, unless
-/// the cells there are the finest; beyond the band, `beyond` times the distance is added. A
-/// constrained node adds the error of its coarse neighbour. Neighbours, also across edges and
-/// corners, differ by one level at most. Throws InputError: no bodies, a setting out of range, a
-/// body that reaches the cube's boundary. Several threads of the team query the bodies at once; the
-/// bits are the same for every team.
+/// error at the tested points (edge, face and cell midpoints) is at most the tolerance, unless the
+/// cells there are the finest. Beyond the band, `beyond` times the distance is added. A constrained
+/// node adds the error of its coarse neighbour. Neighbours, also across edges and corners, differ
+/// by one level at most. Throws InputError: no bodies, a setting out of range, a body that reaches
+/// the cube's boundary. Several threads of the team query the bodies at once; the bits are the same
+/// for every team.
 Octree make_octree(const std::vector<DistanceFunction>& bodies, const OctreeSettings& settings,
                    const Team& team = {});
 

@@ -28,9 +28,9 @@ Cell neighbour(const Cell& cell, int d) {
   return {cell[0] + d % 3 - 1, cell[1] + d / 3 % 3 - 1, cell[2] + d / 9 - 1};
 }
 
-/// Bit d: the node n in the middle of an edge or a face lies on the neighbour in direction d,
-/// which is n's own direction or, for an edge, that of one of its two faces. 0 for corners
-/// and the centre.
+/// Bit d: node n, in the middle of an edge or a face, lies on the neighbour in direction d. These
+/// are n's own direction and, for an edge, the directions of its two faces. 0 for corners and the
+/// centre.
 std::uint32_t neighbours_at(int n) {
   const std::array<int, 3> along = {n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1};
   constexpr std::array<int, 3> step = {1, 3, 9};

@@ -21,7 +21,7 @@ struct BoxNode {
 
 struct BoxTree {
   std::vector<BoxNode> nodes;  // depth first; the root is nodes[0]
-  std::vector<int> order;      // M: the items, those of every node side by side
+  std::vector<int> order;      // M: the items; those of a node are contiguous
 };
 
 /// A tree over M boxes (at least one), each node split at the median of the centres along the

@@ -42,8 +42,8 @@ struct RestPlane {
 /// normal than 45 degrees, projected on the plane.
 bool is_flat(const TriangleMesh& mesh, RestPlane& plane);
 
-/// The rigidity of all hinges of a flat mesh together. On a sheet of few cells the missing border
-/// hinges show.
+/// The rigidity of all hinges of a flat mesh together. A sheet of few cells lacks the hinges of its
+/// border.
 Rigidity rigidity_of(const TriangleMesh& mesh, const RestPlane& plane);
 
 /// The rigidity of the hinges around each particle, on the edges of its triangles. A local plane

@@ -18,7 +18,7 @@ Cell cell_of(const Vector3& x, double size) {
   return {std::floor(x[0] / size), std::floor(x[1] / size), std::floor(x[2] / size)};
 }
 
-/// The vertices that stay, in cells as wide as the distance: all near ones lie in 27 cells.
+/// The vertices that stay, in cells as wide as the distance: all near a point lie in 27 cells.
 class Kept {
  public:
   Kept(const PerParticle3& x, double distance) : x_(x), distance_(distance) {}

@@ -73,14 +73,15 @@ TriangleMesh divide_edges(const TriangleMesh& mesh, int parts);
 /// A seated figure with crossed legs, arms in the lap, head and low folds; closed, genus 0, normals
 /// outward, y up, facing +z, y in [0, height] [m], about 0.9 height wide. It stands in for the
 /// Buddha of BMF03 figures 3 and 4. The icosphere of `subdivisions` (3 to 8; 3 is too coarse for
-/// the knees) is carried to an implicit surface (smooth union of ellipsoids and limbs) along rays
-/// from an inner axis, then relaxed along the surface, with edges flipped where that improves the
-/// triangles: the least angle is about 25 degrees.
+/// the knees) is carried along rays from an inner axis to an implicit surface, a smooth union of
+/// ellipsoids and limbs. It is then relaxed along the surface, with edges flipped where that
+/// improves the triangles: the least angle is about 25 degrees.
 TriangleMesh make_statue(double height, int subdivisions);
 
-/// The same figure, from the geodesic sphere of `divisions` (15 to 256, with a divisor from 15 to
-/// 29: the mesh with that number of divisions is relaxed first, then divided), with triangles of
-/// more uniform size: the smallest one, not the mean, limits the steps of an explicit scheme.
+/// The same figure from the geodesic sphere of `divisions`, with triangles of more uniform size:
+/// the smallest one, not the mean, limits the steps of an explicit scheme. `divisions` is 15 to
+/// 256, with a divisor from 15 to 29: the mesh with that number of divisions is relaxed first, then
+/// divided.
 TriangleMesh make_even_statue(double height, int divisions);
 
 /// Two triangles folded at the angle theta [rad], |theta| < pi, about their shared edge of length L

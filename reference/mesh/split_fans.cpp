@@ -26,10 +26,10 @@ std::vector<int> number_fans(const std::vector<int>& fans, TriangleSoup& soup) {
   return copy_of;
 }
 
-//       a --- b      A triangle of the fan of v: the middle of the side that it turns to v is
+//       a --- b      A triangle of the fan of v: the midpoint of its side opposite v is
 //        \   /      (a + b)/2.
 //          v
-/// Where the particles of the split mesh are, 3 x N' [m].
+/// Positions of the particles of the split mesh, 3 x N' [m].
 PerParticle3 pulled_apart(const std::vector<Triangle>& split, const PerParticle3& x,
                           const std::vector<int>& copy_of) {
   const Eigen::Index count = Eigen::Index(copy_of.size());

@@ -98,8 +98,8 @@ LocalDistance local_distance(const std::vector<Limb>& limbs, const Vector3& p) {
 }
 
 /// A ray from the figure's inner axis for every point of the unit sphere. From the lower pole to
-/// the upper, origins climb the axis and rays turn from straight down to straight up, so that no
-/// two rays cross; each leaves the figure once.
+/// the upper, origins climb the axis and rays turn from straight down to straight up. So no two
+/// rays cross, and each leaves the figure once.
 struct RayKnot {
   double height;     // on the unit sphere, from 0 to 1
   double origin;     // y on the axis [m]

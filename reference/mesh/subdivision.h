@@ -12,7 +12,7 @@ enum class SubdivisionRule {
   loop       // Loop (1987), with his boundary rules: smooth, and the old vertices move too
 };
 
-/// A finer mesh, and the weights that give its points from those of the cloth.
+/// A finer mesh, and the weights that give its points from the points of the cloth.
 struct Subdivision {
   std::vector<Triangle> triangles;      // four per cloth triangle and level
   Eigen::SparseMatrix<double> weights;  // N fine x N: each row sums to 1

@@ -26,8 +26,8 @@ struct Keyframe {
 };
 
 /// Poses at given times, in ascending order: between two the translation is linear and the rotation
-/// turns at a constant rate about a fixed axis, the short way (slerp); before the first and after
-/// the last it rests.
+/// turns at a constant rate about a fixed axis, the short way (slerp). The body rests before the
+/// first and after the last.
 struct Keyframes {
   std::vector<Keyframe> keys;  // at least one
 };

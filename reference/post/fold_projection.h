@@ -12,7 +12,7 @@
 
 namespace foldproof {
 
-/// Treatment of points inside two or more objects. The paper leaves them alone: moving out of one
+/// Treatment of points inside two or more objects. The paper does not move them: moving out of one
 /// object, they would go deeper into the other.
 enum class PinchedPoints { left_alone, projected };
 
@@ -29,7 +29,7 @@ enum class ProjectionOutcome {
   // bitwise unchanged: it is farther out than tau, or already at the mapped distance
   untouched,
   moved,    // it is at the mapped distance, within the tolerance
-  pinched,  // left alone, bitwise unchanged
+  pinched,  // not moved, bitwise unchanged
   // left where phi came nearest to f, for instance between objects with too little clearance
   unfinished
 };

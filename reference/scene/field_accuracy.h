@@ -20,8 +20,8 @@ struct MeasuredField {
 constexpr double largest_field = 512.0 * 1024 * 1024;  // bytes
 
 /// The largest difference between the field's distance and the exact one [m] at 8000 points within
-/// three cells of the surface: spread evenly over its area, and over the distance to either side. A
-/// maximum over samples, not a bound.
+/// three cells of the surface, spread evenly over its area and to either side. A maximum over
+/// samples, not a bound.
 double field_error(const MeshDistance& exact, const Solid& field, double cell);
 
 /// Bytes of a grid or an octree; 0 for other solids.

@@ -46,7 +46,7 @@ OctreeSettings read_octree(const KeyTable& keys, const Bounds& bounds, double ce
                              [&] { return octree_about(bounds, cell, tolerance); });
 }
 
-/// The largest error that is allowed, whatever `cells` says [m]; 0: none is given.
+/// The largest error allowed, regardless of `cells` [m]; 0: none is given.
 double read_accuracy(const KeyTable& keys, bool is_stored, Repair repair) {
   if (!keys.has("accuracy")) return 0;
   if (!is_stored)
@@ -110,7 +110,7 @@ BodyDeformation read_deformation(const KeyTable& keys) {
   return {kind, unit * keys.number("amplitude"), positive(keys, "period")};
 }
 
-/// Times 0, interval, ... until the last one that the case asks for.
+/// Times 0, interval, ... up to the last one that the case needs.
 std::vector<double> read_times(const KeyTable& keys, const CaseContext& context) {
   const double interval = positive_or(keys, "interval", 1.0 / 30);
   const double until = positive_or(keys, "until", context.end);

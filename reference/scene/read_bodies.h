@@ -28,7 +28,7 @@ struct BodyShape {
   std::shared_ptr<const FieldRecipe> field = {};
 };
 
-/// True if the body deforms: `frames` or [[object.deform]]?
+/// True if the body deforms: `frames` or [[object.deform]].
 bool is_deforming(const KeyTable& keys);
 
 /// `shape = "statue"` or `mesh`, as the exact distance, a grid or an octree of it: `field`,

@@ -49,7 +49,7 @@ TriangleMesh read_sheet(const KeyTable& keys, const SceneLimits& limits) {
   sheet.height = keys.number("height");
   sheet.columns = count(keys, "columns");
   sheet.rows = count(keys, "rows");
-  // three at most in the others
+  // at most three in the other patterns
   const double in_a_cell = sheet.pattern == SheetPattern::criss_cross ? 4 : 3;
   reject_many_triangles(keys, "columns", in_a_cell * sheet.columns * sheet.rows, limits);
   sheet.jitter = keys.number_or("jitter", 0);
@@ -119,8 +119,8 @@ TriangleMesh make_shape(const KeyTable& keys, const SceneLimits& limits) {
                    "'; known: sheet, disc, cylinder, sphere, statue, hinge");
 }
 
-/// The mesh file; its panels sewn together if `seams` says so, then split where they meet in a
-/// point if `repair` does.
+/// Reads the mesh file, sews its panels together if `seams` is given, and with `repair` splits
+/// vertices that connect parts in a single point.
 SplitMesh read_mesh(const KeyTable& keys, const std::string& folder) {
   enum class ClothRepair { refuse, split };
   const std::string file = mesh_file(keys, folder, "cloth");

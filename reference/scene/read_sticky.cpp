@@ -102,7 +102,7 @@ std::vector<int> read_particles(const KeyTable& keys, const StickySheet& cloth,
   return chosen;
 }
 
-/// Lets an object carry the patch; keeps those of its vertices that the patch uses.
+/// Lets an object carry the patch; keeps only the vertices that the patch uses.
 void carry(StickyPatch& patch, const SceneObject& by) {
   std::map<int, int> place_of;  // new number of a used vertex
   for (Triangle& triangle : patch.triangles)

@@ -39,14 +39,14 @@ PerParticle3 surface_at(const SceneObject& part, double t);
 /// Their velocities, 3 x V [m/s]; where they jump, the later ones.
 PerParticle3 surface_velocity_at(const SceneObject& part, double t);
 
-/// How cloth meets the objects.
+/// Settings of the collision between cloth and objects.
 struct CollisionSettings {
   double forecast_time = 0;  // tau [s]; 0: the step
   PointKind points = PointKind::particles;
   std::string response = "forecast";
 };
 
-/// A scene names its parts; anything else is absent, is not built and costs nothing.
+/// A scene names its parts; a part that it does not name is not built and costs nothing.
 struct Scene {
   std::string name, title, about;
   std::string text;  // the case file with its overrides, empty for scenes made by code
