@@ -208,8 +208,7 @@ void Run::step_to(double target) {
   }
 }
 
-/// Where the schedule lets the next step end, at `target` at the latest [s]; none where it
-/// prescribes nothing.
+/// The end of the next step if the schedule prescribes it, at most `target` [s]; else none.
 std::optional<double> Run::prescribed_end(double target) const {
   const std::vector<double>& ends = schedule_.step.ends;
   const auto next = std::ranges::upper_bound(ends, history_.now().time);

@@ -19,8 +19,8 @@ constexpr int max_planes = 1000;
 //                      the N between nearest points only makes it last long.
 //
 /// The time for which a plane with normal N keeps the features at least `gap` [m] apart, from
-/// positions x at the rates `displacement`. Infinite if they do not close, negative if they are
-/// closer now.
+/// positions x at the rates `displacement`. Infinite if they do not close, negative if it does not
+/// separate them now.
 double separated_for(PairKind kind, const Corners4& x, const Corners4& displacement,
                      const Vector3& N, double gap) {
   const Eigen::RowVector4d height = N.transpose() * x,

@@ -213,7 +213,7 @@ ClothTree make_cloth_tree(const TriangleMesh& mesh) {
       cloth.own[t].corner[k] = !taken;
       taken = 1;
     }
-  // the first of its triangles owns an edge
+  // the first of its triangles owns the edge
   for (const Edge& edge : mesh.edges) {
     cloth.mean_edge +=
         (mesh.rest.col(edge.b) - mesh.rest.col(edge.a)).norm() / double(mesh.edges.size());
@@ -269,7 +269,7 @@ bool is_inside(const PairsAhead& ahead, const PerParticle3& x, double margin) {
 std::optional<std::vector<FeaturePair>> pairs_among(const PairsAhead& ahead, const PerParticle3& x,
                                                     const PerParticle3& end, double margin,
                                                     const std::vector<char>& moved) {
-  // features whose boxes overlap now overlapped in the larger boxes, too; the order of the pairs
+  // features whose boxes overlap now also overlap in the larger boxes; the order of the pairs
   // depends only on the tree
   const std::vector<Bounds> boxes = particle_boxes(x, end, margin, ahead.team);
   if (!lie_within(boxes, ahead.boxes)) return {};

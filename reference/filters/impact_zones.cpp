@@ -66,7 +66,7 @@ namespace {
 using Motion6 = Eigen::Matrix<double, 6, 1>;  // u, then omega times the zone's size: both m/s
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-// A mode with less than this fraction of the zone's inertia is not a motion: a rotation about the
+// A mode with less than this fraction of the zone's inertia is not a motion: it rotates about the
 // line on which all particles lie.
 constexpr double no_motion = 1e-12;
 
@@ -110,7 +110,7 @@ struct Solved {
   Eigen::Matrix<double, 6, Eigen::Dynamic> open;
 };
 
-/// scale: the size of nonzero eigenvalues; a tiny fraction of it counts as zero.
+/// scale: the size of nonzero eigenvalues; any below a tiny fraction of it count as zero.
 Solved solve(const Matrix6& left, const Motion6& right, double scale) {
   const SymmetricModes modes = symmetric_modes(left);
   const double cut = no_motion * scale;

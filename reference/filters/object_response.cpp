@@ -13,8 +13,8 @@ namespace {
 // them.
 constexpr double least_difference_of_normals = 0.1;
 
-// Normals more than 120 degrees apart: objects that close on a point, which correcting for one
-// after the other cannot free.
+// Normals more than 120 degrees apart: the objects close on the point, and correcting for one after
+// the other cannot free it.
 constexpr double facing = -0.5;
 
 // A point that would reach the surface within this fraction of the step is on it.
@@ -29,9 +29,9 @@ double forecast_distance(const ObjectPoint& at, const Vector3& v_p, double tau) 
   return at.phi + tau * (v_p - at.velocity).dot(at.normal);
 }
 
-/// Treats each object once, the deepest forecast first, so that no object is missed that is entered
-/// but not the nearest. If the way out of one leads into another that faces it, the point is held
-/// between them.
+/// Treats each object once, deepest forecast first, so that it also treats an object that will be
+/// entered but is not the nearest. If the way out of one leads into another that faces it, the
+/// point is held between them.
 Vector3 forecast_against_each(std::span<ObjectPoint> left, const MovingPoint& point) {
   Vector3 v = point.v;
   std::optional<ObjectPoint> before;

@@ -10,7 +10,7 @@ namespace foldproof {
 
 namespace {
 
-// A predicted length this near to a limit counts as at it, so a spring corrected to rounding is not
+// A predicted length this near to a limit counts as at it: a spring corrected to rounding is not
 // corrected again.
 constexpr double at_the_limit = 8 * std::numeric_limits<double>::epsilon();
 

@@ -49,10 +49,10 @@ constexpr double kept_share = 0.5;
 /// The values at the nodes of a frame's octree, each computed once: every cell around a node
 /// requests it, and so do the displacements once the octree is complete.
 ///
-/// In the band the nearest point is searched. Beyond it the nearest point of the frame before,
-/// moved with the mesh, is kept unless another is nearer by more than kept_share. That test is a
-/// short search, which skips every box farther away. The sign of the frame before is kept if the
-/// surface was farther away than it has moved. Several threads may query at once.
+/// In the band the nearest point is searched for. Beyond it the nearest point of the frame before,
+/// moved with the mesh, is kept unless another is nearer by more than kept_share allows. That test
+/// is a short search, which skips every box farther away. The sign of the frame before is kept if
+/// the surface was farther away than it has moved. Several threads may query at once.
 class NodeValues {
  public:
   NodeValues(const MeshSequence& sequence, std::size_t frame, const OctreeSettings& settings)

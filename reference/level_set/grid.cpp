@@ -9,7 +9,7 @@ namespace foldproof {
 
 namespace {
 
-constexpr int rounds = 6;  // of the search for the surface point of a p beyond the lattice
+constexpr int rounds = 6;  // of the search from a point beyond the lattice
 
 /// The cell that holds a point, and the place of the point in it.
 struct Place {

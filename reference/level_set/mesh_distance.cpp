@@ -10,7 +10,7 @@ namespace foldproof {
 namespace {
 
 constexpr int leaf_size = 4;
-// of a median-cut tree over fewer than 2^31 items, including both children
+// stack for a median-cut tree over fewer than 2^31 items, with room for both children
 constexpr int deepest = 64;
 
 /// The unit vector along a vector, or zero for zero.
