@@ -38,8 +38,8 @@ struct State {
 class KeptValues;  // fast/kept_values.h
 
 /// Counted work: the cost of a method, independent of the machine. Returned or accumulated,
-/// never global. It counts what a method asks for: a value that the run has kept counts like one
-/// that is computed.
+/// never global. It counts every value that a method uses: one that the run has kept counts like
+/// one that is computed.
 struct Work {
   long elastic_evaluations = 0;  // evaluations of all elastic and external forces of the system
   // evaluations of the position-dependent terms of the damping forces
@@ -50,7 +50,7 @@ struct Work {
   long stiffness_products = 0;  // products of it with a displacement
   long newton_iterations = 0;   // over all nonlinear systems
   long solves = 0;              // linear systems solved for a velocity
-  // over all solves; an unsymmetric system's count two, as their products do
+  // over all solves; iterations of unsymmetric systems count two, one per product
   long cg_iterations = 0;
   long object_queries = 0;  // points queried against the collision objects
   // moving points whose velocity was corrected
@@ -69,12 +69,11 @@ struct Work {
   long unfinished_solves = 0;
   double worst_residual = 0;  // largest relative residual returned by a solve [1]
 
-  // What the run keeps for its next steps; no number of the work. Null: nothing is kept.
+  // Values that the run keeps for its next steps, not a counter. Null: nothing is kept.
   std::shared_ptr<KeptValues> kept = {};
 };
 
-// All numbers of a Work, in a fixed order: those that are summed, and those of which
-// the worst is kept.
+// All numbers of a Work, in a fixed order: first the summed ones, then those whose worst is kept.
 inline constexpr long Work::*summed_counters[] = {&Work::elastic_evaluations,
                                                   &Work::damping_preparations,
                                                   &Work::damping_products,
@@ -95,7 +94,7 @@ inline constexpr long Work::*summed_counters[] = {&Work::elastic_evaluations,
                                                   &Work::unfinished_solves};
 inline constexpr double Work::*worst_counters[] = {&Work::strain_left, &Work::worst_residual};
 
-// A new counter must join one of these lists.
+// Add every new counter to one of these lists.
 static_assert(sizeof(Work) == std::size(summed_counters) * sizeof(long) +
                                   std::size(worst_counters) * sizeof(double) +
                                   sizeof(std::shared_ptr<KeptValues>));
@@ -107,7 +106,7 @@ void for_each_counter(SomeWork& w, const Visit& visit) {
   for (auto worst : worst_counters) visit(w.*worst);
 }
 
-/// Sets `worst` to `value` if that is larger or NaN; a NaN stays whatever comes after it.
+/// Sets `worst` to `value` if that is larger or NaN; a NaN stays.
 inline void update_worst(double& worst, double value) {
   if (!std::isnan(worst) && !(value <= worst)) worst = value;
 }

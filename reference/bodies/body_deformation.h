@@ -9,8 +9,7 @@
 namespace foldproof {
 
 enum class DeformationKind {
-  // the vertical axis becomes an arc of its own length, towards +x; everything beside
-  // it turns with it
+  // the vertical axis becomes an arc of its own length, towards +x; all around turns with it
   bend,
   twist,   // heights turn about the axis, each in proportion
   breathe  // widths grow, most at mid-height, not at all at either end

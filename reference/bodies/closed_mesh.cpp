@@ -34,7 +34,7 @@ void join(std::vector<int>& parent, int a, int b) {
   parent[std::max(first, second)] = std::min(first, second);
 }
 
-/// Each border vertex has two border edges, so that borders are loops: as many as there are roots.
+/// Each border vertex has two border edges, so borders are closed loops, one per root.
 void reject_holes(const TriangleMesh& mesh, const MeshOrigin& origin) {
   std::vector<int> parent = roots(mesh.particles());
   std::vector<const Edge*> border;
@@ -64,7 +64,7 @@ void reject_self_intersections(const TriangleMesh& mesh, const MeshOrigin& origi
                    std::to_string(pairs.size()) + " intersecting pairs; " + remedy);
 }
 
-/// Outside of all other pieces normals point outward, in one of them inward.
+/// Normals point outward on a piece outside all others, inward on a piece inside another.
 void reject_inside_out(const TriangleMesh& mesh, const MeshOrigin& origin) {
   const std::vector<int> piece = pieces_of(mesh);
   const int pieces = *std::max_element(piece.begin(), piece.end()) + 1;

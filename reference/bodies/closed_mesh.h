@@ -18,9 +18,9 @@ double enclosed_volume(const PerParticle3& x, const std::vector<Triangle>& trian
 
 /// The mesh of a solid: each point of space is inside once or not at all. It may have several
 /// pieces, side by side or nested; around a cavity the normals point into the cavity. Refuses
-/// (InputError that names file and line, or triangle, the place, and the count): everything that
-/// make_triangle_mesh refuses, including neighbours of opposite orientation (flipped triangles);
-/// holes; triangles that intersect; pieces that are inside out.
+/// everything that make_triangle_mesh refuses, including neighbours of opposite orientation
+/// (flipped triangles), and holes, triangles that intersect, and pieces that are inside out. The
+/// InputError names file and line, or triangle, the place, and the count.
 TriangleMesh make_closed_mesh(TriangleSoup soup);
 
 }  // namespace foldproof

@@ -1,4 +1,4 @@
-// Content keys for caches: equal keys, equal content.
+// Content keys for caches: equal keys mean equal content.
 #pragma once
 
 #include <cstddef>

@@ -10,7 +10,7 @@ namespace foldproof {
 
 namespace {
 
-/// To be raised whenever the same input gives other level sets.
+/// Raise this whenever the same input gives different level sets.
 constexpr int method_version = 2;
 
 void add_settings(ContentKey& key, const OctreeSettings& settings) {
@@ -29,8 +29,7 @@ void require(bool is_met, std::size_t frame, const char* what) {
   if (!is_met) throw InputError("deforming body, frame " + std::to_string(frame) + ": " + what);
 }
 
-/// Children follow their branches, one after the other, and channels likewise: nothing is shared
-/// or out of range.
+/// Children follow their branches in order, and so do channels: none is shared or out of range.
 bool has_sound_branches(const Octree& tree) {
   std::size_t branches = 1, channels = 0;
   for (std::size_t b = 0; b < tree.branches.size(); ++b) {
@@ -45,7 +44,7 @@ bool has_sound_branches(const Octree& tree) {
          channels == tree.part.size();
 }
 
-/// Levels of branches, which children follow breadth first: none is deeper than the settings say.
+/// Branches are stored breadth first; none is deeper than the settings allow.
 bool is_deep_enough(const Octree& tree) {
   std::vector<int> level(tree.branches.size(), 0);
   for (std::size_t b = 0; b < level.size(); ++b) {

@@ -12,8 +12,8 @@ namespace foldproof {
 /// probability 2^-64.
 std::string input_key(const MeshSequence& sequence, const OctreeSettings& settings);
 
-/// The same for the level sets themselves; detects stored ones that have changed since
-/// they were written.
+/// The key of the level sets themselves; it detects stored data that has changed since it was
+/// written.
 std::string content_key(const DeformingBody& body);
 
 /// Validates a body that was read rather than built. Throws InputError naming the defect: frame

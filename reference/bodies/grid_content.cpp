@@ -9,7 +9,7 @@ namespace foldproof {
 
 namespace {
 
-/// To be raised whenever the same input gives another grid.
+/// Raise this whenever the same input gives a different grid.
 constexpr int method_version = 1;
 
 void require(bool is_met, const char* what) {

@@ -10,8 +10,8 @@
 
 namespace foldproof {
 
-/// Each member returns, bit for bit, the result of the function of the same name, and throws
-/// what it throws.
+/// Each member returns, bit for bit, the result of the function of the same name, and throws the
+/// same exceptions.
 struct LevelSetProvider {
   std::function<std::shared_ptr<const Grid>(const TriangleSoup&, const GridMethod&, Repair)>
       make_level_set;

@@ -19,9 +19,8 @@ struct View {
 
 Vector2 project_along(const Vector3& x, const View& view) { return {x[view.u], x[view.v]}; }
 
-/// Does the edge pass p on its right? Half open in v: the lower end counts, the upper one does
-/// not. Both triangles of an edge ask with the same numbers in the same order, so that both get
-/// the same answer.
+/// Does the edge pass p on its right? Half open in v: the lower end counts, the upper one does not.
+/// Both triangles of an edge pass the same numbers in the same order, so both get the same answer.
 bool passes(Vector2 a, Vector2 b, const Vector2& p) {
   if (a.y() > b.y()) std::swap(a, b);
   if (!(a.y() <= p.y() && p.y() < b.y())) return false;
@@ -34,8 +33,8 @@ bool covers(const Corners& t, const View& view, const Vector2& p) {
   return (passes(a, b, p) != passes(b, c, p)) != passes(c, a, p);
 }
 
-/// Where the ray through p meets the triangle's plane, kept within the triangle's own extent: the
-/// plane of one that is seen edge on answers with rounding only.
+/// Where the ray through p meets the triangle's plane, clamped to the triangle's extent: for a
+/// triangle seen edge on, the intersection is only rounding error.
 double crossing(const Corners& t, const View& view, const Vector2& p) {
   const Vector3 normal = (t[1] - t[0]).cross(t[2] - t[0]);
   const Vector2 step = p - project_along(t[0], view);

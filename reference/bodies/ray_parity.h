@@ -13,9 +13,9 @@ namespace foldproof {
 /// number of times: 3 inside and 0 outside of a closed surface. A hole or a duplicate triangle
 /// flips one axis for the rows of nodes behind it; take the majority for a single answer.
 ///
-/// A ray through an edge or a vertex crosses exactly one of the triangles that meet there:
-/// triangles are tested by the even-odd rule over half-open edges, and both neighbours evaluate a
-/// shared edge identically. The lattice must extend beyond the surface on its lower sides.
+/// A ray through an edge or a vertex crosses exactly one of the triangles that meet there: edges
+/// are half open under the even-odd rule, and both neighbours evaluate a shared edge identically.
+/// The lattice must extend beyond the surface on its lower sides.
 std::vector<std::uint8_t> ray_parity(const PerParticle3& x, const std::vector<Triangle>& triangles,
                                      const Lattice& lattice);
 

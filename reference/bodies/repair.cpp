@@ -15,13 +15,13 @@ namespace foldproof {
 
 namespace {
 
-constexpr double far = 2;  // radii from which a patch of triangles counts as one
+constexpr double far = 2;  // distance in radii beyond which a patch counts as one triangle
 
 double area_of(const PerParticle3& x, const Triangle& t) {
   return 0.5 * (x.col(t[1]) - x.col(t[0])).cross(x.col(t[2]) - x.col(t[0])).norm();
 }
 
-/// The limit is that of make_triangle_mesh: below it the normal is rounding.
+/// The same limit as in make_triangle_mesh: below it the normal is rounding error.
 bool has_area(const PerParticle3& x, const Triangle& t) {
   double longest = 0;
   for (int k = 0; k < 3; ++k)
@@ -57,8 +57,7 @@ std::vector<std::vector<Neighbour>> neighbours_of(const std::vector<Triangle>& t
   return neighbours;
 }
 
-/// Walks over the patch of `first`: whether each of its triangles is turned against the first
-/// (1) or not (0).
+/// Walks over the patch of `first` and marks each triangle: 1 if oriented against it, else 0.
 std::vector<int> collect_patch(int first, const std::vector<std::vector<Neighbour>>& neighbours,
                                std::vector<int>& flip_state) {
   std::vector<int> patch{first};
@@ -73,7 +72,7 @@ std::vector<int> collect_patch(int first, const std::vector<std::vector<Neighbou
   return patch;
 }
 
-/// Winding number minus a half, the other way round: negative inside.
+/// 1/2 minus the winding number: negative inside.
 std::vector<float> sides_of(const MeshDistance& mesh, const Lattice& lattice, const Team& team) {
   const std::vector<Dipole> dipoles = make_dipoles(mesh);
   std::vector<float> side(size_t(lattice.size()));
@@ -84,7 +83,7 @@ std::vector<float> sides_of(const MeshDistance& mesh, const Lattice& lattice, co
   return side;
 }
 
-/// Gives seeds at most a cell from a triangle their exact distance to it.
+/// Gives each seed within one cell of a triangle its exact distance to it.
 void measure(const MeshDistance& mesh, const Lattice& lattice, Seeds& seeds, const Team& team) {
   for_each_item(team, seeds.nodes, [&](long node, size_t i) {
     const Vector3 p = lattice.position(lattice.node(node));

@@ -1,4 +1,4 @@
-// A level set from triangles that do not form a closed surface: the surface is where the winding
+// A level set from triangles that do not form a closed surface; its surface is where the winding
 // number crosses 1/2.
 #pragma once
 
@@ -24,7 +24,7 @@ std::vector<Triangle> orient_triangles(const TriangleSoup& soup);
 std::shared_ptr<const Grid> make_repaired_grid(const TriangleSoup& soup, const GridMethod& method,
                                                const Team& team = {});
 
-/// How to treat a mesh that does not separate inside from outside.
+/// Treatment of a mesh that does not separate inside from outside.
 enum class Repair { refuse, winding };
 
 /// The level set of a body. refuse: the mesh must be closed, or make_closed_mesh throws; winding:

@@ -45,8 +45,8 @@ Dipole dipole_of(const MeshDistance& mesh, const BoxNode& node) {
   return dipole;
 }
 
-// The solid angle of a small patch of area n at r from p is n.r/|r|^3; over a patch that is spread
-// about its centre the next term is the derivative of that: slope : (I/|r|^3 - 3 r r^T/|r|^5).
+// The solid angle of a small patch of area n at r from p is n.r/|r|^3; for a patch spread about its
+// centre the next term is its derivative: slope : (I/|r|^3 - 3 r r^T/|r|^5).
 double far_angle(const Dipole& dipole, const Vector3& r, double distance) {
   const double cube = distance * distance * distance;
   return dipole.area.dot(r) / cube + dipole.slope.trace() / cube -

@@ -25,9 +25,9 @@ struct Dipole {
 /// One per node of the mesh's tree.
 std::vector<Dipole> make_dipoles(const MeshDistance& mesh);
 
-/// The winding number from the tree: a node farther away than `far` times its radius is
-/// approximated by its dipole and quadrupole; a nearer leaf is summed triangle by triangle (Barill
-/// et al. 2018). The error is below 0.5 far^-2 on the statue, whole and with holes (check
+/// The winding number from the tree (Barill et al. 2018). A node farther away than `far` times its
+/// radius is approximated by its dipole and quadrupole; a nearer leaf is summed triangle by
+/// triangle. The error is below 0.5 far^-2 on the statue, whole and with holes (check
 /// level-set.winding-tree-error-is-bounded); it is larger where many triangles overlap.
 double winding_number(const MeshDistance& mesh, const std::vector<Dipole>& dipoles,
                       const Vector3& p, double far);

@@ -14,9 +14,9 @@ double product(const PerParticle3& a, const PerParticle3& b, const PerParticle& 
 
 }  // namespace
 
-// In the variable M^{1/2} dw the iteration is the plain one of van der Vorst's paper, with its
-// letters; here it is written with masses: r, s, p, v, t are momenta [kg m/s], M^{-1} p and M^{-1}
-// s the directions in dw [m/s].
+// In the variable M^{1/2} dw this is the plain iteration of van der Vorst's paper, with its
+// letters. Here it is written with masses: r, s, p, v, t are momenta [kg m/s], and M^{-1} p and
+// M^{-1} s are the directions in dw [m/s].
 SolveResult solve_unsymmetric_step(const NewtonMatrix& A, const SolverSettings& settings,
                                    const PerParticle3& r0, PerParticle3& dw, Work& work) {
   const PerParticle& inverse_mass = A.inverse_mass;

@@ -18,8 +18,8 @@ std::vector<double> object_event_times(const System& system, double start);
 /// its release [s].
 std::vector<double> sticking_event_times(const System& system, double start);
 
-/// The system of a run, from event to event. Between two events every prescribed motion is smooth,
-/// and the motion of prescribed particles continues smoothly past both, so no step needs to know on
+/// The system of a run, from event to event. Between two events every prescribed motion is smooth.
+/// The motion of prescribed particles continues smoothly past both, so no step needs to know on
 /// which side of an event it lies. Objects return their mean velocity over a step, which has no
 /// sides, and at its end their instantaneous velocity, which at an event is the later one.
 class Events {

@@ -8,8 +8,8 @@ namespace foldproof {
 
 namespace {
 
-/// A Butcher tableau. Stage i is taken at time t + c_i h with the rates of the stages before it,
-/// weighted by row i of A; the step with the weights b.
+/// A Butcher tableau. Stage i is evaluated at t + c_i h from the rates of the stages before it,
+/// weighted by row i of A; the step uses the weights b.
 struct Tableau {
   std::vector<std::vector<double>> A;  // row i has i entries
   std::vector<double> b, c;

@@ -17,10 +17,10 @@ namespace {
 
 constexpr int max_newton_iterations = 60, max_halvings = 12;
 constexpr double forcing = 1e-3;  // relative residual to which a Newton step is solved
-// of the residual or of the work left, as a part of the step taken
+// required relative decrease of the residual or work, per fraction of the step taken
 constexpr double min_decrease = 1e-4;
 
-/// The stage equation's data: see the header.
+/// The data of the stage equation (see the header).
 struct Stage {
   double time;              // t [s]
   PerParticle3 X;           // 3 x N [m]
@@ -59,10 +59,10 @@ struct Trial {
 
 double product(const PerParticle3& a, const PerParticle3& b) { return a.cwiseProduct(b).sum(); }
 
-/// Halves the step until the residual falls, or until the residual's work along the step, by the
-/// trapezoidal rule, is positive: then the step leads downhill in the potential of which the
-/// residual is minus the gradient (the damping's part has none), though the residual itself may
-/// have to rise on the way. Gives up after a dozen halvings.
+/// Halves the step until the residual falls, or until the residual's work along the step
+/// (trapezoidal rule) is positive. The residual is minus the gradient of a potential, except for
+/// damping; positive work means that the step leads downhill, though the residual may rise on the
+/// way. Gives up after a dozen halvings.
 Trial line_search(const System& system, const Stage& stage, const Trial& from,
                   const PerParticle3& dw, Work& work) {
   double part = 1;
@@ -80,7 +80,7 @@ Trial line_search(const System& system, const Stage& stage, const Trial& from,
   return {from.w, from.residual, from.norm, false};
 }
 
-/// The Newton step by conjugate gradients, from the elastic derivative alone: exact where it is
+/// The Newton step by conjugate gradients, from the elastic derivative only: exact where it is
 /// definite, else semidefinite element by element.
 PerParticle3 symmetric_step(const System& system, const Stage& stage, const Trial& from,
                             Work& work) {
@@ -97,7 +97,7 @@ PerParticle3 symmetric_step(const System& system, const Stage& stage, const Tria
   return dw;
 }
 
-/// The Newton step with the exact derivative of all forces, which no longer is symmetric. Empty if
+/// The Newton step with the exact derivative of all forces, which is no longer symmetric. Empty if
 /// the solve did not finish or if the step leads uphill.
 std::optional<PerParticle3> exact_step(const System& system, const Stage& stage, const Trial& from,
                                        Work& work) {
@@ -127,7 +127,7 @@ Trial newton_step(const System& system, const Stage& stage, const Trial& from, W
 /// The stage equation with the forces linearised about the state `now`, the elastic
 /// derivative semidefinite:
 ///   (M - s D - s^2 K) dw = s (F + D w + K (X + s w - x)) - M (w - V),
-/// less what prescribed particles ask for.
+/// minus the contribution of prescribed particles.
 /// w: on entry the velocity to start from with the known velocities written in, on exit w + dw.
 SolveResult solve_linearised(const System& system, const State& now, const Stage& stage,
                              const SolverSettings& settings, PerParticle3& w, Work& work) {
@@ -175,8 +175,8 @@ Trial trial_at(const System& system, const Stage& stage, const PerParticle3& w, 
   return {w, residual, norm_of(residual, system.inverse_mass), true};
 }
 
-/// Where the linearised stage equation leads from the start's velocity, to the accuracy of a Newton
-/// step; back to the start, without hope, if a triangle loses its area there.
+/// Solves the linearised stage equation from the start's velocity, to the accuracy of a Newton
+/// step. If a triangle loses its area there, returns the start, marked as not improved.
 Trial linearised_trial(const System& system, const State& now, const Stage& stage,
                        const Trial& start, Work& work) {
   PerParticle3 w = start.w;
@@ -189,11 +189,11 @@ Trial linearised_trial(const System& system, const State& now, const Stage& stag
   }
 }
 
-/// Solves the stage equation by Newton's method with a line search, until the residual is the
-/// solver's tolerance times the momentum of the velocity now and the impulse at it, or what
-/// rounding makes of cloth at rest. From that velocity it starts, and a second time, if it does not
-/// arrive, from the linearised step: in a long step the velocity now leads to another place
-/// altogether. Prescribed particles are where they are at the stage's time, and as fast.
+/// Solves the stage equation by Newton's method with a line search, starting from the current
+/// velocity. It stops at a residual of the solver's tolerance times the momentum and impulse at
+/// that velocity, or at the rounding error of the positions. If it does not converge, it starts
+/// again from the linearised step: in a long step the current velocity may lead far from the
+/// solution. Prescribed particles have their positions and velocities at the stage's time.
 PerParticle3 solve_stage(const System& system, const State& now, Stage& stage, Work& work) {
   PerParticle3 w = now.v;
   impose(velocities_at(system.prescribed, stage.time), w);

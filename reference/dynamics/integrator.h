@@ -38,8 +38,8 @@ const Integrator& integrator_named(std::string_view name);
 /// The latest states of a run, as seen by a step.
 class History {
  public:
-  /// Starts, or restarts after an event that no method may look across. length: most
-  /// states kept, >= 1.
+  /// Starts, or restarts after an event, since no method may look across it. length: maximum number
+  /// of states kept, >= 1.
   History(State start, int length) : states_{std::move(start)}, length_(size_t(length)) {}
 
   /// Continues from the stored states of a history of this length, the latest last; at least one.

@@ -16,7 +16,7 @@ PerParticle3 explicit_half_step(const System& system, const Forces& at, const Pe
   return kicked(system.team, v, h / 2, force, system.inverse_mass);
 }
 
-/// The w of w = v + h/2 M^{-1} (F_elastic + D w), with the known velocities imposed.
+/// Solves w = v + h/2 M^{-1} (F_elastic + D w) for w, with the known velocities imposed.
 PerParticle3 implicit_half_step(const System& system, const Forces& at, const PerParticle3& v,
                                 const std::vector<KnownVelocity>& known, double h, Work& work) {
   PerParticle3 w = kicked(system.team, v, h / 2, *at.elastic, system.inverse_mass);
@@ -25,7 +25,7 @@ PerParticle3 implicit_half_step(const System& system, const Forces& at, const Pe
   return w;
 }
 
-/// The state a step of h [s] later, at the places where the velocity v leads.
+/// The state h [s] later, with the positions moved by the velocity v.
 State moved(const System& system, const State& now, const PerParticle3& v, double h) {
   return {now.time + h, moved(system.team, now.x, h, v), v, now.bonds};
 }

@@ -8,8 +8,8 @@
 
 namespace foldproof {
 
-/// Scheme A (first list). Second order; on linear problems stable for h < 2/omega whatever the
-/// damping. One solve a step.
+/// Scheme A (first list). Second order; on linear problems stable for h < 2/omega with any damping.
+/// One solve a step.
 State mixed_explicit_implicit(const System& system, std::span<const State> past, double h,
                               Work& work);
 

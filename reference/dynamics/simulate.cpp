@@ -13,11 +13,11 @@ namespace foldproof {
 
 namespace {
 
-// A particle that crosses ten times the cloth's own size in one step is taken for divergence.
+// A particle that moves ten times the cloth's own size in one step counts as divergence.
 constexpr double sizes_per_step = 10;
 
-// Of a frame's interval: events closer to a frame than this snap to it, and a frame to the end, so
-// no step is as short as rounding error.
+// Fraction of a frame interval: an event closer to a frame than this snaps to the frame, and a
+// frame to the end, so no step is as short as rounding error.
 constexpr double closest_event = 1e-9;
 
 void check(const Schedule& schedule, const State& start) {
@@ -82,8 +82,8 @@ double automatic_step(const System& system, const Integrator& integrator, const 
   return wanted;
 }
 
-/// The longest step that divides the time `left` evenly and is no longer than `wanted` [s]; a hair
-/// of tolerance so that 0.1 s in steps of 0.01 s are 10 steps, not 11.
+/// The longest step that divides the time `left` evenly and is no longer than `wanted` [s]. A small
+/// tolerance makes 0.1 s in steps of 0.01 s take 10 steps, not 11.
 double even_step(double left, double wanted) {
   const double parts = std::ceil(left / wanted * (1 - 1e-9));
   return parts <= 1 ? left : left / parts;
@@ -92,14 +92,14 @@ double even_step(double left, double wanted) {
 /// A run under way: it starts, steps from frame to frame, and stops.
 class Run {
  public:
-  /// The run as it was at the checkpoint.
+  /// Restores the run at the checkpoint.
   Run(const System& system, const Integrator& integrator, const Schedule& schedule,
       const Observer& observer, const Checkpoint& from);
 
-  /// Hands out the start: its frame, row and checkpoint.
+  /// Reports the start: its frame, row and checkpoint.
   void start();
 
-  /// Steps until the end, or until something goes wrong, and hands out every frame on the way.
+  /// Steps until the end or a failure, and reports every frame on the way.
   RunResult finish();
 
  private:
@@ -117,7 +117,7 @@ class Run {
   const Schedule& schedule_;
   const Observer& observer_;
   std::chrono::steady_clock::time_point clock_start_ = std::chrono::steady_clock::now();
-  // what a checkpoint keeps
+  // stored in checkpoints
   Events events_;
   History history_;
   long frame_, steps_;
@@ -127,8 +127,8 @@ class Run {
   double damping_work_;            // J
   double damping_power_;           // at the latest row [W]
   double seconds_before_;          // of clock time, in the part of the run before the checkpoint
-  std::optional<Stop> stop_ = {};  // what went wrong
-  // from step to step, for speed alone
+  std::optional<Stop> stop_ = {};  // the failure, if any
+  // values reused from step to step, for speed only
   std::shared_ptr<KeptValues> kept_ = std::make_shared<KeptValues>();
 };
 
@@ -180,8 +180,7 @@ RunResult Run::finish() {
   return {history_.now(), steps_, work_, stop_};
 }
 
-/// Steps to the time `target` across all events until then, after each of which the
-/// history starts anew.
+/// Steps to the time `target` across all events on the way; the history restarts after each.
 void Run::step_to_frame(double target) {
   const double close = closest_event * schedule_.frame_interval;
   while (!stop_ && history_.now().time < target) {
@@ -209,8 +208,7 @@ void Run::step_to(double target) {
   }
 }
 
-/// Where the schedule lets the next step end, at `target` at the latest [s]; none where it
-/// prescribes nothing.
+/// The end of the next step if the schedule prescribes it, at most `target` [s]; else none.
 std::optional<double> Run::prescribed_end(double target) const {
   const std::vector<double>& ends = schedule_.step.ends;
   const auto next = std::ranges::upper_bound(ends, history_.now().time);
@@ -238,7 +236,7 @@ void Run::step(double target) {
   }
   work.bonds = long(now.bonds.size());
   State next = integrator_.step(system, history_.past(), h, work);
-  if (h == left) next.time = target;  // no rounding between a frame's time and its state's
+  if (h == left) next.time = target;  // so that frame and state have the same time, bit for bit
   if (end) next.time = *end;
   stop_ = fault_in(now, next, size_, number);
   if (stop_) return;

@@ -16,8 +16,8 @@ namespace foldproof {
 /// or an object's velocity jumps (dynamics/events.h); multistep methods restart there.
 struct StepRule {
   double fixed = 0;  // the largest step allowed [s]; 0: automatic
-  // automatic: fraction of the elastic limit 2/omega, and for fully explicit methods of the damping
-  // limit 2/c too, c being the bound on the largest damping rate [1]
+  // automatic: fraction of the elastic limit 2/omega, and for fully explicit methods also of the
+  // damping limit 2/c, where c bounds the largest damping rate [1]
   double safety = 0.5;
   // automatic: no edge's length changes by more than this fraction of its rest length [1]
   double strain_per_step = 0.1;
@@ -44,7 +44,7 @@ struct Diagnostics {
   double seconds = 0;                         // since the start of the run, clock time
 };
 
-/// Calls `visit` with every number of a Diagnostics, const or not, except the clock time, in a
+/// Calls `visit` with every number of a Diagnostics (const or not) except the clock time, in a
 /// fixed order: counts as long, the rest as double.
 template <class SomeDiagnostics, class Visit>
 void for_each_value(SomeDiagnostics& d, const Visit& visit) {
@@ -55,7 +55,7 @@ void for_each_value(SomeDiagnostics& d, const Visit& visit) {
   for_each_counter(d.work, visit);
 }
 
-// A new number must be visited above.
+// Visit every new number above.
 static_assert(sizeof(Diagnostics) == sizeof(Energies) + sizeof(Work) + 11 * sizeof(double));
 
 struct Stop {
@@ -72,8 +72,8 @@ struct RunResult {
   std::optional<Stop> stop;  // empty when the end was reached
 };
 
-/// Everything that a run keeps at a frame besides its system, method and schedule: enough to
-/// resume bit for bit.
+/// The state of a run at a frame, without its system, method and schedule: enough to resume bit for
+/// bit.
 struct Checkpoint {
   std::vector<State> past;    // history of the method; the latest is the frame's state
   long frame = 0, steps = 0;  // so far; the start is frame 0

@@ -1,4 +1,4 @@
-// How exactly linear systems are solved, and what a solve achieved.
+// Accuracy settings of linear solves, and their results.
 #pragma once
 
 namespace foldproof {

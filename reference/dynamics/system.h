@@ -1,4 +1,4 @@
-// A system: masses, forces, filters and prescribed motion. It holds only what its scene names.
+// A system: masses, forces, filters and prescribed motion, but only those that its scene names.
 #pragma once
 
 #include <vector>
@@ -19,15 +19,15 @@ struct System {
   std::vector<Filter> filters;
   std::vector<PrescribedParticle> prescribed;
   SolverSettings solver;
-  Team team = {};  // that its loops run on; set_team
+  Team team = {};  // its loops run on it; set_team
 };
 
 /// A system of free particles with these masses (N [kg], each > 0, else InputError),
 /// without forces.
 System make_system(PerParticle mass);
 
-/// Lets the loops of the system, its forces and its filters run on the team; no bit of a result
-/// changes. Call it when all forces and filters are there.
+/// Runs the loops of the system, its forces and its filters on the team; results stay the same bit
+/// for bit. Call it after all forces and filters have been added.
 void set_team(System& system, const Team& team);
 
 /// Prescribes the motion of a particle. Throws InputError if it is prescribed already or
@@ -41,11 +41,11 @@ double elastic_limit(const System& system, const State& s, const Work& work = {}
 
 /// The same for a scheme whose limit is widened by damping to h^2 K < 4 M + 2 h D (scheme C). In
 /// steps up to 2 tau_s the damping of sticking outweighs its stiffness: max(limit, min(2/omega
-/// without sticking's springs, 2 tau_s)) [s].
+/// without sticking springs, 2 tau_s)) [s].
 ///   limit   the elastic limit [s]
 double widened_limit(const System& system, const State& s, double limit, const Work& work = {});
 
-/// Call once before each step: sticking bonds form and break, and self-collision looks for the
+/// Call once before each step: sticking bonds form and break, and self-collision searches for the
 /// pairs that may meet in the next steps. A second call changes nothing.
 void begin_step(const System& system, State& s, const Work& work = {});
 

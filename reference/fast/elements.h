@@ -1,9 +1,9 @@
 // Springs, hinges, dampers: lists of elements that push on particles, and the loops over them.
 //
-// For speed, elements are divided among the threads of a team by particle: each thread owns a range
-// of particles, visits the elements that touch it in ascending order, and adds to its own particles
-// only. So each particle adds up the same numbers in the same order as on one thread. An element
-// across a border is computed by each of its owners.
+// For speed, elements are divided among the threads of a team by particle. Each thread owns a range
+// of particles, visits the elements that touch it in ascending order, and adds only to its own
+// particles. So each particle adds up the same numbers in the same order as on one thread. An
+// element across a border is computed by each of its owners.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@
 
 namespace foldproof {
 
-/// An allocator that leaves new elements of a vector unfilled, for threads to fill.
+/// An allocator that leaves new elements of a vector uninitialised, for threads to fill.
 template <class T>
 struct Unfilled : std::allocator<T> {
   template <class U>
@@ -49,15 +49,15 @@ struct OwnedParticles {
   bool has(int particle) const { return first <= particle && particle < end; }
 };
 
-/// The particles of the only thread, and of a run of elements inside a thread's.
+/// All particles: for the only thread, or for a run of elements inside one thread's range.
 struct AllParticles {
   static constexpr bool has(int) { return true; }
 };
 
-/// How a number of elements is divided; null: one thread has them all.
+/// The division of a list of elements; if null, one thread has them all.
 struct DividedElements {
   size_t elements = 0;
-  std::vector<OwnedParticles> owners;  // one a thread
+  std::vector<OwnedParticles> owners;  // one per thread
 };
 using Division = std::shared_ptr<const DividedElements>;
 
@@ -66,7 +66,7 @@ using Division = std::shared_ptr<const DividedElements>;
 Division divide(const Team& team, Eigen::Index particles,
                 const std::vector<std::array<int, 4>>& elements);
 
-/// Where an element adds: to those of its particles that belong to the thread.
+/// The target of an element: adds only to its particles that belong to the thread.
 template <class Owner, class Target>
 class Adder {
  public:
@@ -105,7 +105,7 @@ class Elements {
   void reserve(size_t count) { all_.reserve(count); }
   void push_back(const Element& one) { all_.push_back(one); }
 
-  /// Divides the list, whose length must then stay.
+  /// Divides the list, whose length must not change afterwards.
   void divide(const Team& team, Eigen::Index particles) {
     std::vector<std::array<int, 4>> corners;
     if (team.threads() > 1)
@@ -113,7 +113,7 @@ class Elements {
     division_ = foldproof::divide(team, particles, corners);
   }
 
-  /// Adds another list behind; a list of two parts runs on one thread.
+  /// Appends another list; the joined list runs on one thread.
   void append(Elements more) {
     if (empty()) {
       *this = std::move(more);
@@ -123,7 +123,7 @@ class Elements {
     all_.insert(all_.end(), more.all_.begin(), more.all_.end());
   }
 
-  /// act(element, to): what the element adds to its particles by to.add(i, value).
+  /// act(element, to) adds to the element's particles by to.add(i, value).
   template <class Target, class Act>
   void push(Target& target, const Act& act) const {
     push_each(target, [&](size_t k, const auto& to) { act(all_[k], to); });
@@ -135,7 +135,7 @@ class Elements {
     push_each(target, [&](size_t k, const auto& to) { act(all_[k], others[k], to); });
   }
 
-  /// A list of make(element), or of make(element, other), divided in the same way.
+  /// The list of make(element), or make(element, other), divided in the same way.
   template <class Make>
   auto map(const Make& make) const {
     return map_each([&](size_t k) { return make(all_[k]); });
@@ -176,7 +176,7 @@ class Elements {
   template <class>
   friend class Elements;
 
-  /// The corners of an element that names them in a list, or the ends of one from a to b, twice.
+  /// The corners of an element that lists them, or the two ends a and b of one, each twice.
   static std::array<int, 4> particles_of(const Element& one) {
     if constexpr (requires { one.particles; })
       return one.particles;
@@ -202,7 +202,7 @@ class Elements {
           run.is_inside ? call(loop, run, AllParticles{}) : call(loop, run, own);
       });
     } catch (...) {
-      call(loop, all, AllParticles{});  // throws at the first element that one thread would meet
+      call(loop, all, AllParticles{});  // throws at the element where one thread would fail first
       throw;
     }
   }

@@ -1,4 +1,4 @@
-// For speed alone: what a run keeps from one step to the next, so that nothing is computed twice.
+// For speed only: values that a run keeps between steps, so that nothing is computed twice.
 #pragma once
 
 #include <map>
@@ -8,11 +8,12 @@
 
 namespace foldproof {
 
-/// Values by their type and by the part of the system that they belong to. One run of one system
-/// has it: parts keep their places and do not change while it lives. Only one thread uses it.
+/// Values by type and by the part of the system that they belong to. It serves one run of one
+/// system: parts must keep their addresses and not change while it lives. Use it from one thread
+/// only.
 class KeptValues {
  public:
-  /// The value of an owner, Value() at first.
+  /// The value of an owner, initially Value().
   template <class Value, class Owner>
   Value& of(const Owner& owner) {
     std::shared_ptr<void>& value = values_[{typeid(Value), &owner}];

@@ -18,8 +18,8 @@ namespace foldproof {
 namespace {
 
 #ifdef FOLDPROOF_HAS_TBB
-/// At most so many threads, and at most one a core. The calling one is among them, and keeps it
-/// for its next loop.
+/// An arena of at most `parts` threads and at most one per core, including the calling thread,
+/// which keeps it for its next loop.
 tbb::task_arena& arena_of(int parts) {
   const int threads = std::min(parts, tbb::info::default_concurrency());
   thread_local std::unique_ptr<tbb::task_arena> arena;
@@ -33,8 +33,8 @@ void run_parts(int parts, const Act& act) {
   arena_of(parts).execute([&] { tbb::parallel_for(0, parts, act, tbb::simple_partitioner()); });
 }
 #else
-/// For builds without oneTBB, and for the thread sanitizer, which does not see into it. Slow: each
-/// loop starts its threads anew.
+/// For builds without oneTBB, and for the thread sanitizer, which cannot see into it. Slow: each
+/// loop starts new threads.
 template <class Act>
 void run_parts(int parts, const Act& act) {
   std::vector<std::jthread> others;
@@ -52,7 +52,7 @@ Team::Team(int threads) : threads_(threads) {
 void in_parallel(int parts, const std::function<void(int)>& act) {
   std::vector<std::exception_ptr> thrown(static_cast<size_t>(parts));
   run_parts(parts, [&](int from_last) {
-    // The last part comes first: results that depend on the order differ even on one core.
+    // The last part runs first, so results that depend on the order differ even on one core.
     const int k = parts - 1 - from_last;
     try {
       act(k);

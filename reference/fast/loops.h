@@ -1,4 +1,4 @@
-// For speed alone: loops on several threads, with the same bits for every number of them.
+// For speed only: loops on several threads, with the same bits for any number of threads.
 //
 // A loop over items that never mixes them may be divided anywhere. A sum is taken in blocks of a
 // fixed size, and their sums are added in order.
@@ -15,8 +15,8 @@
 
 namespace foldproof {
 
-/// Calls act(k) for k from 0 to parts - 1, at the same time as far as there are cores: no part may
-/// wait for another. Waits for all; then rethrows the exception of the lowest k, if any.
+/// Calls act(k) for k from 0 to parts - 1, in parallel as far as there are cores: no part may wait
+/// for another. Waits for all; then rethrows the exception of the lowest k, if any.
 void in_parallel(int parts, const std::function<void(int)>& act);
 
 /// Calls act(arguments...) with every function inlined into its loop, so that results
@@ -26,7 +26,7 @@ template <class Act, class... Arguments>
   act(arguments...);
 }
 
-/// Calls act(first, count) for consecutive ranges of n items, one a thread.
+/// Calls act(first, count) for consecutive ranges of n items, one per thread.
 template <class Act>
 void for_each_range(const Team& team, Eigen::Index n, const Act& act) {
   const int threads = team.threads();
@@ -37,7 +37,7 @@ void for_each_range(const Team& team, Eigen::Index n, const Act& act) {
   });
 }
 
-/// Calls act(item, its index) for each; act writes to no place but that of its item.
+/// Calls act(item, its index) for each; act may write only to the place of its item.
 template <class Items, class Act>
 void for_each_item(const Team& team, const Items& items, const Act& act) {
   for_each_range(team, Eigen::Index(items.size()), [&](Eigen::Index first, Eigen::Index count) {
@@ -45,7 +45,7 @@ void for_each_item(const Team& team, const Items& items, const Act& act) {
   });
 }
 
-/// Calls act(i) for i from 0 to n - 1; act writes to no place but that of its index.
+/// Calls act(i) for i from 0 to n - 1; act may write only to the place of its index.
 template <class Act>
 void for_each_index(const Team& team, Eigen::Index n, const Act& act) {
   for_each_range(team, n, [&](Eigen::Index first, Eigen::Index count) {
@@ -84,8 +84,8 @@ std::vector<Found> found_among(const Team& team, const Items& items, const Find&
 }
 
 /// Calls act(item, answer) in order for each item whose ask(item) has a value. An act may change
-/// the answers of later items: has_changed(item) marks these. Several threads ask in advance; a
-/// marked item is asked again. Returns the number of acts.
+/// the answers of later items: has_changed(item) marks these. Several threads call ask in advance;
+/// for a marked item it is called again. Returns the number of acts.
 template <class Items, class Ask, class HasChanged, class Act>
 long act_in_order(const Team& team, const Items& items, const Ask& ask,
                   const HasChanged& has_changed, const Act& act) {
@@ -106,8 +106,8 @@ long act_in_order(const Team& team, const Items& items, const Ask& ask,
 // Block size for long sums; smaller blocks do not reduce the rounding error further.
 inline constexpr Eigen::Index block_of_sums = 8192;
 
-/// Calls act(first, count) for blocks of n items: for loops whose work, but not whose results,
-/// depend on where they start.
+/// Calls act(first, count) for blocks of n items: for loops whose cost, but not result, depends on
+/// where blocks start.
 template <class Act>
 void for_each_block(const Team& team, Eigen::Index n, Eigen::Index block, const Act& act) {
   for_each_range(team, (n + block - 1) / block, [&](Eigen::Index first, Eigen::Index count) {
@@ -116,8 +116,8 @@ void for_each_block(const Team& team, Eigen::Index n, Eigen::Index block, const 
   });
 }
 
-/// Calls act(item, own) in order, within batches of a fixed size that each start from a copy of
-/// `start`. Returns these copies as they are at the end, in order.
+/// Calls act(item, own) in order, in batches of a fixed size; `own` is a copy of `start` for each
+/// batch. Returns the copies in order.
 template <class Items, class Own, class Act>
 std::vector<Own> for_each_with(const Team& team, const Items& items, const Own& start,
                                const Act& act) {
@@ -130,7 +130,8 @@ std::vector<Own> for_each_with(const Team& team, const Items& items, const Own& 
   return batches;
 }
 
-/// The sum of part(first, count) over blocks of n items, block by block: a long sum rounds less so.
+/// The sum of part(first, count) over blocks of n items, block by block, which reduces the rounding
+/// error of long sums.
 template <class Part>
 double sum_of_blocks(const Team& team, Eigen::Index n, Eigen::Index block, const Part& part) {
   std::vector<double> sums(static_cast<size_t>((n + block - 1) / block));

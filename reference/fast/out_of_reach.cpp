@@ -7,10 +7,10 @@ namespace foldproof {
 
 namespace {
 
-// phi changes by no more than this per distance: a distance by 1. Each slope of its trilinear
-// interpolant along an axis is a mean of differences along edges of the cell, at most 1, so that
-// all three make sqrt(3) at most. Nodes that miss the distance by e (they hang, or marching missed)
-// add 2 e/width to a slope: 2 is enough for e = 0.077 widths.
+// Bound on |grad phi|. An exact distance has 1. Each slope of its trilinear interpolant along an
+// axis is a mean of differences along cell edges, at most 1, so the gradient is at most sqrt(3).
+// Nodes with an error e (hanging, or from marching) add 2 e/width to a slope: 2 is enough for e =
+// 0.077 widths.
 constexpr double steepest = 2;
 
 }  // namespace
@@ -33,7 +33,7 @@ std::span<ObjectPoint> RememberedQuery::at(const Vector3& p) {
 bool RememberedQuery::out_of_reach(const Vector3& p, const Vector3& v, double time) const {
   const double moved = steepest * (p - point_).norm();
   for (std::size_t i = 0; i < phi_.size(); ++i) {
-    const double clearance = phi_[i] - moved;  // m, at least
+    const double clearance = phi_[i] - moved;  // lower bound [m]
     if (!(clearance > 0) || std::isinf(clearance) || !rigid_[i]) return false;
     const double squared_speed = (v - rigid_[i]->velocity_at(p)).squaredNorm();
     if (!(clearance * clearance > time * time * squared_speed)) return false;

@@ -1,4 +1,4 @@
-// For speed alone: points that provably keep clear of all objects are not queried.
+// For speed only: points that provably stay clear of all objects are not queried.
 #pragma once
 
 #include <limits>
@@ -24,7 +24,7 @@ class RememberedQuery {
 
  private:
   ObjectsOverSpan objects_;
-  std::vector<std::optional<RigidOverSpan>> rigid_;  // of each object; none: it deforms
+  std::vector<std::optional<RigidOverSpan>> rigid_;  // of each object; empty if it deforms
   std::vector<double> phi_;          // m, of each object in the latest answers; infinite before any
   Vector3 point_ = Vector3::Zero();  // m, of the latest query
 };

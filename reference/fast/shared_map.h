@@ -1,4 +1,4 @@
-// For speed alone: a table of computed values that several threads fill and read at once.
+// For speed only: a table of computed values that several threads fill and read at once.
 #pragma once
 
 #include <array>
@@ -8,13 +8,13 @@
 
 namespace foldproof {
 
-/// Values by key. A value must depend on its key alone: then it does not matter which
-/// thread comes first.
+/// Values by key. A value must depend only on its key: then it does not matter which thread
+/// computes it.
 template <class Key, class Value, class Hash>
 class SharedMap {
  public:
-  /// The value of the key, from make() if it has none. Threads that ask for another key of its part
-  /// wait; make() must not ask the map.
+  /// The value of the key, from make() if it has none. Meanwhile, threads that need other keys of
+  /// the same part wait; make() must not use the map.
   template <class Make>
   const Value& at(const Key& key, const Make& make) {
     Part& part = part_of(key);
@@ -24,7 +24,7 @@ class SharedMap {
                                       : part.values.emplace(key, make()).first->second;
   }
 
-  /// Null if it has none. While no thread adds values.
+  /// Null if the key has no value. Call only while no thread adds values.
   const Value* find(const Key& key) const {
     const Part& part = part_of(key);
     const auto found = part.values.find(key);

@@ -3,8 +3,8 @@
 
 namespace foldproof {
 
-/// At most so many threads, the calling one among them. No result depends on their number. A loop
-/// with a number in place of a Team runs on a team of that many.
+/// An upper limit on threads, including the calling one. No result depends on it. A loop given a
+/// number in place of a Team runs on a team of that size.
 class Team {
  public:
   Team() = default;   // the calling thread alone

@@ -4,7 +4,7 @@ namespace foldproof {
 
 namespace {
 
-// Particles in a block of the sums of an iteration.
+// Particles per block in the sums of an iteration.
 constexpr Eigen::Index block_of_products = 512;
 
 double squared_norm_in_blocks(const Team& team, Eigen::Index block, const PerParticle3& r,

@@ -7,8 +7,8 @@
 
 namespace foldproof {
 
-/// to = columns, where each column depends on the same column of others only; `to`
-/// may be among them.
+/// to = columns, where each column depends only on the same column of other arrays, perhaps `to`
+/// itself.
 template <class Columns>
 void set(const Team& team, PerParticle3& to, const Eigen::MatrixBase<Columns>& columns) {
   to.resize(3, columns.cols());

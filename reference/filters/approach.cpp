@@ -7,7 +7,7 @@ namespace foldproof {
 
 namespace {
 
-// Planes tried before a motion is taken for a meeting.
+// Planes tried before a motion is reported as an approach.
 constexpr int max_planes = 1000;
 
 //    first feature
@@ -15,12 +15,12 @@ constexpr int max_planes = 1000;
 //         | N          normal parts them as long as every point of the first is beyond every point
 //   ------o------      of the second:
 //    second feature      (x_i - x_j).N + tau (w_i - w_j).N > 0  for all i of the first, j of the
-//                      second, each linear in tau, the time from t on. Whatever N is, this is a
-//                      proof; the nearest points only make it last long.
+//                      second, each linear in tau, the time from t on. This is a proof for any N;
+//                      the N between nearest points only makes it last long.
 //
-/// How long a plane with the normal N keeps the features at least `gap` [m] apart, from
-/// positions x on, at the rates `displacement`: infinite if they do not close, negative if it
-/// does not part them now.
+/// The time for which a plane with normal N keeps the features at least `gap` [m] apart, from
+/// positions x at the rates `displacement`. Infinite if they do not close, negative if it does not
+/// separate them now.
 double separated_for(PairKind kind, const Corners4& x, const Corners4& displacement,
                      const Vector3& N, double gap) {
   const Eigen::RowVector4d height = N.transpose() * x,
@@ -45,7 +45,7 @@ std::optional<Approach> first_approach(PairKind kind, const Corners4& x,
                  along = displacement.colwise() - Vector3(displacement.col(3));
   double t = 0;
   Nearness at = nearness(kind, from);
-  // what is kept, when an approach is reported, and halfway between the two what planes promise [m]
+  // distances to keep, to report at, and for planes to guarantee (halfway between the two) [m]
   const double kept_distance = at.distance > min_distance ? min_distance : at.distance / 2;
   const double report_distance =
       kept_distance + std::min(at.distance - kept_distance, kept_distance) / 2;

@@ -9,8 +9,8 @@
 namespace foldproof {
 
 struct Approach {
-  double time;  // share of the motion, 0 to 1
-  Nearness at;  // then
+  double time;  // fraction of the motion, 0 to 1
+  Nearness at;  // at that time
 };
 
 /// The four points move straight from x to x + displacement (3 x 4 [m]). Features that start

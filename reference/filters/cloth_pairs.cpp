@@ -16,7 +16,7 @@ struct ParticlePair {
   int a, b;
 };
 
-/// Of each particle, the box over its straight way, widened by margin/2 on all sides.
+/// For each particle, the box over its straight path, widened by margin/2 on all sides.
 std::vector<Bounds> particle_boxes(const PerParticle3& x, const PerParticle3& end, double margin,
                                    const Team& team) {
   const Vector3 wider = Vector3::Constant(margin / 2);
@@ -28,14 +28,13 @@ std::vector<Bounds> particle_boxes(const PerParticle3& x, const PerParticle3& en
   return boxes;
 }
 
-/// Each in the one of the same particle?
+/// Does each box lie within the larger box of the same particle?
 bool lie_within(const std::vector<Bounds>& boxes, const std::vector<Bounds>& larger) {
   return std::equal(boxes.begin(), boxes.end(), larger.begin(), larger.end(),
                     [](const Bounds& inner, const Bounds& outer) { return outer.contains(inner); });
 }
 
-/// Do the boxes of the two features overlap? Most do not along one of the first axes,
-/// where they are left.
+/// Do the boxes of the two features overlap? Most pairs are rejected on one of the first axes.
 bool overlap(const FeaturePair& pair, const std::vector<Bounds>& particles) {
   const int of_first = pair.kind == PairKind::vertex_triangle ? 1 : 2;
   std::array<const Bounds*, 4> boxes;
@@ -61,7 +60,7 @@ struct Boxes {
   const ClothTree& cloth;
   const std::vector<char>& moved;
   std::vector<Bounds> particles, triangles, nodes;
-  std::vector<char> triangle_moved, node_moved;  // empty: all are asked about
+  std::vector<char> triangle_moved, node_moved;  // empty: all are searched
 
   Boxes(const ClothTree& of, std::vector<Bounds> particle_boxes, const std::vector<char>& which);
 
@@ -158,7 +157,7 @@ void Search::between_leaves(const BoxNode& a, const BoxNode& b) {
       compare(cloth.tree.order[size_t(i)], cloth.tree.order[size_t(j)]);
 }
 
-/// The features that the triangles s and t answer for, against each other.
+/// Compares the features that triangles s and t own.
 void Search::compare(int s, int t) {
   if (!moved.empty() && !boxes.triangle_moved[size_t(s)] && !boxes.triangle_moved[size_t(t)])
     return;
@@ -191,8 +190,8 @@ void Search::add_edges(const ParticlePair& e, const ParticlePair& f) {
   if (overlap(pair, particles) && has_moved_particle(pair, moved)) found.push_back(pair);
 }
 
-/// The nodes that within(node) compares, a few levels down, in its order: a node with
-/// itself or two nodes.
+/// Splits within(node) into tasks a few levels down, in the same order: a node with itself, or two
+/// nodes.
 void add_tasks(const Boxes& boxes, int node, int levels, std::vector<std::pair<int, int>>& tasks) {
   if (!boxes.moved.empty() && !boxes.node_moved[size_t(node)]) return;
   const int right = boxes.cloth.tree.nodes[size_t(node)].right;
@@ -214,7 +213,7 @@ ClothTree make_cloth_tree(const TriangleMesh& mesh) {
       cloth.own[t].corner[k] = !taken;
       taken = 1;
     }
-  // of an edge's two triangles, the first
+  // the first of its triangles owns the edge
   for (const Edge& edge : mesh.edges) {
     cloth.mean_edge +=
         (mesh.rest.col(edge.b) - mesh.rest.col(edge.a)).norm() / double(mesh.edges.size());
@@ -270,8 +269,8 @@ bool is_inside(const PairsAhead& ahead, const PerParticle3& x, double margin) {
 std::optional<std::vector<FeaturePair>> pairs_among(const PairsAhead& ahead, const PerParticle3& x,
                                                     const PerParticle3& end, double margin,
                                                     const std::vector<char>& moved) {
-  // features whose boxes overlap now overlapped in the larger boxes, too; which pair comes first
-  // the tree alone decides
+  // features whose boxes overlap now also overlap in the larger boxes; the order of the pairs
+  // depends only on the tree
   const std::vector<Bounds> boxes = particle_boxes(x, end, margin, ahead.team);
   if (!lie_within(boxes, ahead.boxes)) return {};
   const auto near_pair = [&](const FeaturePair& pair) -> std::optional<FeaturePair> {

@@ -25,14 +25,14 @@ struct ClothTree {
   std::vector<OwnedFeatures> own;   // M
   BoxTree tree;                     // over the triangles
   double mean_edge;                 // at rest [m]
-  Team team = {};                   // that searches
+  Team team = {};                   // searches run on it
 };
 
 ClothTree make_cloth_tree(const TriangleMesh& mesh);
 
-/// Pairs of features without a common particle whose boxes, over their straight path from x to
-/// `end` and widened by margin/2 on all sides, overlap: includes all pairs that come nearer than
-/// `margin` on the way. The order depends on the tree alone.
+/// Pairs of features without a common particle whose boxes overlap. Boxes cover the straight path
+/// from x to `end`, widened by margin/2 on all sides, so all pairs that come nearer than `margin`
+/// are included. The order depends only on the tree.
 ///   moved   N, or empty: pairs without a marked particle are left out
 std::vector<FeaturePair> near_pairs(const ClothTree& cloth, const PerParticle3& x,
                                     const PerParticle3& end, double margin,
@@ -42,8 +42,8 @@ std::vector<FeaturePair> near_pairs(const ClothTree& cloth, const PerParticle3& 
 /// later searches only select from these pairs.
 struct PairsAhead {
   std::vector<Bounds> boxes;       // N: one per particle, widened by half that margin
-  std::vector<FeaturePair> pairs;  // near_pairs of them
-  Team team = {};                  // that selects
+  std::vector<FeaturePair> pairs;  // near_pairs of these boxes
+  Team team = {};                  // selection runs on it
 };
 
 /// Is a particle of the pair marked?

@@ -10,10 +10,10 @@
 
 namespace foldproof {
 
-/// A point that is the mean of one, two or three particles, and the share of each particle in a
-/// change of the point's velocity, from the least impulses that achieve it:
+/// A point that is the mean of one, two or three particles. share_i is the velocity change of
+/// particle i per velocity change of the point, from the least impulses that achieve it:
 ///   share_i = m_i^{-1} / sum_j weight_j m_j^{-1}    (equal weights),
-/// so that sum_i weight_i share_i = 1.
+/// so sum_i weight_i share_i = 1.
 struct CollisionPoint {
   std::array<int, 3> particles{-1, -1, -1};  // -1: none
   int count = 0;

@@ -9,9 +9,9 @@ namespace foldproof {
 
 namespace {
 
-// Edges whose directions differ by less than this, squared sine, are taken for parallel; triangles
-// whose area is less than this share of what their sides could span, squared, for lines. What that
-// hides is 1e-9 of their size.
+// Edges count as parallel if the squared sine of their angle is below this. Triangles count as
+// lines if their squared area is below this fraction of the largest that their sides could span.
+// The error is 1e-9 of their size.
 constexpr double nearly_parallel = 1e-18;
 
 /// Where along the edge from a to b the point p is nearest: 0 at a, 1 at b.
@@ -37,9 +37,8 @@ Nearness no_nearness() {
 }
 
 //      x3         The vertex x0 over the triangle. The foot of its perpendicular has the weights
-//     /  \        w2, w3 (and w1 = 1 - w2 - w3); a negative weight says that it lies beyond the
-//   x1 -- x2      side across from that corner, and then the nearest point is on a side for which
-//                 that is so.
+//     /  \        w2, w3 (and w1 = 1 - w2 - w3); a negative weight means that it lies beyond the
+//   x1 -- x2      side opposite that corner; the nearest point is then on such a side.
 Nearness vertex_triangle(const Corners4& x) {
   const Vector3 e2 = x.col(2) - x.col(1), e3 = x.col(3) - x.col(1), r = x.col(0) - x.col(1);
   const Vector3 N = e2.cross(e3);  // twice the area [m^2]
@@ -47,7 +46,7 @@ Nearness vertex_triangle(const Corners4& x) {
   Vector3 w = Vector3::Constant(-1);
   if (area2 > nearly_parallel * e2.squaredNorm() * e3.squaredNorm()) {
     w.setZero();
-    // the second pass finds what rounding left of the first in a thin triangle
+    // in a thin triangle the second pass corrects the rounding error of the first
     for (int pass = 0; pass < 2; ++pass) {
       const Vector3 rest = r - w[1] * e2 - w[2] * e3;
       w[1] += rest.cross(e3).dot(N) / area2;
@@ -72,9 +71,9 @@ Nearness vertex_triangle(const Corners4& x) {
 Eigen::Vector4d edge_weights(double a, double b) { return {1 - a, a, -(1 - b), -b}; }
 
 /// Two edges x0 x1 and x2 x3: nearest inside both, or at an end of one of them. Inside, x0 + a d
-/// and x2 + b e are nearest across N = d x e, so a = (x2 - x0) x e . N / |N|^2. Of nearly parallel
-/// edges rounding shifts a along them; the foot of that place on the other edge, and its foot in
-/// turn, are as near to each other as the nearest points are.
+/// and x2 + b e are nearest across N = d x e, so a = (x2 - x0) x e . N / |N|^2. For nearly parallel
+/// edges rounding shifts a along them; projecting that point onto the other edge, and the result
+/// back, gives two points as close as the nearest ones.
 Nearness edge_edge(const Corners4& x) {
   const Vector3 d = x.col(1) - x.col(0), e = x.col(3) - x.col(2), r = x.col(2) - x.col(0);
   const Vector3 N = d.cross(e);  // m^2

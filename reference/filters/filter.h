@@ -23,8 +23,8 @@ struct CustomFilter {
   }
 };
 
-/// A filter corrects the velocity v that moves the cloth from s over the span. It must leave
-/// prescribed particles alone.
+/// A filter corrects the velocity v that moves the cloth from s over the span. It must not change
+/// prescribed particles.
 template <class F>
 concept MotionFilter = requires(const F filter, const Span span, const State s, PerParticle3 v,
                                 Work work) {

@@ -66,11 +66,11 @@ namespace {
 using Motion6 = Eigen::Matrix<double, 6, 1>;  // u, then omega times the zone's size: both m/s
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-// A direction of the six whose share of the zone's inertia is less is no motion of it: a turn about
-// the line on which all its particles lie.
+// A mode with less than this fraction of the zone's inertia is not a motion: it rotates about the
+// line on which all particles lie.
 constexpr double no_motion = 1e-12;
 
-/// A zone's particles seen from its middle, in units of its size: v = J w with J = [1, -[r]x].
+/// A zone's particles relative to its middle, in units of its size: v = J w with J = [1, -[r]x].
 struct Frame {
   Vector3 centre;  // m
   double size;     // m
@@ -104,13 +104,13 @@ struct NormalEquations {
   }
 };
 
-/// The least solution, and a basis of the motions that the equations leave open.
+/// The minimum-norm solution, and a basis of the motions that the equations leave free.
 struct Solved {
   Motion6 motion;
   Eigen::Matrix<double, 6, Eigen::Dynamic> open;
 };
 
-/// scale: the size of eigenvalues that are not zero; what is a tiny share of it is taken for zero.
+/// scale: the size of nonzero eigenvalues; any below a tiny fraction of it count as zero.
 Solved solve(const Matrix6& left, const Motion6& right, double scale) {
   const SymmetricModes modes = symmetric_modes(left);
   const double cut = no_motion * scale;
@@ -137,7 +137,7 @@ double move_as_one(const std::vector<int>& zone, const PerParticle3& x, const Pe
     const bool is_led = inverse_mass[i] == 0;
     (is_led ? prescribed : free).add(frame.velocity_of(x.col(i)), v.col(i), is_led ? 1 : mass[i]);
   }
-  // what the prescribed particles say first; momentum decides the rest
+  // prescribed particles first; momentum determines the remaining motion
   const Solved by_led = solve(prescribed.left, prescribed.right, prescribed.left.trace());
   const Matrix6 onto = by_led.open * by_led.open.transpose();
   const Solved by_momentum = solve(

@@ -9,7 +9,7 @@ namespace foldproof {
 
 namespace {
 
-/// The velocity `after` of a point instead of `before`, given to its particles.
+/// Changes a point's velocity from `before` to `after` through its particles.
 void set_velocity(const CollisionPoint& point, const Vector3& before, const Vector3& after,
                   PerParticle3& v) {
   if (point.count == 1) {
@@ -20,7 +20,7 @@ void set_velocity(const CollisionPoint& point, const Vector3& before, const Vect
     v.col(point.particles[size_t(k)]) += point.shares[k] * (after - before);
 }
 
-/// The previous point in the loop: a point out of reach of its answers is not queried.
+/// The previous point in the loop: a point that its answers prove out of reach is not queried.
 struct Neighbour {
   RememberedQuery around;
   Work work = {};

@@ -9,17 +9,18 @@ namespace foldproof {
 
 namespace {
 
-// Normals that differ by less than this, 5.7 degrees, have no surface between them worth the name.
+// Objects whose normals differ by less than this (5.7 degrees) have no distinct surface between
+// them.
 constexpr double least_difference_of_normals = 0.1;
 
-// Normals more than 120 degrees apart: objects that close on a point, out of whose way no
-// corrections in turn lead.
+// Normals more than 120 degrees apart: the objects close on the point, and correcting for one after
+// the other cannot free it.
 constexpr double facing = -0.5;
 
-// A point that would reach the surface within this part of the step is on it.
+// A point that would reach the surface within this fraction of the step is on it.
 constexpr double touching = 1e-3;
 
-/// A sliding velocity after friction when the normal velocity is changed by `push` [m/s].
+/// The sliding velocity after friction, when the normal velocity changes by `push` [m/s].
 double kept_by_friction(double mu, double push, double speed) {
   return speed > 0 ? std::max(0.0, 1 - mu * push / speed) : 0;
 }
@@ -28,9 +29,9 @@ double forecast_distance(const ObjectPoint& at, const Vector3& v_p, double tau) 
   return at.phi + tau * (v_p - at.velocity).dot(at.normal);
 }
 
-/// Each object once, the one that the point is forecast to be deepest in first: an object that is
-/// not the nearest, but will be entered, is not forgotten. If the way out of one leads into another
-/// that faces it, the point is held between them.
+/// Treats each object once, deepest forecast first, so that it also treats an object that will be
+/// entered but is not the nearest. If the way out of one leads into another that faces it, the
+/// point is held between them.
 Vector3 forecast_against_each(std::span<ObjectPoint> left, const MovingPoint& point) {
   Vector3 v = point.v;
   std::optional<ObjectPoint> before;
@@ -69,8 +70,8 @@ Vector3 push_out_velocity(const ObjectPoint& at, const Vector3& v, double push) 
   return v + push * at.normal - (1 - kept_by_friction(at.friction, push, sliding.norm())) * sliding;
 }
 
-/// Put on the surface if it would be inside after the step; a velocity that ends the step loses its
-/// part into a surface that the point is on.
+/// Puts the point on the surface if it would be inside after the step. A velocity that ends the
+/// step loses its component into a surface that the point is on.
 Vector3 projection(std::span<ObjectPoint> answers, const MovingPoint& point) {
   const double h = point.span.end - point.span.start;
   const ObjectPoint at = nearest_of(answers).first;
@@ -81,7 +82,7 @@ Vector3 projection(std::span<ObjectPoint> answers, const MovingPoint& point) {
   return push > 0 ? push_out_velocity(at, point.v, push) : point.v;
 }
 
-/// A point that is found inside after the step gets the velocity that takes it out in one step.
+/// A point inside after the step gets the velocity that takes it out in one step.
 Vector3 push_out(std::span<ObjectPoint> answers, const MovingPoint& point) {
   if (point.span.end > point.span.start) return point.v;
   const ObjectPoint at = nearest_of(answers).first;

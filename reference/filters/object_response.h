@@ -1,6 +1,6 @@
 // Collision response of a cloth point to the objects that it is about to enter: the paper's
-// interface forecasting (BMF03 section 5.2), and for comparison the same against one object only
-// and two cruder ones.
+// interface forecasting (BMF03 section 5.2). For comparison, the same against one object only, and
+// two cruder ones.
 #pragma once
 
 #include <span>
@@ -48,7 +48,7 @@ struct Response {
   Vector3 (*velocity)(std::span<ObjectPoint> answers, const MovingPoint& point);
 };
 
-/// The table of responses: the paper's first.
+/// The table of responses; the first is the paper's.
 const std::vector<Response>& responses();
 
 /// Throws InputError with the known names.

@@ -8,7 +8,7 @@ namespace foldproof {
 
 namespace {
 
-constexpr double overlap_per_step = 0.1;  // of the overlap, taken away in a step at most
+constexpr double overlap_per_step = 0.1;  // the most of the overlap removed in a step
 
 /// sum(w_i^2/m_i) [1/kg].
 double compliance(const FeaturePair& pair, const Eigen::Vector4d& weights,
@@ -47,11 +47,10 @@ struct ClosePair {
 
 bool inside_both(const Eigen::Vector4d& weights) { return (weights.array() != 0).all(); }
 
-/// Pairs within the thickness that carry. Where two layers lie flat on each other, the nearest
-/// points of most pairs are at ends and corners, with normals that lean: layers would catch on each
-/// other's edges when they slide. So two edges count where they are nearest inside both; a vertex
-/// counts over a triangle, and at a triangle's rim only if it is no nearer to another triangle, as
-/// over a fold or at the cloth's border.
+/// Load-bearing pairs within the thickness. Where two layers lie flat on each other, most pairs are
+/// nearest at ends and corners, with tilted normals: sliding layers would catch on each other's
+/// edges. So two edges count if they are nearest inside both. A vertex counts over a triangle, and
+/// at its rim only if no other triangle is nearer, as over a fold or at the cloth's border.
 std::vector<ClosePair> load_bearing_pairs(const std::vector<FeaturePair>& pairs,
                                           const PerParticle3& x, double thickness,
                                           const Team& team) {

@@ -17,7 +17,7 @@ struct SelfCollisionSettings {
   double friction = 0;   // mu, Coulomb's coefficient between layers [1]
   // rounds of impulses against crossings before colliding parts move as rigid zones
   int rounds = 8;
-  // a start that crosses itself is run, with a message; false: it is refused
+  // runs a start that crosses itself, with a message; false: refuses it
   bool untangle = true;
 };
 
@@ -40,7 +40,7 @@ Vector3 friction_impulse(const Vector3& relative, const Vector3& N, double push,
 /// Impulses along the line between the nearest points conserve linear and angular momentum;
 /// friction conserves linear momentum and exerts a torque of its size times the distance. Returns
 /// the number of pairs repelled.
-///   team   looks for the load-bearing pairs
+///   team   searches for the load-bearing pairs
 long repel(const std::vector<FeaturePair>& pairs, const PerParticle3& x,
            const SelfCollisionSettings& settings, double h, const PerParticle& inverse_mass,
            PerParticle3& v, const Team& team);

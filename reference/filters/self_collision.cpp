@@ -13,21 +13,21 @@ namespace foldproof {
 
 namespace {
 
-// of the thickness: the distance that no motion may undercut
+// fraction of the thickness: the least distance that motions may leave
 constexpr double min_distance_share = 0.1;
-constexpr double spare_share = 0.12;  // of the mean edge: the margin of a search for many steps
-// s: in it what pierces moves by a thickness against what it pierces
+constexpr double spare_share = 0.12;  // of the mean edge: margin of a search for many steps
+// s: the time in which a piercing edge moves one thickness relative to the pierced triangle
 constexpr double untangling_time = 0.01;
 
-/// The motion of one step, and what is done to keep it free of crossings.
+/// The motion of one step, and the corrections that keep it free of crossings.
 struct Step {
   const SelfCollision& filter;
   const State& s;
   PerParticle3& v;
   double h;  // s
   Work& work;
-  const std::vector<char>& tangled;  // N, or empty: particles that are left to pass each other
-  // N: particles whose velocity was changed since all pairs were last asked; empty: all
+  const std::vector<char>& tangled;  // N, or empty: particles that may pass through each other
+  // N: particles whose velocity has changed since all pairs were last tested; empty: all
   std::vector<char> moved = {};
 
   double min_distance() const { return min_distance_share * filter.settings.thickness; }  // m
@@ -39,7 +39,7 @@ struct Step {
   void move_zones(ImpactZones& zones, std::vector<char>& is_off_its_path);
 };
 
-/// near_pairs, among those that the run keeps where these suffice.
+/// near_pairs, selected from the pairs that the run keeps where these suffice.
 std::vector<FeaturePair> pairs_of(const SelfCollision& filter, const Work& work,
                                   const PerParticle3& x, const PerParticle3& end, double margin,
                                   const std::vector<char>& moved = {}) {
@@ -60,7 +60,7 @@ std::optional<Approach> Step::approach(const FeaturePair& pair) const {
   return first_approach(pair.kind, corners_of(pair, s.x), h * corners_of(pair, v), min_distance());
 }
 
-/// Each pair that would come together, one after the other as v then is. Returns their number.
+/// Treats each pair that would collide, in order, each with the current v. Returns their number.
 long Step::resolve_all(int round) {
   const std::vector<FeaturePair> pairs_to_test = pairs();
   moved.assign(size_t(v.cols()), 0);
@@ -76,9 +76,9 @@ long Step::resolve_all(int round) {
   return resolved;
 }
 
-/// The impulse between the points that would meet, along the line between them then. In the first
-/// round they may come as near as the thickness, where repulsion awaits them; after it their
-/// approach is stopped. Friction as in repulsion.
+/// The impulse between the points that would meet, along the line between them at that time. In the
+/// first round they may approach to the thickness, where repulsion acts; later rounds stop their
+/// approach. Friction as in repulsion.
 void Step::resolve(const FeaturePair& pair, const Approach& contact, int round) {
   const Vector3& N = contact.at.normal;
   // along it, at the start [m]
@@ -93,8 +93,8 @@ void Step::resolve(const FeaturePair& pair, const Approach& contact, int round) 
              filter.inverse_mass, v);
 }
 
-/// Joins what still comes together; false if nothing does. is_off_its_path: marks prescribed
-/// particles that the motion of their zone does not follow.
+/// Joins pairs that still collide into zones; false if there are none. is_off_its_path: marks
+/// prescribed particles whose zone does not follow their motion.
 bool Step::join_approaching_pairs(ImpactZones& zones, std::vector<char>& is_off_its_path) {
   bool any = false;
   for (const FeaturePair& pair : pairs()) {
@@ -131,7 +131,7 @@ void SelfCollision::look_ahead(const State& s, const Work& work) const {
   if (!work.kept) return;
   const double spare = spare_share * cloth.mean_edge;
   PairsAhead& latest = work.kept->of<PairsAhead>(*this);
-  // half of it is left for the step to come
+  // half of the margin is left for the coming step
   if (is_inside(latest, s.x, settings.thickness + spare / 2)) return;
   latest = pairs_ahead(cloth, s.x, settings.thickness + spare);
 }

@@ -17,7 +17,7 @@ namespace foldproof {
 /// crossings stays free of them, and pairs farther apart than a tenth of the thickness stay so. The
 /// velocity that ends a step moves nothing; there, layers within the thickness are only kept from
 /// approaching. Cloth that starts crossing itself is held apart only where it is not tangled, and
-/// pushed out of the tangle; until it is out there is no proof.
+/// pushed apart where it is; until it is untangled there is no proof.
 struct SelfCollision {
   SelfCollisionSettings settings;
   ClothTree cloth;
@@ -27,9 +27,9 @@ struct SelfCollision {
   /// Searches and queries run on it; impulses are given one after the other.
   void set_team(const Team& team, Eigen::Index) { cloth.team = team; }
 
-  /// Looks for the pairs that may meet in the next steps of a run that keeps them, unless those
-  /// that it keeps still do. That saves most searches without changing a bit: correct()
-  /// searches where it must.
+  /// In a run that keeps values, searches for the pairs that may meet in the next steps, unless the
+  /// kept pairs still suffice. That saves most searches without changing a bit: correct() searches
+  /// where it must.
   void look_ahead(const State& s, const Work& work) const;
 
   /// Throws DegenerateElement where prescribed particles force the cloth through itself.

@@ -10,7 +10,7 @@ namespace foldproof {
 
 namespace {
 
-// A predicted length this near to a limit is at it: a corrected spring is, to rounding, and is not
+// A predicted length this near to a limit counts as at it: a spring corrected to rounding is not
 // corrected again.
 constexpr double at_the_limit = 8 * std::numeric_limits<double>::epsilon();
 
@@ -20,7 +20,7 @@ struct SweepResult {
   long corrected = 0, unreachable = 0;
 };
 
-/// One spring beyond a limit: what an impulse along d has to do.
+/// One spring beyond a limit: the correction that an impulse along d has to make.
 struct Correction {
   double violation = 0;  // over the rest length [1]
   double share = 0;      // the change of h dv along d, over d [1]
@@ -35,10 +35,10 @@ struct Correction {
 //   s^2 d.d + 2 s p.d + p.p - T^2 = 0,   with the roots
 //   s = (-p.d +- r)/d.d,   r^2 = (p.d)^2 - d.d (p.p - T^2) = d.d T^2 - h^2 |d x u|^2
 //
-// We take that with +r: then (p + s d).d = r >= 0, the spring points the way it does now. It is
-// written so that nothing cancels. If the part of h u across d is longer than T, only beyond the
-// upper limit, there is no root: r = 0 then gives the least length that can be reached, to which
-// the root tends when T is barely reached.
+// We take the root with +r: then (p + s d).d = r >= 0, so the spring keeps its direction. It is
+// written so that nothing cancels. If the part of h u across d is longer than T (only beyond the
+// upper limit), there is no root. Then r = 0 gives the least reachable length, the limit of the
+// root when T is barely reached.
 Correction correction_of(const Vector3& d, const Vector3& u, double h, double limit) {
   Correction result;
   const Vector3 p = d + h * u;
@@ -64,7 +64,7 @@ class Sweeps {
         lower_squared_(std::pow(lower_ * (1 - at_the_limit), 2)),
         upper_squared_(std::pow(upper_ * (1 + at_the_limit), 2)) {}
 
-  /// number: of the sweep, from 0.
+  /// number: index of the sweep, from 0.
   SweepResult sweep(int number) {
     if (limiter_.limits.order == SweepOrder::jacobi) return jacobi_sweep();
     const bool backwards = limiter_.limits.order == SweepOrder::alternating && number % 2 == 1;
@@ -86,8 +86,8 @@ class Sweeps {
   }
 
  private:
-  /// The correction that the spring needs; a violation of 0 if it is within its limits, which no
-  /// square root is needed to see.
+  /// The correction that the spring needs; its violation is 0 within the limits, which needs no
+  /// square root to test.
   Correction needed_correction(const LimitedSpring& spring) const {
     const Vector3 d = x_.col(spring.b) - x_.col(spring.a), u = v_.col(spring.b) - v_.col(spring.a);
     const double L0 = spring.rest_length, squared = (d + h_ * u).squaredNorm();
@@ -107,8 +107,8 @@ class Sweeps {
     if (wb > 0) v_.col(spring.b) += wb * change;
   }
 
-  /// Counts what is asked for; false if there is nothing to be done: within the limits, both ends
-  /// prescribed, or without length, which has no direction.
+  /// Counts requested corrections. False if there is nothing to correct: within the limits, both
+  /// ends prescribed, or zero length, which has no direction.
   bool record(const LimitedSpring& spring, const Correction& needed, SweepResult& result) const {
     if (needed.violation == 0) return false;
     update_worst(result.violation, needed.violation);
@@ -124,11 +124,11 @@ class Sweeps {
     if (record(spring, needed, result)) push(spring, needed.share);
   }
 
-  // Of n impulses that meet at a particle each gives an n-th, and the same at its other end, or
-  // momentum would not be kept. Near the limits a full impulse is a projection P_i, in the norm
-  // weighted with masses, that acts on two particles; so sum_i P_i/n_i is at most one and the sweep
-  // a mean of projections: it never leads away from velocities within the limits, and converges to
-  // such where there are any.
+  // Where n impulses meet at a particle each is divided by n, at both of its ends, or momentum
+  // would not be conserved. Near the limits a full impulse is a projection P_i, in the
+  // mass-weighted norm, that acts on two particles. So sum_i P_i/n_i is at most one, and the sweep
+  // is a mean of projections: it never leads away from velocities within the limits, and converges
+  // to such velocities if there are any.
   SweepResult jacobi_sweep() {
     const std::vector<LimitedSpring>& springs = limiter_.springs;
     SweepResult result;

@@ -23,7 +23,7 @@ enum class SweepOrder {
 };
 
 struct StrainLimits {
-  double extension = 0.10, compression = 0;  // share of the rest length [1]
+  double extension = 0.10, compression = 0;  // fraction of the rest length [1]
   SweepOrder order = SweepOrder::gauss_seidel;
   int sweeps = 20;          // maximum per call
   double tolerance = 1e-3;  // relative violation at which sweeps end [1]
@@ -36,7 +36,7 @@ struct LimitedSpring {
 };
 
 /// The filter: if the predicted length of a spring at the end of a step, |d + h dv|, violates a
-/// limit, equal and opposite impulses along the current d bring it back to that limit. So a call
+/// limit, equal and opposite impulses along the current d bring it back to that limit. Each call
 /// conserves linear and angular momentum to rounding. Prescribed particles, and springs within
 /// rounding of their limits, are unchanged bit for bit.
 struct StrainLimiter {

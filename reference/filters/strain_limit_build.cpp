@@ -1,4 +1,4 @@
-// How a strain limiter is made: its springs sorted, and coloured where the order is by colour.
+// Builds a strain limiter: sorts its springs, and colours them if the order is coloured.
 #include <algorithm>
 #include <string>
 #include <tuple>
@@ -18,7 +18,7 @@ void check(const StrainLimits& limits) {
   if (limits.sweeps < 1) reject("at least one sweep is needed");
 }
 
-/// The first colour that no spring before it has at either end, for each spring.
+/// For each spring, the first colour that no earlier spring has at either end.
 std::vector<int> colours_of(const std::vector<LimitedSpring>& springs, Eigen::Index particles) {
   std::vector<std::vector<bool>> taken;  // by particle and colour
   taken.resize(size_t(particles));
@@ -37,7 +37,7 @@ std::vector<int> colours_of(const std::vector<LimitedSpring>& springs, Eigen::In
   return colours;
 }
 
-/// Sorts the springs by colour, keeps their order within each, and says where each begins.
+/// Sorts the springs by colour, keeps their order within each, and returns where each begins.
 void group_by_colour(StrainLimiter& limiter) {
   const std::vector<int> colour_of = colours_of(limiter.springs, limiter.inverse_mass.size());
   const int count =

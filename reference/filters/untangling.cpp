@@ -13,12 +13,12 @@ struct Piercing {
   Triangle triangle;
   double along;
   Vector3 w;
-  Vector3 shorter;  // unit: the edge, moved this way against the triangle, shortens their line
+  Vector3 shorter;  // unit: moving the edge this way relative to the triangle shortens their line
 };
 
-// The edge e of triangle s comes out of triangle t (normal n) at p; the line of the two runs from p
-// along R into s. If the edge is moved by d against t, p moves by d - (d.n)/(e.n) e, and the line
-// loses R times that: its length falls fastest along
+// Edge e of triangle s pierces triangle t (normal n) at p; their line of intersection runs from p
+// along R into s. If the edge moves by d relative to t, p moves by d - (d.n)/(e.n) e. The line
+// shortens by R times that: its length falls fastest along
 //   G = R - (e.R)/(e.n) n.
 void add_piercings(const PerParticle3& x, const Triangle& s, const Triangle& t,
                    std::vector<Piercing>& found) {
@@ -42,7 +42,7 @@ void add_piercings(const PerParticle3& x, const Triangle& s, const Triangle& t,
   }
 }
 
-/// Raises their speed against each other to `speed`, where it is less.
+/// Raises their relative speed to `speed` where it is less.
 void push(const Piercing& at, double speed, const PerParticle& inverse_mass, PerParticle3& v) {
   const std::array<int, 5> particles = {at.a, at.b, at.triangle[0], at.triangle[1], at.triangle[2]};
   const std::array<double, 5> weights = {1 - at.along, at.along, -at.w[0], -at.w[1], -at.w[2]};

@@ -10,8 +10,8 @@ namespace foldproof {
 
 namespace {
 
-// Squared height over edge below which a triangle counts as degenerate: at 1e-10 of the edge
-// rounding has eaten the normal.
+// Squared ratio of height to edge below which a triangle counts as degenerate: at 1e-10 of the edge
+// the normal is rounding error.
 constexpr double smallest_height_squared = 1e-20;
 
 double sine_magnitude(double theta, double rest_angle) {
@@ -21,8 +21,8 @@ double sine_magnitude(double theta, double rest_angle) {
 double sine_slope(double theta, double) { return 0.5 * std::cos(theta / 2); }
 
 double sine_potential(double theta, double rest_angle) {
-  // 2 (cos(theta0/2) - cos(theta/2)) as a product of sines, which loses no digits near a rest angle
-  // of 0; near others a share of about tan(theta0/2)/(theta - theta0) of a rounding
+  // 2 (cos(theta0/2) - cos(theta/2)) as a product of sines: no digits are lost near a rest angle of
+  // 0; near others the error is about tan(theta0/2)/(theta - theta0) roundings
   const double difference = std::sin((theta - rest_angle) / 4);
   if (rest_angle == 0) return 4 * difference * difference;
   return 4 * std::sin((theta + rest_angle) / 4) * difference -

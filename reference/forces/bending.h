@@ -69,7 +69,7 @@ struct BendingHinge {
   double sin_half_rest;  // sin(theta0/2)
 };
 
-/// Geometry of one hinge at its current positions. Throws nothing; callers check `degenerate`.
+/// Geometry of one hinge at its current positions. Does not throw; callers check `degenerate`.
 struct HingeShape {
   Vector3 u1, u2;       // the bending mode at the opposite vertices [1/m]
   double b1, b2;        // their barycentric coordinates along the edge: 1 at x3, 0 at x4
@@ -99,7 +99,7 @@ HingeShape checked_hinge_shape(const BendingHinge& hinge, const PerParticle3& x)
 
 double weight_of(const BendingHinge& hinge, const HingeShape& shape, Weighting weighting);  // c [1]
 
-/// The law's magnitude; the paper's needs no angle.
+/// The law's magnitude; the paper's law needs no angle.
 double magnitude_of(const BendingLaw& law, const BendingHinge& hinge, const HingeShape& shape);
 
 /// u1, u2, u3, u4 as columns [1/m].
@@ -121,11 +121,11 @@ struct Bending {
   BendingMaterial material;
   Elements<BendingHinge> hinges;
 
-  /// Its loops run on the team; the number of hinges must then stay.
+  /// Its loops run on the team; the number of hinges must not change afterwards.
   void set_team(const Team& team, Eigen::Index particles) { hinges.divide(team, particles); }
 
-  /// At x (3 x N [m]). Throws DegenerateElement naming the particles of a hinge one of whose
-  /// triangles has lost its area.
+  /// At x (3 x N [m]). Throws DegenerateElement naming the particles of a hinge that has a triangle
+  /// without area.
   HingeShapes shapes_at(const PerParticle3& x) const;
 
   // the shapes are those at s.x
@@ -147,7 +147,7 @@ struct Bending {
   /// (grad u v)^T + s rate grad u), rate = u.v.
   void add_force_differential(const State& s, ForceDifferential& differential) const;
 
-  /// Adds to rows (N [N/m]) each particle's share of a bound on the elastic stiffness; see
+  /// Adds to rows (N [N/m]) a bound on each particle's row of the elastic stiffness; see
   /// forces/force.h.
   void add_stiffness_bound(const State& s, const HingeShapes& shapes, PerParticle& rows) const;
 };
@@ -156,7 +156,7 @@ struct Bending {
 std::vector<double> hinge_angles(const TriangleMesh& mesh, const PerParticle3& x);
 
 /// One element per hinge, with the given rest angles (H values [rad]). Throws InputError for a
-/// negative or NaN constant, an unknown law, or a wrong number of angles or one outside [-pi, pi].
+/// negative or NaN constant, an unknown law, a wrong number of angles, or one outside [-pi, pi].
 Bending make_bending(const TriangleMesh& mesh, const BendingMaterial& material,
                      const std::vector<double>& rest_angles);
 

@@ -1,5 +1,5 @@
-// How a hinge's forces change with its corners, for the methods that are implicit in the
-// elastic forces too.
+// Derivatives of a hinge's forces with respect to its corners, for the methods that are implicit in
+// the elastic forces too.
 #include "reference/forces/bending.h"
 
 namespace foldproof {

@@ -1,5 +1,5 @@
-// How the bending mode (the second derivative of the angle) and the forces' factors change with the
-// corners, for the fully implicit methods.
+// Derivatives of the bending mode (second derivatives of the angle) and of the forces' factors with
+// respect to the corners, for the fully implicit methods.
 #include <Eigen/Geometry>
 
 #include "reference/forces/bending.h"
@@ -8,7 +8,7 @@ namespace foldproof {
 
 namespace {
 
-/// The matrix of the product w x.
+/// The matrix of the cross product with w: w x.
 Eigen::Matrix3d cross_matrix(const Vector3& w) {
   Eigen::Matrix3d matrix;
   matrix << 0, -w.z(), w.y(), w.z(), 0, -w.x(), -w.y(), w.x(), 0;
@@ -18,7 +18,8 @@ Eigen::Matrix3d cross_matrix(const Vector3& w) {
 using Rows3 = Eigen::Matrix<double, 3, 12>;
 using Row = Eigen::Matrix<double, 1, 12>;
 
-/// How u_k and b_k of one triangle change with x1, x2, x3, x4; k its opposite vertex, 0 or 1.
+/// Derivatives of u_k and b_k of one triangle with respect to x1, x2, x3, x4; k: its opposite
+/// vertex, 0 or 1.
 struct SideGradient {
   Rows3 u;  // [1/m^2]
   Row b;    // [1/m]
@@ -55,8 +56,7 @@ SideGradient side_gradient(const std::array<Vector3, 4>& x, int k) {
   return gradient;
 }
 
-/// How the length of (q - p) x (r - p), n its unit direction, changes with p, q, r: each with the
-/// height over the opposite side.
+/// Adds the derivative of |(q - p) x (r - p)| with respect to p, q, r: n x the side opposite each.
 void add_area_gradient(const std::array<Vector3, 4>& x, const std::array<int, 3>& pqr,
                        Vector12& gradient) {
   const auto at = [&](int k) -> const Vector3& { return x[size_t(pqr[size_t(k)])]; };

@@ -33,12 +33,12 @@ struct HingeDamper {
 
 /// Resists the motion of a particle relative to its place on triangles of cloth, with rank three:
 ///   F = coefficient (J v - v_particle) on the particle, -J^T F on the corners
-/// Without frames the place is at rest: the velocity of a surface that moves by itself enters the
-/// forces that do not depend on v.
+/// Without frames the place counts as at rest: the velocity of a surface with its own motion enters
+/// the forces that do not depend on v.
 struct TargetDamper {
   int particle;
   double coefficient;                 // N s/m
-  std::vector<TriangleFrame> frames;  // J, see there
+  std::vector<TriangleFrame> frames;  // J of triangle_frame.h
 };
 
 struct DampingOperator {
@@ -47,7 +47,7 @@ struct DampingOperator {
   std::vector<TargetDamper> targets;
   std::vector<std::function<void(const PerParticle3& v, PerParticle3& f)>> custom;
 
-  /// Does nothing damp?
+  /// True if there are no dampers.
   bool empty() const {
     return pairs.empty() && hinges.empty() && targets.empty() && custom.empty();
   }

@@ -16,7 +16,7 @@ inline constexpr double Energies::*energy_terms[] = {&Energies::kinetic, &Energi
                                                      &Energies::bending, &Energies::gravity,
                                                      &Energies::custom,  &Energies::sticking};
 
-// A new term must join the list.
+// Add every new term to the list.
 static_assert(sizeof(Energies) == std::size(energy_terms) * sizeof(double));
 
 inline double Energies::total() const {

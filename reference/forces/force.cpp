@@ -25,13 +25,13 @@ void CustomForce::add_force_differential(const State& s, ForceDifferential& sum)
 
 namespace {
 
-/// The latest values of a run, and what they were computed from.
+/// The latest values of a run, and their inputs.
 struct LatestForces {
   PerParticle3 x;  // m
   std::shared_ptr<const Shapes> shapes = {};
   double time = 0;  // s
   std::vector<Bond> bonds = {};
-  Forces forces = {};  // each null until it is asked for
+  Forces forces = {};  // each null until first used
   ForceCounts computed = {};
 };
 
@@ -83,7 +83,7 @@ DampingOperator computed_damping(const std::vector<Force>& forces, const State& 
   return damping;
 }
 
-/// Makes the shapes those at x.
+/// Updates the shapes to x.
 void update(const std::vector<Force>& forces, const PerParticle3& x, LatestForces& latest) {
   if (latest.shapes && are_identical(latest.x, x)) return;
   latest.shapes = nullptr;
@@ -93,7 +93,7 @@ void update(const std::vector<Force>& forces, const PerParticle3& x, LatestForce
   ++latest.computed.shapes;
 }
 
-/// Forgets the forces unless they are those at s.
+/// Discards the forces unless they were computed at s.
 void update(const std::vector<Force>& forces, const State& s, LatestForces& latest) {
   update(forces, s.x, latest);
   if (latest.time != s.time || !are_identical(latest.bonds, s.bonds) ||
@@ -103,7 +103,7 @@ void update(const std::vector<Force>& forces, const State& s, LatestForces& late
   latest.bonds = s.bonds;
 }
 
-/// The values that the run keeps, or `unkept` if it keeps none, brought to s, a state or its x.
+/// The values that the run keeps, or `unkept` if it keeps none, updated to s (a state or its x).
 template <class Where>
 LatestForces& latest_at(const std::vector<Force>& forces, const Where& s, const Work& work,
                         LatestForces& unkept) {

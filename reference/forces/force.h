@@ -49,8 +49,8 @@ struct CustomForce {
 ///   add_bound_without_springs(s, rows),
 ///   shortest_forecast(s)                                      if forecasts stabilise a part
 ///   update_bonds(s)                                           if bonds form and break
-/// A force with shapes receives those at s.x behind s: add_elastic(s, shapes, f) and so on; not
-/// its differentials.
+/// A force with shapes receives the shapes at s.x after s: add_elastic(s, shapes, f) and so on. Its
+/// differentials do not.
 template <class F>
 concept HasShapes = requires(const F force, const PerParticle3 x) {
   force.shapes_at(x);
@@ -87,15 +87,15 @@ void for_each_force(const std::vector<Force>& forces, const State& s, const Shap
         forces[k]);
 }
 
-/// All that a step needs of the forces at one state.
+/// The forces at one state, as a step needs them.
 struct Forces {
   std::shared_ptr<const PerParticle3> elastic;  // 3 x N [N], external forces included
   std::shared_ptr<const DampingOperator> damping;
 };
 
-// All forces at a state. Where the run keeps values (Work::kept), those that it computed last are
-// returned again: shapes for the same x, forces for the same x, time and bonds and without custom
-// forces. `work` counts both alike.
+// All forces at a state. If the run keeps values (Work::kept), the last ones are reused: shapes for
+// the same x; forces for the same x, time and bonds if there are no custom forces. `work` counts
+// both alike.
 std::shared_ptr<const Shapes> shapes_at(const std::vector<Force>& forces, const PerParticle3& x,
                                         const Work& work);
 std::shared_ptr<const DampingOperator> damping_at(const std::vector<Force>& forces, const State& s,
@@ -103,7 +103,7 @@ std::shared_ptr<const DampingOperator> damping_at(const std::vector<Force>& forc
 Forces forces_at(const std::vector<Force>& forces, const State& s, Work& work);
 PerParticle3 elastic_forces(const std::vector<Force>& forces, const State& s, Work& work);
 
-/// How often a run that keeps values has computed them.
+/// Number of times that a run that keeps values has computed them.
 struct ForceCounts {
   long shapes = 0, elastic = 0, damping = 0;
 };

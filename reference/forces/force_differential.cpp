@@ -19,7 +19,7 @@ void add_hinges(const std::vector<HingeStiffness>& hinges, const PerParticle3& d
   for (const HingeStiffness& h : hinges) {
     Vector12 moved;
     for (int k = 0; k < 4; ++k) moved.segment<3>(3 * k) = dx.col(h.particles[size_t(k)]);
-    // in place: Eigen's general product is for larger matrices
+    // in place: Eigen's general product is made for larger matrices
     const Vector12 change = h.block.lazyProduct(moved);
     for (int k = 0; k < 4; ++k) df.col(h.particles[size_t(k)]) += change.segment<3>(3 * k);
   }

@@ -37,7 +37,7 @@ struct ForceDifferential {
   std::vector<PairStiffness> pairs;
   std::vector<HingeStiffness> hinges;
   std::vector<std::function<void(const PerParticle3& dx, PerParticle3& df)>> custom;
-  bool symmetric = true;  // false if any block is not
+  bool symmetric = true;  // false if any block is unsymmetric
 
   /// df += K dx; both 3 x N, dx in m, df in N.
   void add_product(const PerParticle3& dx, PerParticle3& df) const;

@@ -46,7 +46,7 @@ struct StretchSprings {
   static constexpr auto energy_term = &Energies::stretch;
   Elements<Spring> springs;
 
-  /// Its loops run on the team; the number of springs must then stay.
+  /// Its loops run on the team; the number of springs must not change afterwards.
   void set_team(const Team& team, Eigen::Index particles) { springs.divide(team, particles); }
 
   /// At x (3 x N [m]). Throws DegenerateElement when the ends of a spring coincide: its direction
@@ -74,7 +74,7 @@ struct StretchSprings {
   /// (n.dv) I)(I - n n^T)/|d|.
   void add_force_differential(const State& s, ForceDifferential& differential) const;
 
-  /// Adds to rows (N [N/m]) each particle's share of a bound on the elastic stiffness; see
+  /// Adds to rows (N [N/m]) a bound on each particle's row of the elastic stiffness; see
   /// forces/force.h.
   void add_stiffness_bound(const State& s, const SpringShapes& shapes, PerParticle& rows) const;
 };

@@ -35,7 +35,7 @@ Eigen::Vector4d mode_gradient_rows(const HingeShape& shape, const Eigen::Array2d
   return {own[0], own[1], of3[0] + of3[1], of4[0] + of4[1]};
 }
 
-/// The size of the law's slope; the paper's needs no angle.
+/// The size of the law's slope; the paper's law needs no angle.
 double slope_size(const BendingLaw& law, const BendingHinge& hinge, const HingeShape& shape) {
   return law.name == "sine" ? 0.5 * std::sqrt(std::max(0.0, 1 - shape.sin_half * shape.sin_half))
                             : std::abs(law.slope(shape.angle(), hinge.rest_angle));

@@ -13,13 +13,13 @@ namespace {
 /// From 1 at 0 down to 0 at 1 and beyond; flat at both ends. [1]
 double fade(double part) { return part < 1 ? std::pow(1 - part * part, 2) : 0; }
 
-/// k0 at the time t, on the way to the patch's end.
+/// k0 at time t, including the release before the patch's end.
 double stiffness_at(const StickyPatch& patch, double t) {
   if (!(patch.release > 0) || !(t > patch.until - patch.release)) return patch.stiffness;
   return patch.stiffness * fade((t - (patch.until - patch.release)) / patch.release);
 }
 
-/// F [N]: what the spring does to the particle.
+/// F [N]: the force of the spring on the particle.
 Vector3 pull_of(const StickyTarget& target, const State& s) {
   return target.stiffness * (target.x - s.x.col(target.particle));
 }
@@ -35,7 +35,7 @@ Eigen::Matrix3d spring_matrix(const StickyTarget& target, const State& s,
   return target.stiffness * Eigen::Matrix3d::Identity() + stiffness_slope * u * u.transpose();
 }
 
-/// Where the corners of a patch are that moves by itself, and how fast.
+/// Positions and velocities of the corners of a patch that has its own motion.
 struct Surface {
   PerParticle3 x, v;  // m, m/s
 };
@@ -73,7 +73,7 @@ double norm_of_corner(const TriangleFrame& frame, int i) {
 std::vector<StickyTarget> Sticking::targets_at(const State& s) const {
   std::vector<StickyTarget> targets;
   const std::vector<Bond>& bonds = s.bonds;
-  Surface surface;  // of the patch that the bonds at hand stick to
+  Surface surface;  // of the patch of the current bonds
   for (size_t first = 0, end = 0; first < bonds.size(); first = end) {
     const Bond& bond = bonds[first];
     const StickyPatch& patch = patches.at(size_t(bond.patch));
@@ -92,8 +92,7 @@ void Sticking::add_elastic(const State& s, PerParticle3& f) const {
     const Vector3 pull = pull_of(target, s);
     f.col(target.particle) += pull;
     add_corner_forces(target.frames, -pull, f);
-    // what a target that moves by itself adds to the damping does not depend on the
-    // cloth's velocity
+    // the damping from the motion of a surface does not depend on the cloth's velocity
     f.col(target.particle) +=
         target.stiffness * patches[size_t(target.patch)].forecast_time * target.v;
   }

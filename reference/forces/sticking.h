@@ -15,10 +15,10 @@
 // derivative of x_t, which makes the damping symmetric and conserves linear momentum; the damping
 // torque k tau_s (x - x_t) x (v_t - v) remains.
 //
-// Step limits, from the linear problem x'' = -(k/m) (x + tau_s x'): schemes A and B are stable
-// for h < 2/omega, omega^2 = k/m, whatever tau_s. Scheme C is stable for h^2 omega^2 < 4 + 2 h
-// tau_s omega^2: for every h <= 2 tau_s, however stiff, and beyond that for h < tau_s +
-// sqrt(tau_s^2 + 4/omega^2).
+// Step limits, from the linear problem x'' = -(k/m) (x + tau_s x'): schemes A and B are stable for
+// h < 2/omega, omega^2 = k/m, for any tau_s. Scheme C is stable for h^2 omega^2 < 4 + 2 h tau_s
+// omega^2: for every h <= 2 tau_s, however stiff, and beyond that for h < tau_s + sqrt(tau_s^2 +
+// 4/omega^2).
 #pragma once
 
 #include <functional>
@@ -69,9 +69,9 @@ struct Sticking {
 
   /// Breaks and forms bonds, once per step; a second call changes nothing. Bonds of a particle to a
   /// patch break together, when the patch is inactive or beyond `far`. A particle without bonds to
-  /// an active patch bonds with all of its triangles within `near`, at its current place (even in
-  /// the call in which it broke off elsewhere: this is slip). It forms no more bonds while these
-  /// hold. A particle never sticks to a triangle that it is a corner of.
+  /// an active patch bonds with all of its triangles within `near`, at its current place, even if
+  /// it broke off elsewhere in the same call (slip). It forms no more bonds while these hold. A
+  /// particle never sticks to a triangle that it is a corner of.
   void update_bonds(State& s) const;
 
   /// The targets of all bonds of s, in order. Throws DegenerateElement for a triangle without area.
@@ -88,13 +88,13 @@ struct Sticking {
                                 ForceDifferential& differential) const;
   void add_force_differential(const State& s, ForceDifferential& differential) const;
 
-  /// Adds to rows (N [N/m]) each particle's share of a bound on the elastic stiffness; see
-  /// forces/force.h. It covers the springs, and the part that forecasts do not stabilise: frames of
-  /// cloth that turn while springs pull.
+  /// Adds to rows (N [N/m]) a bound on each particle's row of the elastic stiffness; see
+  /// forces/force.h. It covers the springs, and the part that forecasts do not stabilise: cloth
+  /// frames that turn while springs pull on them.
   void add_stiffness_bound(const State& s, PerParticle& rows) const;
   void add_bound_without_springs(const State& s, PerParticle& rows) const;
 
-  /// The shortest tau_s of a patch that has bonds [s]; infinite without any.
+  /// The shortest tau_s of any patch that has bonds [s]; infinite without bonds.
   double shortest_forecast(const State& s) const;
 };
 

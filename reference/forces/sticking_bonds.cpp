@@ -1,4 +1,4 @@
-// Bonds of sticking: they break and form.
+// Breaks and forms the bonds of sticking.
 #include <algorithm>
 #include <set>
 #include <tuple>
@@ -21,7 +21,7 @@ Corners3 corners_at(const PerParticle3& x, const Triangle& triangle) {
   return {x.col(triangle[0]), x.col(triangle[1]), x.col(triangle[2])};
 }
 
-/// A patch where it is now, to be asked what is near.
+/// A patch at its current position, for queries of nearby triangles.
 struct PatchNow {
   const StickyPatch& patch;
   int number;
@@ -62,7 +62,7 @@ void add_bonds_of(const PatchNow& now, const BoxTree& tree, int particle, const 
 
 using Stuck = std::set<std::pair<int, int>>;  // patch and particle
 
-/// New bonds of all particles that may stick to the patch and do not.
+/// New bonds of all particles that may stick to the patch but have no bond to it.
 void add_new_bonds(const PatchNow& now, const State& s, const Stuck& stuck,
                    std::vector<Bond>& bonds) {
   Bounds reach = bounds_of(now.x);

@@ -58,7 +58,7 @@ void add_corner_forces(const std::vector<TriangleFrame>& frames, const Vector3& 
 
 namespace {
 
-/// How a frame turns with its corners' displacements.
+/// The rotation of a frame with its corners' displacements.
 struct Turning {
   Vector3 normal;          // dn
   Eigen::Matrix3d slopes;  // dg

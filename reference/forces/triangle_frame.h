@@ -29,8 +29,8 @@ struct TriangleFrame {
 /// triangle has no area.
 Vector3 local_place(const Corners3& corners, const Vector3& p);
 
-/// The frame of a triangle with that place, scaled by `part`: 1/B for one of B. The triangle must
-/// have nonzero area.
+/// The frame of a triangle with that place, scaled by `part`: 1/B for one of B places. The triangle
+/// must have nonzero area.
 TriangleFrame frame_of(const std::array<int, 3>& particles, const PerParticle3& x,
                        const Vector3& place, double part);
 

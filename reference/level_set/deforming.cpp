@@ -8,7 +8,7 @@ namespace foldproof {
 
 namespace {
 
-/// Two frames and the time between them; `next` is null where the body rests.
+/// Two frames and the time between them; `next` is null while the body rests.
 struct Interval {
   const DeformingFrame *now, *next;
   double part;      // 0 at `now`, 1 at `next`
@@ -27,7 +27,7 @@ Interval interval_at(const DeformingBody& body, double t) {
   return {&now, &*next, (t - now.time) / duration, duration};
 }
 
-/// The trilinear displacement at p; beyond the cube that of its nearest point.
+/// The trilinear displacement at p; outside the cube, at the cube's nearest point.
 Vector3 displacement_at(const Octree& tree, const std::vector<BranchNodes<Vector3>>& nodes,
                         const Vector3& p) {
   const OctreeSettings& cube = tree.settings;
@@ -49,10 +49,10 @@ struct Origin {
   Vector3 place, displacement;
 };
 
-/// A frame's displacement u over the whole interval, at the place X that a share of it takes to p:
+/// The place X that a fraction `share` of a frame's displacement u takes to p, and u there:
 ///   X + share u(X) = p
-/// share: s for the interval's first frame, s - 1 for its last. By iteration, which contracts where
-/// neighbouring points move by less than their distance.
+/// share: s for the interval's first frame, s - 1 for its last. The iteration converges where
+/// neighbouring points move apart or together by less than their distance.
 Origin origin_of(const Octree& tree, const std::vector<BranchNodes<Vector3>>& u, const Vector3& p,
                  double share) {
   constexpr int most = 50;

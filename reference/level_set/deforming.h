@@ -25,7 +25,7 @@ struct MeshSequence {
 /// Position at time t [s] of the point whose rest position is X.
 using Deformation = std::function<Vector3(const Vector3& X, double t)>;
 
-/// The mesh carried through a deformation, a frame at each of the times.
+/// The mesh carried through a deformation, one frame per time.
 MeshSequence deformed_mesh(const TriangleMesh& mesh, const Deformation& deformation,
                            std::vector<double> times);
 
@@ -33,20 +33,20 @@ MeshSequence deformed_mesh(const TriangleMesh& mesh, const Deformation& deformat
 PerParticle3 positions_at(const MeshSequence& sequence, double t);
 
 /// All files *.obj of a folder in the order of their names, `interval` [s] apart from time 0 on.
-/// Throws InputError naming the file: none, more than `most`, one whose triangles differ from the
-/// first's, what read_obj refuses.
+/// Throws InputError naming the file: no file, more than `most`, triangles that differ from the
+/// first file's, or a file that read_obj refuses.
 MeshSequence read_obj_sequence(const std::string& folder, double interval, long most = 1000);
 
-/// A frame's level set. The displacement at a node is that of the nearest surface point, so it is
-/// constant along N.
+/// A frame's level set. A node has the displacement of the nearest surface point, so it is constant
+/// along N.
 struct DeformingFrame {
   double time;  // s
   Octree field;
-  // one a branch, up to the next frame; last frame: none [m]
+  // per branch, to the next frame; empty for the last frame [m]
   std::vector<BranchNodes<Vector3>> to_next;
-  // one a branch, since the frame before; first: none [m]
+  // per branch, from the frame before; empty for the first [m]
   std::vector<BranchNodes<Vector3>> from_previous;
-  // during the build: distinct nodes, and nodes whose nearest point was searched
+  // during the build: distinct nodes, and nodes with a search for the nearest point
   long nodes = 0, searches = 0;
 };
 
@@ -55,7 +55,7 @@ enum class BetweenFrames {
   // both linearly in time, at the point: a body that moves by more than its size
   // vanishes in between
   blended,
-  // linearly in time, between the places that the point's own motion takes it to at the two frames
+  // linearly in time, between the places where the point's own motion puts it at the two frames
   carried
 };
 
@@ -66,10 +66,10 @@ struct DeformingBody {
 
 /// Level sets of every frame, as octrees that cover the cube of the settings. Within the settings'
 /// band around the surface a node's value is exact. Beyond it a frame reuses the nearest points of
-/// the previous frame where they are still close enough: there |phi| may be too large by half of a
-/// cell's allowed error, beyond (|phi| - band)/2, and the displacement is that of the reused point.
-/// Throws what make_octree throws, and InputError for a sequence without frames, with times that do
-/// not rise or numbers of vertices that differ. The same bits for every team.
+/// the previous frame while they are close enough. There |phi| may be too large by half of a cell's
+/// allowed error, beyond (|phi| - band)/2, and the displacement is the reused point's. Throws what
+/// make_octree throws, and InputError for a sequence without frames, with times that do not rise or
+/// numbers of vertices that differ. The same bits for every team.
 DeformingBody make_deforming_body(const MeshSequence& sequence, const OctreeSettings& settings,
                                   BetweenFrames between, const Team& team = {});
 

@@ -16,7 +16,7 @@ namespace foldproof {
 
 namespace {
 
-/// The weights of the triangle's corners at a point of it.
+/// The barycentric weights of a point of the triangle.
 Vector3 barycentric(const Corners3& corners, const Vector3& p) {
   const Vector3 ab = corners[1] - corners[0], ac = corners[2] - corners[0], ap = p - corners[0];
   const double bb = ab.squaredNorm(), bc = ab.dot(ac), cc = ac.squaredNorm();
@@ -37,29 +37,29 @@ Vector3 at_point_of(const Triangle& t, const Vector3& weight, const PerParticle3
 /// Data of a node: its distance, and the surface point that it refers to.
 struct NodeValue {
   double phi;  // m
-  // |phi| is at least this; less than measured where the point is kept from the frame before [m]
+  // lower bound on |phi|; below the measured one if the point is kept from the frame before [m]
   double least;
   int triangle;    // of the sequence
   Vector3 weight;  // of the triangle's corners, at the point
 };
 
-/// The share of what a cell may miss beyond the band by which a kept value may be too large.
+/// The fraction of a cell's allowed error beyond the band by which a kept value may be too large.
 constexpr double kept_share = 0.5;
 
-/// The values at the nodes of a frame's octree, each found once: every cell about a node asks for
-/// it anew, and so do the displacements once the octree stands.
+/// The values at the nodes of a frame's octree, each computed once: every cell around a node
+/// requests it, and so do the displacements once the octree is complete.
 ///
-/// In the band the nearest point is looked for. Beyond it the point that was nearest in the frame
-/// before, moved along with the mesh, is kept if nothing is nearer by more than the share: to see
-/// that is a short search, which ends at every box that is farther away. The sign is the frame
-/// before's if the surface was farther than it has moved. Several threads may ask at once.
+/// In the band the nearest point is searched for. Beyond it the nearest point of the frame before,
+/// moved with the mesh, is kept unless another is nearer by more than kept_share allows. That test
+/// is a short search, which skips every box farther away. The sign of the frame before is kept if
+/// the surface was farther away than it has moved. Several threads may query at once.
 class NodeValues {
  public:
   NodeValues(const MeshSequence& sequence, std::size_t frame, const OctreeSettings& settings)
       : mesh_(make_mesh_distance(sequence.positions[frame], sequence.triangles)),
         settings_(settings) {}
 
-  /// `displacement`: the farthest that a vertex has moved since the frame before [m].
+  /// displacement: the farthest that any vertex has moved since the frame before [m].
   void follow(const NodeValues& before, double displacement) {
     before_ = &before.known_;
     displacement_ = displacement;
@@ -101,8 +101,8 @@ class NodeValues {
     const Triangle& t = mesh_.triangles[old.triangle];
     const double most = (p - at_point_of(t, old.weight, mesh_.x)).norm();
     const double share = kept_share * settings_.beyond;
-    // most - least = share (least - band); in the band least is above most, and the search finds
-    // the nearest point
+    // most - least = share (least - band); in the band least exceeds most, so the search finds the
+    // nearest point
     const double least = (most + share * settings_.band) / (1 + share);
     const NearestFeature nearer = nearest_feature(mesh_, p, least);
     if (nearer.triangle >= 0) return value_at(p, nearer);
@@ -140,7 +140,7 @@ std::vector<BranchNodes<Vector3>> node_displacements(const Octree& tree, NodeVal
 DeformingFrame make_frame(const MeshSequence& sequence, std::size_t k, NodeValues& values,
                           const OctreeSettings& settings, const Team& team) {
   const DistanceFunction distance = [&](const Vector3& p) {
-    return Distance{values.at(p).phi, Vector3::Zero()};  // the octree takes no directions
+    return Distance{values.at(p).phi, Vector3::Zero()};  // the octree does not use directions
   };
   DeformingFrame frame{sequence.times[k], make_octree({distance}, settings, team), {}, {}, 0, 0};
   if (k + 1 < sequence.times.size())

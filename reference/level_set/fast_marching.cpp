@@ -14,8 +14,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// A trial value that waits for its turn. Nearest first, then by index, so that the order is the
-/// same each time.
+/// A trial value in the queue. Nearest first, then by index, so that the order is reproducible.
 struct Trial {
   double distance;  // |phi| [m]
   int node;
@@ -33,7 +32,7 @@ struct Upwind {
 struct March {
   Grid grid;  // |phi| with the side's sign; +-infinity: unknown
   MarchingOrder order;
-  std::vector<std::uint8_t> known;  // a flag a node
+  std::vector<std::uint8_t> known;  // one flag per node
   std::priority_queue<Trial, std::vector<Trial>, std::greater<Trial>> front;
 };
 
@@ -65,9 +64,9 @@ Upwind upwind(const March& march, const Node& node, int axis, double sign) {
   return {nearest, per_h2};
 }
 
-/// The larger root T of sum weight (T - value)^2 = 1 over the axes; those whose value lies at T or
-/// beyond are no upwind ones and are left out, the farthest first. Values count from the nearest,
-/// so that nothing large cancels.
+/// The larger root T of sum weight (T - value)^2 = 1 over the axes; axes with a value at or beyond
+/// T are not upwind and are left out, the farthest first. Values are measured from the nearest, so
+/// that nothing large cancels.
 double solve(std::array<Upwind, 3> axes) {
   std::sort(axes.begin(), axes.end(),
             [](const Upwind& a, const Upwind& b) { return a.value < b.value; });
@@ -145,7 +144,7 @@ Grid march(const Lattice& lattice, const Seeds& seeds, MarchingOrder order) {
   while (!march.front.empty()) {
     const Trial next = march.front.top();
     march.front.pop();
-    // a value that was replaced since it was put in line
+    // a value that has been replaced since it was queued
     if (march.known[next.node] || next.distance != std::abs(march.grid.phi[next.node])) continue;
     march.known[next.node] = 1;
     update_neighbours(march, next.node);

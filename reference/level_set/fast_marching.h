@@ -17,8 +17,8 @@ struct Seeds {
 enum class MarchingOrder { first, second };
 
 /// Solves |grad phi| = 1 outward from the seeds on both sides, nodes in the order of their
-/// distance. The seeds keep their values; they must separate inside from outside: no node outside
-/// of them has neighbours of both signs (a seed on the surface counts as inside if its phi is -0).
+/// distance. The seeds keep their values; they must separate inside from outside: no other node has
+/// neighbours of both signs (a seed on the surface counts as inside if its phi is -0).
 ///
 /// first: upwind differences over one cell: O(h) (h log h in the largest error).
 /// second: over two cells where both nodes are known and nearer to the surface, else over

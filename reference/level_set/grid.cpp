@@ -9,9 +9,9 @@ namespace foldproof {
 
 namespace {
 
-constexpr int rounds = 6;  // of the search for what is nearest to a point beyond the lattice
+constexpr int rounds = 6;  // of the search from a point beyond the lattice
 
-/// The cell that holds a point, and where in it the point is.
+/// The cell that holds a point, and the place of the point in it.
 struct Place {
   Node cell;       // its lowest node
   Vector3 within;  // in [0, 1] along each axis
@@ -61,7 +61,7 @@ Slope slope_along(const Lattice& lattice, int axis, const Place& place) {
           {-at_lower, -at_upper, at_lower, at_upper}};
 }
 
-/// The part of the way that leads to p which lies outside of the bounds; it begins inside.
+/// The fraction of the displacement to p that lies outside the bounds; it starts inside.
 double share_outside(const Bounds& bounds, const Vector3& p, const Vector3& displacement) {
   double share = 0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -110,7 +110,7 @@ Bounds Lattice::bounds() const {
 }
 
 Lattice lattice_about(const Bounds& bounds, int cells, int margin) {
-  constexpr int most = 1 << 20;  // so that the nodes along a side are an int
+  constexpr int most = 1 << 20;  // so that the number of nodes along a side fits an int
   if (cells < 4 || margin < 1 || cells > most || margin > most)
     throw InputError("grid: " + std::to_string(cells) +
                      " cells along the longest side and a margin of " + std::to_string(margin) +
@@ -122,7 +122,7 @@ Lattice lattice_about(const Bounds& bounds, int cells, int margin) {
   const double spacing = sizes.maxCoeff() / cells;
   Lattice lattice{Vector3::Zero(), spacing, {}};
   for (int axis = 0; axis < 3; ++axis) {
-    // an amount that rounding alone puts above a whole number of cells does not ask for one more
+    // an amount above a whole number of cells by rounding alone does not add a cell
     const int across = std::max(1, int(std::ceil(sizes[axis] / spacing - 1e-9)));
     lattice.nodes[axis] = across + 2 * margin + 1;
     lattice.origin[axis] = bounds.center()[axis] - spacing * (across + 2 * margin) / 2;
@@ -134,9 +134,9 @@ Lattice lattice_about(const Bounds& bounds, int cells, int margin) {
   return lattice;
 }
 
-// Beyond the lattice: q on its border names the surface point s = q - phi N. Where the way from s
-// to p leaves the lattice is a better q: |p - s| never grows, and stands still where s is a
-// nearest point of p.
+// Beyond the lattice: q on its border gives the surface point s = q - phi N. The point where the
+// line from s to p leaves the lattice is a better q: |p - s| never grows, and stops shrinking where
+// s is a nearest point of p.
 Distance Grid::at(const Vector3& p) const {
   const Bounds bounds = lattice.bounds();
   if (bounds.contains(p)) return blend_gradients(*this, p);

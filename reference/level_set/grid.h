@@ -42,9 +42,10 @@ struct Grid {
   std::vector<double> phi;  // at the nodes, in the order of Lattice::index [m]
 
   /// Inside the lattice: the trilinear value, and the trilinear blend of the nodes' central
-  /// differences (one- sided at the lattice's border), made a unit vector. Outside: the distance to
-  /// a surface point found by a few search steps from the border; never less than the true distance
-  /// except for the grid's own error, and continuous at the border. NaN for p that is not finite.
+  /// differences (one-sided at the lattice's border), made a unit vector. Outside: the distance to
+  /// a surface point found by a few search steps from the border. It is continuous at the border,
+  /// and never less than the true distance except for the grid's own error. NaN for p that is not
+  /// finite.
   Distance at(const Vector3& p) const;
   /// The trilinear value and the gradient of the trilinear interpolant, which jumps from cell to
   /// cell and is not made a unit vector. p must be in the lattice's bounds.

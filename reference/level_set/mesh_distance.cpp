@@ -10,10 +10,10 @@ namespace foldproof {
 namespace {
 
 constexpr int leaf_size = 4;
-// of a median-cut tree over fewer than 2^31 items, with room for both children
+// stack for a median-cut tree over fewer than 2^31 items, with room for both children
 constexpr int deepest = 64;
 
-/// A unit vector, or zero for what has no direction.
+/// The unit vector along a vector, or zero for zero.
 Vector3 unit(const Vector3& v) {
   const double length = v.norm();
   return length > 0 ? Vector3(v / length) : Vector3(Vector3::Zero());
@@ -84,7 +84,7 @@ MeshDistance make_mesh_distance(PerParticle3 x, std::vector<Triangle> triangles)
   return mesh;
 }
 
-// Nodes are visited nearest first; a node farther away than what was found is left out.
+// Nodes are visited nearest first; a node farther away than the nearest feature found is skipped.
 NearestFeature nearest_feature(const MeshDistance& mesh, const Vector3& p, double bound) {
   struct Waiting {
     int node;

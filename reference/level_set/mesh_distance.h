@@ -13,11 +13,10 @@
 
 namespace foldproof {
 
-/// A mesh prepared for queries. The sign is that of (p - nearest point) . n with n the normal of
-/// the nearest feature: the face's, the sum of both faces' at an edge, the sum weighted by the
-/// angles of the corners at a vertex (Baerentzen and Aanaes 2005). This sign is correct everywhere
-/// on a closed, consistently oriented surface without self-intersections, but not on other
-/// surfaces, see bodies/closed_mesh.h.
+/// A mesh prepared for queries. The sign is the sign of (p - nearest point) . n (Baerentzen and
+/// Aanaes 2005): n is the face normal, at an edge the sum of both, at a vertex their angle-weighted
+/// sum. This sign is correct everywhere on a closed, consistently oriented surface without
+/// self-intersections, but not on other surfaces, see bodies/closed_mesh.h.
 ///
 /// Accuracy: |phi| to a few roundings of |p| and of the mesh's extent. Closer than that the
 /// sign is undefined.
@@ -33,12 +32,11 @@ struct MeshDistance {
   Distance at(const Vector3& p) const;
 };
 
-/// x: 3 x N [m]; zero-area triangles are never nearest by their face, and have no
-/// weight in normals.
+/// x: 3 x N [m]; the face of a zero-area triangle is never nearest and has no weight in normals.
 MeshDistance make_mesh_distance(PerParticle3 x, std::vector<Triangle> triangles);
 
-/// The nearest feature closer than `bound` [m]; of several at one distance, the one found
-/// first in the tree.
+/// The nearest feature closer than `bound` [m]; among several at the same distance, the first in
+/// the tree.
 NearestFeature nearest_feature(const MeshDistance& mesh, const Vector3& p, double bound);
 
 /// The signed distance to a nearest feature that was found.

@@ -9,7 +9,7 @@
 
 namespace foldproof {
 
-/// How a grid about a mesh is laid out and filled.
+/// Layout of a grid around a mesh, and how it is filled.
 struct GridMethod {
   int cells;            // along the longest side of the mesh's bounds
   int margin;           // cells around the bounds

@@ -18,7 +18,7 @@ struct Seed {
   double phi;  // m
 };
 
-/// Is any node of the block that begins at `first` possibly closer than `width` [m]?
+/// May any node of the block that begins at `first` be closer than `width` [m]?
 bool is_near(const MeshDistance& mesh, const Lattice& lattice, const Node& first, double width) {
   const Vector3 half = Vector3::Constant(0.5 * (block - 1) * lattice.spacing);
   return nearest_feature(mesh, lattice.position(first) + half, width + half.norm()).triangle >= 0;
@@ -33,7 +33,7 @@ void add_row(const MeshDistance& mesh, const Lattice& lattice, Node node, double
   for (; node[0] < end; ++node[0]) {
     const Vector3 p = lattice.position(node);
     const NearestFeature nearest = nearest_feature(mesh, p, bound);
-    if (nearest.triangle < 0) continue;  // the bound is the width
+    if (nearest.triangle < 0) continue;  // the bound was the width
     const double phi = signed_distance(mesh, nearest, p).phi;
     bound = std::min(width, std::abs(phi) + 1.001 * lattice.spacing);
     seeds.push_back({lattice.index(node), phi});
@@ -48,7 +48,7 @@ void add_block(const MeshDistance& mesh, const Lattice& lattice, const Node& fir
 }
 
 /// The first nodes of all blocks that may hold a node of the band, in order. They are found first
-/// because most blocks hold none: the others are then divided evenly.
+/// because most blocks hold none: the rest can then be divided evenly.
 std::vector<Node> near_blocks(const MeshDistance& mesh, const Lattice& lattice, double width,
                               const Team& team) {
   Node count;  // of blocks along each axis
@@ -70,8 +70,8 @@ Seeds narrow_band(const MeshDistance& mesh, const Lattice& lattice, double cells
                   const Team& team) {
   if (!(cells >= 1))
     throw InputError("narrow_band: " + std::to_string(cells) + " cells; give at least 1");
-  // a little more than asked for, so that neighbours of a node on the surface are in a
-  // band of one cell
+  // slightly wider than requested, so that neighbours of a node on the surface are in a band of one
+  // cell
   const double width = (1 + 1e-12) * cells * lattice.spacing;
   const std::vector<Node> blocks = near_blocks(mesh, lattice, width, team);
   const auto add_blocks = [&](Eigen::Index first, Eigen::Index count, std::vector<Seed>& found) {

@@ -26,8 +26,8 @@ RigidOverSpan RigidObject::over(const Span& span) const {
 }
 
 ObjectPoint RigidOverSpan::at(const Vector3& p) const {
-  // by columns: pairs of coordinates are written at once, as they are read; of single ones the
-  // reader would wait
+  // by columns: coordinates are written in pairs, as they are read; single writes would stall the
+  // read
   const Vector3 away = p - translation;
   const Distance distance =
       distance_to(*solid, inverse_rotation.col(0) * away.x() + inverse_rotation.col(1) * away.y() +

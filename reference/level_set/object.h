@@ -15,19 +15,19 @@
 
 namespace foldproof {
 
-/// The times between which a velocity moves the cloth; start == end for a velocity that
-/// only ends a step.
+/// The time span over which a velocity moves the cloth; start == end for a velocity that only ends
+/// a step.
 struct Span {
   double start, end;  // s
-  double step;        // of the step that it belongs to [s]
+  double step;        // length of the step that the span belongs to [s]
 };
 
 /// Answer of an object to a query at a point of the world.
 struct ObjectPoint {
   double phi = std::numeric_limits<double>::infinity();  // at the span's start, negative inside [m]
   Vector3 normal = Vector3::Zero();                      // N, outward, at the span's start [1]
-  // v of the object there [m/s]: the mean over the span, so that a point that takes it rides along
-  // exactly; for a span of zero length, the velocity at that time
+  // v of the object there [m/s]: the mean over the span, so that a point with this velocity moves
+  // exactly with the object; for a span of zero length, the velocity at that time
   Vector3 velocity = Vector3::Zero();
   int part = -1;        // index of the object; -1: none
   double friction = 0;  // mu, of that object [1]

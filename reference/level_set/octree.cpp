@@ -24,8 +24,7 @@ Distance distance_in(const Octree& tree, int channel, const OctreeLeaf& leaf) {
   return distance_of(trilinear(tree.phi[channel], leaf.child, leaf.local));
 }
 
-/// A distance at q, the cube's nearest point to p, carried on to p: that of the surface point
-/// that it tells of.
+/// The distance of p from the surface point q - phi N, where q is the nearest point of the cube.
 Distance beyond_cube(const Distance& at_q, const Vector3& q, const Vector3& p) {
   const Vector3 away = p - (q - at_q.phi * at_q.normal);
   const double phi = away.norm();
@@ -53,7 +52,7 @@ OctreeLeaf leaf_at(const Octree& tree, const Vector3& p) {
   const Vector3 scaled = (p - cube.corner) * (1 / cube.width);
   std::array<int, 3> finest;
   for (int axis = 0; axis < 3; ++axis) {
-    // that of a NaN is as good as any: what is interpolated there is NaN
+    // for a NaN any cell will do: the interpolated value is NaN
     const double place = scaled[axis] * cells;
     finest[axis] = place >= cells ? cells - 1 : place > 0 ? int(place) : 0;
   }

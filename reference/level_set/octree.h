@@ -24,7 +24,7 @@ enum class HangingNodes {
   free          // it keeps its own value: phi jumps there
 };
 
-/// How finely to sample.
+/// Sampling density and error tolerances.
 struct OctreeSettings {
   Vector3 corner;     // lowest corner of the covered cube [m]
   double width;       // of the cube [m]
@@ -34,7 +34,7 @@ struct OctreeSettings {
   double tolerance;
   double band;    // of |phi| [m]
   double beyond;  // additional allowed error per distance beyond the band [1]
-  double reach;   // unions: parts nearer than this are stored besides the nearest one [m]
+  double reach;   // unions: parts nearer than this are stored in addition to the nearest one [m]
   HangingNodes hanging;
 };
 
@@ -42,8 +42,8 @@ struct OctreeSettings {
 template <class T>
 using BranchNodes = std::array<T, 27>;
 
-/// A cell that is split in eight. Child c is at the upper half along x, y, z if its bits
-/// 0, 1, 2 are set.
+/// A cell that is split into eight. Child c is at the upper half along x, y, z if its bits 0, 1, 2
+/// are set.
 struct OctreeBranch {
   int children;  // the first of its children that are branches; the others follow in the order of c
   int channels;  // the first of its channels
@@ -74,12 +74,12 @@ struct Octree {
 };
 
 /// Covers the union of bodies, which must lie inside the cube. Within the band the interpolation
-/// error is at most the tolerance at the edge, face and cell midpoints where it was tested, unless
-/// the cells there are the finest; beyond the band, `beyond` times the distance is added. A
-/// constrained node adds the error of its coarse neighbour. Neighbours, also across edges and
-/// corners, differ by one level at most. Throws InputError: no bodies, a setting out of range, a
-/// body that reaches the cube's boundary. The bodies are asked from several threads at once if the
-/// team has them, for the same bits.
+/// error at the tested points (edge, face and cell midpoints) is at most the tolerance, unless the
+/// cells there are the finest. Beyond the band, `beyond` times the distance is added. A constrained
+/// node adds the error of its coarse neighbour. Neighbours, also across edges and corners, differ
+/// by one level at most. Throws InputError: no bodies, a setting out of range, a body that reaches
+/// the cube's boundary. Several threads of the team query the bodies at once; the bits are the same
+/// for every team.
 Octree make_octree(const std::vector<DistanceFunction>& bodies, const OctreeSettings& settings,
                    const Team& team = {});
 
@@ -105,8 +105,8 @@ struct NearestParts {
   int inside = 0;  // number of parts that contain the point; two or more: pinched
 };
 
-/// p anywhere; outside of the cube distances are measured from the surface point below the
-/// cube's nearest point.
+/// p anywhere; outside the cube, distances are measured from the surface point below the cube's
+/// nearest point.
 NearestParts nearest_parts(const Octree& tree, const Vector3& p);
 
 /// A node of the union: its nearest part, and whether two or more parts contain it.

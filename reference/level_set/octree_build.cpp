@@ -23,8 +23,7 @@ void require_usable(const OctreeSettings& settings) {
   require(settings.reach >= 0, "the reach must not be negative");
 }
 
-/// Appends the branch to the tree, with the channels that are worth keeping; its
-/// children are set later.
+/// Appends the branch to the tree, with the channels that it needs; its children are set later.
 void append(Octree& tree, const OctreeGrowth& growth, const GrowingBranch& branch) {
   const auto first = growth.phi.begin() + branch.channels;
   const std::vector<BranchNodes<double>> phi(first, first + branch.parts);
@@ -38,7 +37,8 @@ void append(Octree& tree, const OctreeGrowth& growth, const GrowingBranch& branc
       {0, channels, 0, static_cast<unsigned char>(int(tree.part.size()) - channels)});
 }
 
-/// The grown branches, children side by side behind those of the branches before.
+/// The branches reordered: the children of each side by side, after the children of earlier
+/// branches.
 Octree laid_out(const OctreeGrowth& growth) {
   Octree tree{growth.settings, {}, {}, {}, growth.evaluations};
   std::vector<int> order = {0};

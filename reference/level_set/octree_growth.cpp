@@ -10,7 +10,7 @@ namespace foldproof {
 namespace {
 
 constexpr int centre = 13;                      // of the nodes of a branch
-constexpr std::size_t most_branches = 1 << 24;  // about 5 GB while they grow
+constexpr std::size_t most_branches = 1 << 24;  // about 5 GB during the build
 constexpr std::size_t batch = 1024;             // branches whose children are found at once
 
 double cell_width(const OctreeSettings& settings, int level) {
@@ -56,7 +56,7 @@ int add_branch(OctreeGrowth& growth, const OctreePlace& place, const Samples& sa
 using FineNodes = std::array<double, 125>;
 constexpr long unknown_fine_nodes = 125 - 27;
 
-/// Those at the branch's own nodes are known; the others are asked for.
+/// Values at the branch's own nodes are known; the others are evaluated.
 FineNodes fine_nodes(const OctreeGrowth& growth, const OctreePlace& place, int channel) {
   FineNodes fine;
   const auto& [cx, cy, cz] = place.cell;
@@ -74,7 +74,7 @@ FineNodes fine_nodes(const OctreeGrowth& growth, const OctreePlace& place, int c
   return fine;
 }
 
-/// The part of the fine nodes that child c would have as a branch.
+/// The fine nodes that child c would have as a branch.
 BranchNodes<double> nodes_of_child(const FineNodes& fine, int c) {
   BranchNodes<double> nodes;
   const int first = 2 * (c & 1) + 10 * (c >> 1 & 1) + 50 * (c >> 2);
@@ -82,8 +82,8 @@ BranchNodes<double> nodes_of_child(const FineNodes& fine, int c) {
   return nodes;
 }
 
-/// Which bodies may be nearest, or within reach, somewhere in the cell: a distance changes by no
-/// more than the way.
+/// The bodies that may be nearest, or within reach, somewhere in the cell: a distance changes by at
+/// most the distance moved.
 Samples near_parts(const Samples& samples, const OctreeSettings& settings, int level) {
   const double half_width = half_diagonal(settings, level);
   double nearest = samples.phi[0][centre];
@@ -97,7 +97,7 @@ Samples near_parts(const Samples& samples, const OctreeSettings& settings, int l
   return near;
 }
 
-/// Does the interpolant of a leaf with these corners miss the other nodes by more than is allowed?
+/// Is the interpolant of a leaf with these corners off at the other nodes by more than is allowed?
 bool is_missed(const BranchNodes<double>& phi, const OctreeSettings& settings) {
   for (int n = 0; n < 27; ++n) {
     const double allowed =
@@ -181,8 +181,8 @@ void make_cell(OctreeGrowth& growth, const OctreePlace& place) {
   }
 }
 
-/// The 26 cells about a branch have its width, or are split. Its place comes as a copy: new
-/// branches may move all others.
+/// Splits until the 26 cells around a branch are no wider than it. Its place is passed by value:
+/// new branches may move all others.
 void make_neighbours(OctreeGrowth& growth, OctreePlace place) {
   for (int d = 0; d < 27; ++d) {
     OctreePlace next = place;
@@ -194,7 +194,7 @@ void make_neighbours(OctreeGrowth& growth, OctreePlace place) {
   }
 }
 
-/// Nowhere farther at the nodes, and so nowhere between them.
+/// Not farther at any node, and so nowhere between them.
 bool is_in_front(const BranchNodes<double>& one, const BranchNodes<double>& other) {
   for (std::size_t n = 0; n < one.size(); ++n)
     if (!(one[n] <= other[n])) return false;

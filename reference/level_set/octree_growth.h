@@ -26,12 +26,12 @@ struct OctreeGrowth {
   long evaluations = 0;
 };
 
-/// Splits cells, from the whole cube down, until the settings are met; asks the bodies from all
-/// threads of the team at once.
+/// Splits cells, from the whole cube down, until the settings are met; all threads of the team
+/// query the bodies at once.
 OctreeGrowth grow_octree(const std::vector<DistanceFunction>& bodies,
                          const OctreeSettings& settings, const Team& team);
 
-/// Splits leaves that touch, be it at a corner, cells more than one level finer.
+/// Splits leaves that touch cells more than one level finer, even only at a corner.
 void balance(OctreeGrowth& growth);
 
 /// True if a part needs a channel: it is nearer than the reach at one of the nodes, or no single

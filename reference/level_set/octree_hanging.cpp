@@ -7,7 +7,7 @@ namespace {
 
 using Cell = std::array<int, 3>;
 
-/// Is the cell of this level a leaf? False outside of the cube.
+/// Is the cell of this level a leaf, or inside one? False outside the cube.
 bool is_leaf(const Octree& tree, int level, const Cell& cell) {
   for (int axis : cell)
     if (axis < 0 || axis >= 1 << level) return false;
@@ -28,9 +28,9 @@ Cell neighbour(const Cell& cell, int d) {
   return {cell[0] + d % 3 - 1, cell[1] + d / 3 % 3 - 1, cell[2] + d / 9 - 1};
 }
 
-/// Bit d: the node n in the middle of an edge or a face lies on the neighbour in direction d,
-/// which is n's own direction or, for an edge, that of one of its two faces. 0 for corners
-/// and the centre.
+/// Bit d: node n, in the middle of an edge or a face, lies on the neighbour in direction d. These
+/// are n's own direction and, for an edge, the directions of its two faces. 0 for corners and the
+/// centre.
 std::uint32_t neighbours_at(int n) {
   const std::array<int, 3> along = {n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1};
   constexpr std::array<int, 3> step = {1, 3, 9};

@@ -11,11 +11,11 @@ namespace foldproof {
 /// Answer of a solid at a point.
 struct Distance {
   double phi;  // signed distance to its surface, negative inside [m]
-  // N = grad phi, outward, a unit vector; where phi has a kink, that of one of its sides
+  // N = grad phi, outward, a unit vector; at a kink of phi, the normal of one side
   Vector3 normal;
 };
 
-/// A solid is anything that answers with its signed distance.
+/// A solid is anything that returns its signed distance.
 template <class S>
 concept SignedDistance = requires(const S solid, Vector3 p) {
   { solid.at(p) } -> std::same_as<Distance>;

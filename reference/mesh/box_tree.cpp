@@ -24,7 +24,7 @@ Bounds Builder::bounds(int first, int count) const {
   return all;
 }
 
-/// The axis along which the centres lie farthest apart.
+/// The axis along which the centres spread farthest.
 int Builder::longest_side(int first, int count) const {
   Bounds spread;
   for (int i = first; i < first + count; ++i) spread.extend(centres[tree.order[i]]);
@@ -33,8 +33,8 @@ int Builder::longest_side(int first, int count) const {
   return int(axis);
 }
 
-/// Appends the node over these items and all below it; its index. Ties are broken by the
-/// items' numbers.
+/// Appends the node over these items and all nodes below it; returns its index. Ties are broken by
+/// the items' numbers.
 int Builder::add(int first, int count) {
   const int node = int(tree.nodes.size());
   tree.nodes.push_back({bounds(first, count), first, count, -1});

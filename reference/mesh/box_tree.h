@@ -21,11 +21,12 @@ struct BoxNode {
 
 struct BoxTree {
   std::vector<BoxNode> nodes;  // depth first; the root is nodes[0]
-  std::vector<int> order;      // M: the items, those of every node side by side
+  std::vector<int> order;      // M: the items; those of a node are contiguous
 };
 
-/// A tree over M boxes (at least one), each node cut at the median of the centres along the longest
-/// side of their bounds; leaves hold at most `leaf` items. The same boxes give the same tree.
+/// A tree over M boxes (at least one), each node split at the median of the centres along the
+/// longest side of their bounds; leaves hold at most `leaf` items. The same boxes give the same
+/// tree.
 BoxTree make_box_tree(const std::vector<Bounds>& boxes, int leaf);
 
 /// The bounds of each triangle at the positions x (3 x N [m]).

@@ -51,8 +51,8 @@ void reject_coincident(const std::vector<GridPoint>& grid) {
   }
 }
 
-/// Higher than two units of the grid: rounding (0.71 units a point) cannot have turned such
-/// a triangle over.
+/// Higher than two units of the grid: rounding (0.71 units per point) cannot have flipped such a
+/// triangle.
 bool is_high(const std::vector<GridPoint>& grid, const Triangle& triangle) {
   const auto side = [&grid](int from, int to) {
     return std::array<std::int64_t, 2>{std::int64_t(grid[to].x()) - grid[from].x(),

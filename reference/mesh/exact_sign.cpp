@@ -9,8 +9,8 @@ namespace foldproof {
 
 namespace {
 
-// A number as the exact sum of doubles, in rising size, whose bits do not overlap. All steps
-// below are exact:
+// A number as the exact sum of doubles in ascending size whose bits do not overlap. All steps below
+// are exact:
 //   a + b = s + e with s = fl(a + b), e = (a - (s - z)) + (b - z), z = s - a       (Knuth)
 //   a * b = p + e with p = fl(a b), e = fma(a, b, -p)
 using ExactSum = std::vector<double>;
@@ -50,7 +50,7 @@ ExactSum minus(ExactSum a, const ExactSum& b) {
   return a;
 }
 
-/// The largest part decides: the others together are smaller.
+/// The largest part decides the sign: the others together are smaller.
 int sign_of(const ExactSum& sum) { return sum.empty() ? 0 : sum.back() > 0 ? 1 : -1; }
 
 int exact_side_of_plane(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) {

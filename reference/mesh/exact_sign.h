@@ -1,4 +1,4 @@
-// Exact signs of determinants of coordinates: on which side of a plane or line a point lies, or
+// Exact signs of determinants of coordinates: the side of a plane or line on which a point lies, or
 // whether it lies on it.
 #pragma once
 
@@ -10,9 +10,9 @@ namespace foldproof {
 
 /// The sign of (b - a) x (c - a) . (d - a): positive when d lies on the side from which the
 /// triangle a, b, c appears counter-clockwise; 0 when all four lie in a plane. Exact as long as no
-/// product of three differences of coordinates overflows or falls below 1e-290: computed in double
-/// first, and again in sums of doubles without rounding (Shewchuk 1997) where the double's own
-/// error bound leaves the sign open.
+/// product of three differences of coordinates overflows or falls below 1e-290. It is computed in
+/// double first; where the error bound leaves the sign open, again in sums of doubles without
+/// rounding (Shewchuk 1997).
 int side_of_plane(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d);
 
 /// The sign of the area of a, b, c in the plane: positive when counter-clockwise; as

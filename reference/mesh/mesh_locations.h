@@ -1,5 +1,5 @@
-// How messages name the parts of a mesh: by FILE:LINE if it was read, by numbers from 0 if it
-// was made by code.
+// Names of the parts of a mesh in messages: FILE:LINE if it was read, numbers from 0 if it was made
+// by code.
 #pragma once
 
 #include <string>

@@ -10,9 +10,9 @@ NearestFeature at_point(Feature feature, const Vector3& point, const Vector3& p)
 
 }  // namespace
 
-// The plane of the triangle is cut into seven regions by the lines through the corners at right
-// angles to the edges, and by the edges: in each, another feature is nearest. Products of p's
-// coordinates along the edges tell in which one p's foot lies (Ericson 2005, section 5.1.5).
+// The edges, and the lines through the corners at right angles to them, cut the plane into seven
+// regions: in each, a different feature is nearest. Products of p's coordinates along the edges
+// show in which region its projection lies (Ericson 2005, section 5.1.5).
 NearestFeature nearest_on_triangle(const Corners3& corners, const Vector3& p) {
   const auto& [a, b, c] = corners;
   const Vector3 ab = b - a, ac = c - a;

@@ -23,7 +23,7 @@ struct Cursor {
 
 struct Contents {
   std::vector<Vector3> vertices;
-  std::vector<Triangle> triangles;  // indices from 0; the file's end tells which are too high
+  std::vector<Triangle> triangles;  // indices from 0; checked for too high ones at the file's end
   MeshOrigin origin;
   FaceGroups groups;
   std::vector<std::string> names_g, names_o;  // of the groups that the next faces belong to
@@ -35,7 +35,7 @@ struct Contents {
 
 std::string quote(std::string_view token) { return "'" + std::string(token) + "'"; }
 
-// Twice the largest cloth that the program's speed is measured on.
+// Twice the largest cloth in the speed measurements.
 constexpr size_t most_vertices = 2'000'000, most_triangles = 4'000'000;
 constexpr size_t most_names = 16;  // of one record g or o
 
@@ -89,7 +89,7 @@ double number(const Cursor& cursor, std::string_view word) {
              "; a vertex is written 'v x y z'");
 }
 
-/// x y z, then at most four numbers more (w, colours) that do not count.
+/// x y z, then at most four more numbers (w, colours), which are ignored.
 void read_vertex(Cursor& cursor, Contents& contents) {
   const int line = cursor.line;
   Vector3 vertex;
@@ -135,7 +135,7 @@ bool ends_well(std::string_view rest) {
   return take_index(rest).has_value() && rest.empty();
 }
 
-/// The vertex of a corner, counted from 0. vertices: how many there are so far.
+/// The vertex of a corner, counted from 0. vertices: number of vertices so far.
 int vertex_index(const Cursor& cursor, std::string_view word, size_t vertices) {
   std::string_view rest = word;
   const std::optional<int> taken = take_index(rest);
@@ -155,7 +155,7 @@ int vertex_index(const Cursor& cursor, std::string_view word, size_t vertices) {
   return int(long(vertices) + index);
 }
 
-/// A face may be of an object and of a group of one name.
+/// A face may belong to an object and to a group of the same name.
 void add_once(int triangle, std::vector<int>& group) {
   if (group.empty() || group.back() != triangle) group.push_back(triangle);
 }
@@ -184,8 +184,8 @@ void read_face(Cursor& cursor, Contents& contents) {
            "a face of " + std::to_string(count) + " vertices; give at least three");
 }
 
-/// The words of a record, each once. Every face that follows is entered under each of them, so that
-/// without a limit a file could ask for memory that grows as the square of its length.
+/// The words of a record, each once. Every following face is entered under each of them: without a
+/// limit a file could need memory that grows as the square of its length.
 std::vector<std::string> read_names(Cursor& cursor) {
   std::vector<std::string> names;
   for (std::string_view word = next_word(cursor); !word.empty(); word = next_word(cursor)) {
@@ -211,7 +211,7 @@ void reject_missing_vertices(const Contents& contents) {
   }
 }
 
-/// All records of a file, and no more.
+/// Reads all records of a file, without checks of the mesh.
 Contents contents_of(std::string_view text, const std::string& file) {
   // the mark that some editors put before UTF-8
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);

@@ -13,12 +13,12 @@ namespace foldproof {
 
 /// Reads the vertices (v, in m) and faces (f) of an OBJ file; all other records are ignored, and so
 /// are w, colours, texture and normal indices. Polygons are cut into fans about their first vertex,
-/// which suits convex ones. Negative indices count back from the last vertex so far; vertices may
-/// also come after the faces that use them. Comments, CR LF and continued lines are understood.
-/// Numbers are read the same in every locale, to the nearest double.
+/// which is right for convex ones. Negative indices count back from the last vertex so far;
+/// vertices may also come after the faces that use them. Comments, CR LF and continued lines are
+/// understood. Numbers are read the same in every locale, to the nearest double.
 /// Throws InputError "FILE:LINE: reason; what to do": a file that cannot be read or holds no face,
-/// a malformed number or index, a face with fewer than three vertices, an index that is 0 or out
-/// of range, and all that make_triangle_mesh refuses; also a file beyond the limits of
+/// a malformed number or index, a face with fewer than three vertices, an index that is 0 or out of
+/// range, and anything that make_triangle_mesh refuses; also a file beyond the limits of
 /// text_file.h, of more than 2 million vertices or 4 million triangles, or with faces of more than
 /// 16 groups of one letter.
 TriangleMesh read_obj(const std::string& path);
@@ -27,9 +27,9 @@ TriangleMesh read_obj(const std::string& path);
 /// are not finite.
 TriangleSoup read_obj_soup(const std::string& path);
 
-/// Triangles by the name of their group, as read_obj numbers them: those of the faces after 'g NAME
-/// ...' or 'o NAME', until the next record of the same letter. A name that occurs twice is one
-/// group; a face may belong to several.
+/// Triangles by the name of their group, numbered as by read_obj: the triangles of all faces after
+/// 'g NAME ...' or 'o NAME', until the next record of the same letter. A name that occurs twice is
+/// one group; a face may belong to several.
 using FaceGroups = std::map<std::string, std::vector<int>>;
 /// Throws InputError "FILE:LINE: ..." for syntax that read_obj refuses, and for more than 16
 /// names in a record.
@@ -40,9 +40,8 @@ TriangleMesh read_obj_text(std::string_view text, const std::string& file);
 TriangleSoup read_obj_soup_text(std::string_view text, const std::string& file);
 FaceGroups read_obj_groups_text(std::string_view text, const std::string& file);
 
-/// Writes positions (3 x N [m]) and triangles. With 17 significant digits read_obj gets every
-/// bit back. Throws InputError: a file that cannot be written, a triangle with an index
-/// outside 0 .. N - 1.
+/// Writes positions (3 x N [m]) with 17 significant digits, so read_obj recovers every bit, and
+/// triangles. Throws InputError: a file that cannot be written, a triangle index outside [0, N).
 void write_obj(const std::string& path, const PerParticle3& positions,
                const std::vector<Triangle>& triangles);
 

@@ -63,7 +63,7 @@ struct Reader {
   const std::string& file;
   std::size_t at = 0;
   int line = 1;             // of the header and of ASCII
-  Form form = Form::ascii;  // of what is read next
+  Form form = Form::ascii;  // of the next value to read
 };
 
 [[noreturn]] void reject(const Reader& reader, const std::string& reason) {
@@ -87,7 +87,7 @@ std::vector<std::string_view> words_of(std::string_view line) {
   return words;
 }
 
-/// The next line of the header; lines of what is no PLY file may be long, and are not split.
+/// The next line of the header; in a file that is not PLY lines may be long, and are not split.
 std::vector<std::string_view> header_line(Reader& reader) {
   const std::size_t end = reader.text.find('\n', reader.at);
   if (end == std::string_view::npos)
@@ -231,7 +231,7 @@ double next_number(Reader& reader, Type type) {
   return value;
 }
 
-/// A whole number in [0, below), or a refusal that says what it is of.
+/// A whole number in [0, below), or an InputError that names it.
 std::size_t next_whole(Reader& reader, Type type, std::size_t below, const char* of) {
   const double value = next_number(reader, type);
   if (!(value >= 0 && value < double(below) && value == std::floor(value)))
@@ -301,7 +301,7 @@ void read_faces(Reader& reader, const Element& element, std::size_t vertices, Tr
         skip(reader, property);
 }
 
-/// An element without properties has no data to end a loop over a count that may be anything.
+/// An element without properties has no data whose end would stop a loop over an untrusted count.
 void read_element_data(Reader& reader, const Element& element, TriangleSoup& soup) {
   if (element.properties.empty()) return;
   if (element.name == "vertex") {

@@ -15,7 +15,7 @@ namespace {
 //     \  /     the hinge turns by theta = sum K_i w_i/|E|, to first order.
 //      x2
 struct FlatHinge {
-  Eigen::Vector3d turn;  // q: theta over k = (K11, K22, 2 K12) [m]
+  Eigen::Vector3d turn;  // q: theta = q.k for k = (K11, K22, 2 K12) [m]
   double weight;         // c/2 [1]: energy = ke c theta^2/4
   double area;           // a third of the two triangles [m^2]
 };

@@ -1,5 +1,5 @@
-// How stiffly a mesh of hinges bends, by direction and by place: the material says ke,
-// the mesh the rest.
+// Bending stiffness of a mesh of hinges, by direction and place: the material sets ke, the mesh the
+// rest.
 #pragma once
 
 #include <Eigen/Core>
@@ -42,11 +42,12 @@ struct RestPlane {
 /// normal than 45 degrees, projected on the plane.
 bool is_flat(const TriangleMesh& mesh, RestPlane& plane);
 
-/// Of all hinges of a flat mesh. A sheet of few cells lacks the hinges of its border.
+/// The rigidity of all hinges of a flat mesh together. A sheet of few cells lacks the hinges of its
+/// border.
 Rigidity rigidity_of(const TriangleMesh& mesh, const RestPlane& plane);
 
-/// Of the hinges around each particle: those of the edges of its triangles. A local plane stands
-/// for the rest shape there. NaN for a particle with fewer than three hinges. N values.
+/// The rigidity of the hinges around each particle, on the edges of its triangles. A local plane
+/// replaces the rest shape there. NaN for a particle with fewer than three hinges. N values.
 std::vector<RigidityExtremes> rigidity_around_particles(const TriangleMesh& mesh);
 
 }  // namespace foldproof

@@ -18,13 +18,12 @@ Cell cell_of(const Vector3& x, double size) {
   return {std::floor(x[0] / size), std::floor(x[1] / size), std::floor(x[2] / size)};
 }
 
-/// The vertices that stay, in cells as wide as the distance: whoever is near stands in
-/// one of 27 cells.
+/// The vertices that stay, in cells as wide as the distance: all near a point lie in 27 cells.
 class Kept {
  public:
   Kept(const PerParticle3& x, double distance) : x_(x), distance_(distance) {}
 
-  /// The first of those that stay within the distance of vertex v; -1 if there is none.
+  /// The first staying vertex within the distance of vertex v; -1 if there is none.
   int near(int v) const {
     int first = -1;
     const Cell middle = cell_of(x_.col(v), distance_);

@@ -6,11 +6,11 @@
 namespace foldproof {
 
 /// Merges every vertex that lies within `distance` [m] of an earlier vertex that is not merged
-/// itself into the first such vertex. So no vertex moves by more than `distance`, and none twice.
-/// Triangles keep their numbers and places in the file; the remaining vertices keep their places
-/// in the file and are renumbered in order. Throws InputError "FILE:LINE: ..." for a distance
-/// that is not > 0 or not finite, coordinates that are not finite, and a triangle with two
-/// corners that merge.
+/// itself into the first such vertex. So no vertex moves farther than `distance`, nor twice.
+/// Triangles keep their numbers and places in the file; the remaining vertices keep their places in
+/// the file and are renumbered in order. Throws InputError "FILE:LINE: ..." for a distance that is
+/// not > 0 or not finite, coordinates that are not finite, and a triangle with two corners that
+/// merge.
 TriangleSoup close_seams(TriangleSoup panels, double distance);
 
 }  // namespace foldproof

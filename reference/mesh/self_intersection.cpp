@@ -17,7 +17,7 @@ constexpr int leaf_size = 4;
 
 Vector2 drop_axis(const Vector3& x, int axis) { return {x[(axis + 1) % 3], x[(axis + 2) % 3]}; }
 
-/// An axis along which the triangle can be looked at without losing its area.
+/// An axis along which the triangle projects to nonzero area.
 int open_axis(const Corners& t) {
   for (int axis = 0; axis < 3; ++axis)
     if (side_of_line(drop_axis(t[0], axis), drop_axis(t[1], axis), drop_axis(t[2], axis)) != 0)
@@ -50,7 +50,7 @@ bool meet_in_plane(const Corners& t, const Vector3& p, const Vector3& q) {
   return segments_meet(a, b, u, v) || segments_meet(b, c, u, v) || segments_meet(c, a, u, v);
 }
 
-/// Has the segment p q a point of the triangle? Its ends on two sides of the plane, its line on one
+/// Does the segment p q meet the triangle? Its ends lie on two sides of the plane, its line on one
 /// side of all three edges.
 bool meets(const Corners& t, const Vector3& p, const Vector3& q) {
   const int side_p = side_of_plane(t[0], t[1], t[2], p),
@@ -83,7 +83,7 @@ bool folded_flat(const PerParticle3& x, const Triangle& s, const Triangle& t) {
          side_of_line(a, b, drop_axis(far, axis));
 }
 
-/// Has an edge of s that does not end in a vertex of t a point of t?
+/// Does an edge of s that does not end in a vertex of t meet t?
 bool edges_meet(const PerParticle3& x, const Triangle& s, const Triangle& t) {
   const Corners corners = corners_of(x, t);
   for (int k = 0; k < 3; ++k) {
@@ -94,7 +94,7 @@ bool edges_meet(const PerParticle3& x, const Triangle& s, const Triangle& t) {
   return false;
 }
 
-/// Appends the pairs of triangle s with those after it that meet it.
+/// Appends the pairs of triangle s with later triangles that meet it.
 void add_pairs_of(int s, const std::vector<Bounds>& boxes, const BoxTree& tree,
                   const std::function<bool(int)>& meets_s,
                   std::vector<std::pair<int, int>>& pairs) {
@@ -119,8 +119,8 @@ void add_pairs_of(int s, const std::vector<Bounds>& boxes, const BoxTree& tree,
 
 }  // namespace
 
-// Where two triangles meet in more than what they share, the stretch in which they meet ends where
-// it leaves one of them, through an edge; with one vertex shared, through the edge across from it.
+// If two triangles meet in more than their common vertices, their intersection ends where it leaves
+// one of them through an edge; with one vertex shared, through the edge opposite it.
 bool intersect(const PerParticle3& x, const Triangle& s, const Triangle& t) {
   const long shared = std::count_if(s.begin(), s.end(), [&](int v) { return has_corner(t, v); });
   if (shared == 2) return folded_flat(x, s, t);

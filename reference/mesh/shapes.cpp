@@ -27,7 +27,7 @@ void reject_bad_angle(const std::string& name, double value) {
 /// Number of the first vertex of ring k: 1 for the centre, then 6, 12, 18, ...
 int ring_start(int k) { return k == 0 ? 0 : 1 + 3 * k * (k - 1); }
 
-/// Vertex i of ring k, counted round and round.
+/// Vertex i of ring k; i wraps around.
 int on_ring(int k, int i) { return k == 0 ? 0 : ring_start(k) + i % (6 * k); }
 
 /// The triangles between ring k - 1 and ring k, in six sectors: k with two vertices on ring k,
@@ -47,8 +47,7 @@ void add_ring(int k, std::vector<Triangle>& triangles) {
 
 // --- pleats ---
 
-/// The x of the grid's columns: those of the vertices with the first vertex's y that
-/// precede all others.
+/// The x of the grid's columns: from the leading vertices with the same y as the first.
 std::vector<double> grid_columns(const TriangleMesh& sheet) {
   std::vector<double> columns;
   for (int v = 0; v < sheet.particles() && sheet.rest(1, v) == sheet.rest(1, 0); ++v) {
@@ -57,7 +56,7 @@ std::vector<double> grid_columns(const TriangleMesh& sheet) {
   return columns;
 }
 
-/// The x at which panels begin, and that at which the last one ends.
+/// The x at which each panel begins, and the x at which the last one ends.
 std::vector<double> fold_lines(const TriangleMesh& sheet, int columns_per_pleat) {
   if (sheet.particles() == 0 || sheet.rest.row(2) != Eigen::RowVectorXd::Zero(sheet.particles())) {
     throw InputError(

@@ -1,6 +1,6 @@
 // Meshes made by code: flat sheets in seven patterns, the disc, the open cylinder, the sphere, a
 // seated statue, one hinge; and the isometric folding of a sheet into pleats. The same arguments
-// give the same mesh, bit for bit. Every argument is checked: InputError names it and its value.
+// give the same mesh, bit for bit. Every argument is checked; InputError names it and its value.
 #pragma once
 
 #include "reference/mesh/triangle_mesh.h"
@@ -41,7 +41,7 @@ struct Sheet {
 /// of them on the border. With height 0 all edges are width/columns long, except those of the half
 /// triangles (1/2 and sqrt(3)/2 of it); a given height scales y. jittered: displacements are
 /// uniform in a disc, which is scaled like y.
-/// grading: cells grow by the same factor from one to the next, along x and along y alike.
+/// grading: cells grow by a constant factor from one to the next, along x and along y.
 /// random_delaunay: columns and rows fix the vertices on the border; no two vertices are closer
 /// than 0.8 of the shorter side of a cell, which fills the sheet with about 1.1 columns * rows
 /// vertices when cells are square (sides 1:4 at most).
@@ -73,14 +73,15 @@ TriangleMesh divide_edges(const TriangleMesh& mesh, int parts);
 /// A seated figure with crossed legs, arms in the lap, head and low folds; closed, genus 0, normals
 /// outward, y up, facing +z, y in [0, height] [m], about 0.9 height wide. It stands in for the
 /// Buddha of BMF03 figures 3 and 4. The icosphere of `subdivisions` (3 to 8; 3 is too coarse for
-/// the knees) is carried to an implicit surface (smooth union of ellipsoids and limbs) along rays
-/// from an inner axis, then relaxed along the surface, with edges turned where that improves the
-/// triangles: the least angle is about 25 degrees.
+/// the knees) is carried along rays from an inner axis to an implicit surface, a smooth union of
+/// ellipsoids and limbs. It is then relaxed along the surface, with edges flipped where that
+/// improves the triangles: the least angle is about 25 degrees.
 TriangleMesh make_statue(double height, int subdivisions);
 
-/// The same figure, from the geodesic sphere of `divisions` (15 to 256, with a divisor from 15 to
-/// 29: the coarser mesh with that divisor is evened out, then divided), with triangles of more
-/// uniform size: the smallest one, not the mean, limits the steps of an explicit scheme.
+/// The same figure from the geodesic sphere of `divisions`, with triangles of more uniform size:
+/// the smallest one, not the mean, limits the steps of an explicit scheme. `divisions` is 15 to
+/// 256, with a divisor from 15 to 29: the mesh with that number of divisions is relaxed first, then
+/// divided.
 TriangleMesh make_even_statue(double height, int divisions);
 
 /// Two triangles folded at the angle theta [rad], |theta| < pi, about their shared edge of length L

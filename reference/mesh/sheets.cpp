@@ -56,8 +56,8 @@ double row_height(const Sheet& sheet) {
   return sheet.height > 0 ? sheet.height / sheet.rows : row_ratio * sheet.width / sheet.columns;
 }
 
-/// Uniform in [0, 1): the 53 leading bits of the generator, which the standard fixes (it does not
-/// fix its distributions).
+/// Uniform in [0, 1), from the 53 leading bits of the generator: the standard fixes the generator,
+/// but not the distributions.
 double uniform(std::mt19937_64& random) { return double(random() >> 11) * 0x1p-53; }
 
 // --- squares ---
@@ -77,7 +77,7 @@ Vector3 grid_point(const Sheet& sheet, double i, double j) {
           sheet.height * line_at(j, sheet.rows, sheet.grading), 0};
 }
 
-/// Vertices of the grid, `stride` apart from row to row; those between are left to the caller.
+/// Vertices of the grid, `stride` apart from row to row; the caller fills in those between.
 void place_grid(const Sheet& sheet, int stride, PerParticle3& x) {
   for (int j = 0; j <= sheet.rows; ++j) {
     for (int i = 0; i <= sheet.columns; ++i) x.col(j * stride + i) = grid_point(sheet, i, j);
@@ -149,8 +149,8 @@ PerParticle3 place_offset_rows(const Sheet& sheet) {
   return x;
 }
 
-// Two columns: triangles with one vertex in the even row (the first and the last are halves) take
-// turns with those that have one vertex in the odd row.
+// Two columns: triangles with one vertex in the even row (halves at both ends) alternate with
+// triangles that have one vertex in the odd row.
 //
 //  odd  o0 o1 -- o2 o3      even  e0 ---- e1 ---- e2
 //       | /  \  /  \ |            | \    /  \    / |
@@ -240,8 +240,7 @@ void add_border(const Sheet& sheet, Scatter& scatter) {
   }
 }
 
-/// Throws one dart into every empty bin, in random order, 20 times over: what room
-/// is left is small.
+/// Throws one dart into every empty bin, in random order, 20 times over; little space is left then.
 void add_interior(const Sheet& sheet, Scatter& scatter) {
   std::mt19937_64 random(sheet.seed);
   std::vector<int> bins(scatter.in_bin.size());

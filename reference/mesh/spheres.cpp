@@ -23,7 +23,7 @@ TriangleMesh icosahedron() {
 }
 
 /// The numbers of the vertices of a mesh whose edges are divided: its own, then parts - 1 on each
-/// edge, then those inside of each triangle.
+/// edge, then those inside each triangle.
 class DividedNumbers {
  public:
   DividedNumbers(const TriangleMesh& mesh, int parts)

@@ -6,7 +6,7 @@ namespace foldproof {
 
 namespace {
 
-/// Gives each corner the particle of its fan. fans: as fans_of names them. Returns copy_of.
+/// Gives each corner the particle of its fan. fans: as returned by fans_of. Returns copy_of.
 std::vector<int> number_fans(const std::vector<int>& fans, TriangleSoup& soup) {
   std::vector<int> copy_of, particle_of(fans.size(), -1);  // of a fan's first corner
   for (int v = 0; v < int(soup.rest.cols()); ++v) copy_of.push_back(v);
@@ -26,10 +26,10 @@ std::vector<int> number_fans(const std::vector<int>& fans, TriangleSoup& soup) {
   return copy_of;
 }
 
-//       a --- b      A triangle of the fan of v: the middle of the side that it turns to v is
+//       a --- b      A triangle of the fan of v: the midpoint of its side opposite v is
 //        \   /      (a + b)/2.
 //          v
-/// Where the particles of the split mesh are, 3 x N' [m].
+/// Positions of the particles of the split mesh, 3 x N' [m].
 PerParticle3 pulled_apart(const std::vector<Triangle>& split, const PerParticle3& x,
                           const std::vector<int>& copy_of) {
   const Eigen::Index count = Eigen::Index(copy_of.size());

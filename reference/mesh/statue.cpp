@@ -45,7 +45,7 @@ std::vector<Limb> seated_figure() {
   return limbs;
 }
 
-/// Exactly 0 on the limb's surface, right to first order next to it [m].
+/// Exactly 0 on the limb's surface, accurate to first order next to it [m].
 double limb_distance(const Limb& limb, const Vector3& p) {
   const Vector3 axis = limb.to - limb.from;
   const double along = (p - limb.from).dot(axis) / std::max(axis.squaredNorm(), 1e-12);
@@ -98,8 +98,8 @@ LocalDistance local_distance(const std::vector<Limb>& limbs, const Vector3& p) {
 }
 
 /// A ray from the figure's inner axis for every point of the unit sphere. From the lower pole to
-/// the upper, origins climb the axis and rays turn from straight down to straight up, so that no
-/// two rays cross; each leaves the figure once.
+/// the upper, origins climb the axis and rays turn from straight down to straight up. So no two
+/// rays cross, and each leaves the figure once.
 struct RayKnot {
   double height;     // on the unit sphere, from 0 to 1
   double origin;     // y on the axis [m]
@@ -157,8 +157,8 @@ bool has_edge(const TriangleMesh& mesh, int a, int b) {
   return edge != mesh.edges.end() && std::pair{edge->a, edge->b} == wanted;
 }
 
-/// Turns edges whose two opposite angles add up to more than pi, as Delaunay would; at
-/// most one a vertex.
+/// Flips edges whose two opposite angles add up to more than pi, as Delaunay does; at most one per
+/// vertex.
 void flip_edges(TriangleMesh& mesh) {
   std::vector<Triangle> triangles = mesh.triangles;
   std::vector<char> touched(mesh.particles(), 0);
@@ -176,9 +176,8 @@ void flip_edges(TriangleMesh& mesh) {
   mesh = make_triangle_mesh(mesh.rest, triangles);
 }
 
-/// Moves every vertex along the surface towards the mean centre of its triangles, and turns
-/// edges. The triangles weigh as their areas to this power: the higher it is, the sooner they
-/// are of one size.
+/// Moves every vertex along the surface towards the mean centre of its triangles, and flips edges.
+/// Triangles are weighted by their area to this power: the higher, the sooner they reach one size.
 void relax(const std::vector<Limb>& limbs, int passes, int power, TriangleMesh& mesh) {
   for (int pass = 0; pass < passes; ++pass) {
     const Eigen::VectorXd areas = triangle_areas(mesh.triangles, mesh.rest);
@@ -230,7 +229,7 @@ void require_height(const char* name, double height) {
     reject_argument(name, height, "give a positive length in m");
 }
 
-/// The smallest divisor >= 15, for fewer leave a limb without vertices. divisions >= 15.
+/// The smallest divisor >= 15; a smaller one leaves a limb without vertices. divisions >= 15.
 int coarse_divisions(int divisions) {
   int coarse = 15;
   while (divisions % coarse != 0) ++coarse;
@@ -244,7 +243,7 @@ TriangleMesh make_statue(double height, int subdivisions) {
   if (subdivisions < 3 || subdivisions > 8)
     reject_argument("make_statue: subdivisions", subdivisions, "give 3 to 8");
   const std::vector<Limb> limbs = seated_figure();
-  const int coarse = std::min(subdivisions, 4);  // the first level with vertices on every limb
+  const int coarse = std::min(subdivisions, 4);  // the first level that puts vertices on every limb
   TriangleMesh mesh = make_icosphere(1, coarse);
   carry(limbs, mesh.rest);
   relax(limbs, 100, 1, mesh);

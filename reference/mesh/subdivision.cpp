@@ -51,14 +51,14 @@ Neighbours neighbours_of(const TriangleMesh& mesh) {
   return found;
 }
 
-/// Loop's weight of each of the n neighbours of an inner particle; 1/16 for n = 6.
+/// Loop's weight for each of the n neighbours of an inner particle; 1/16 for n = 6.
 double share_of_neighbour(std::size_t n) {
   const double slope = 3.0 / 8 + std::cos(2 * pi / double(n)) / 4;
   return (5.0 / 8 - slope * slope) / double(n);
 }
 
-/// Inside: a share for each neighbour, the rest for itself. On the border: 1/8 for each
-/// neighbour along it.
+/// Inside: an equal weight for each neighbour, the rest for the vertex itself. On the border: 1/8
+/// for each neighbour along it.
 void add_old_points(const TriangleMesh& mesh, SubdivisionRule rule, Weights& weights) {
   const Neighbours neighbours = neighbours_of(mesh);
   for (int i = 0; i < mesh.particles(); ++i) {

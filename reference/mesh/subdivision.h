@@ -8,21 +8,21 @@
 namespace foldproof {
 
 enum class SubdivisionRule {
-  midpoint,  // new vertices halve the edges; the surface stays what it was
+  midpoint,  // new vertices halve the edges; the surface does not change
   loop       // Loop (1987), with his boundary rules: smooth, and the old vertices move too
 };
 
-/// A finer mesh, and the weights that give its points from those of the cloth.
+/// A finer mesh, and the weights that give its points from the points of the cloth.
 struct Subdivision {
-  std::vector<Triangle> triangles;      // four for each one of the cloth and level
+  std::vector<Triangle> triangles;      // four per cloth triangle and level
   Eigen::SparseMatrix<double> weights;  // N fine x N: each row sums to 1
 
   /// The fine points, or their velocities: 3 x N fine. x: 3 x N.
   PerParticle3 of(const PerParticle3& x) const { return x * weights.transpose(); }
 };
 
-/// `levels` >= 0; 0 is the cloth itself. Old particles keep their numbers, then comes a vertex for
-/// each edge. Throws InputError for levels < 0 or more than 8.
+/// `levels` >= 0; 0 is the cloth itself. Old particles keep their numbers; one vertex per edge
+/// follows. Throws InputError for levels < 0 or more than 8.
 Subdivision subdivision(const TriangleMesh& mesh, SubdivisionRule rule, int levels);
 
 }  // namespace foldproof

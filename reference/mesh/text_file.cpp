@@ -13,7 +13,7 @@ namespace foldproof {
 
 namespace {
 
-/// Counts lines and their lengths as text comes in.
+/// Counts lines and their lengths as text is read.
 class LineCounter {
  public:
   explicit LineCounter(std::size_t longest) : longest_(longest) {}
@@ -39,7 +39,7 @@ class LineCounter {
   long line_ = 1;
 };
 
-/// Throws InputError for what is no regular file: a pipe or a device might never end.
+/// Throws InputError for anything but a regular file: a pipe or a device might never end.
 void reject_unless_regular(const std::string& path) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);

@@ -15,7 +15,7 @@ namespace {
 
 /// A side of a triangle. Half edge 3 t + k runs from corner k of triangle t to the next one. In the
 /// list of particle a, the smaller of its two particles, it is held as (b, half), b the larger; the
-/// lists of all particles stand one behind the other.
+/// lists of all particles are stored one after another.
 struct Side {
   int b;     // the larger particle
   int half;  // 3 t + k
@@ -88,8 +88,8 @@ void reject_unused_vertices(int particles, const std::vector<Triangle>& triangle
                    " unused vertices (they would have no mass); remove them");
 }
 
-/// True when the area exceeds 1e-12 of the longest side squared. Free of scale: the sides are
-/// divided by their largest component first, so that squares neither overflow nor vanish.
+/// True when the area exceeds 1e-12 of the longest side squared. Independent of scale: the sides
+/// are divided by their largest component first, so that squares neither overflow nor vanish.
 bool has_area(const PerParticle3& rest, const Triangle& triangle) {
   Vector3 side1 = rest.col(triangle[1]) - rest.col(triangle[0]);
   Vector3 side2 = rest.col(triangle[2]) - rest.col(triangle[0]);
@@ -152,8 +152,8 @@ SideLists list_sides(int particles, const std::vector<Triangle>& triangles) {
                    " the same way; reverse the order of one triangle's vertices");
 }
 
-/// Appends the edge from a that the `count` sides at `first` share, and its hinge if it
-/// has two triangles.
+/// Appends the edge from a that is common to the `count` sides at `first`, and its hinge if it has
+/// two triangles.
 void add_edge(int a, const Side* first, int count, const MeshOrigin& origin, TriangleMesh& mesh) {
   if (count > 2) reject_third_triangle(a, first, origin);
   if (count == 1) {
@@ -228,7 +228,7 @@ TriangleMesh make_mesh_of_fans(PerParticle3 rest, std::vector<Triangle> triangle
   return mesh;
 }
 
-/// All corners are joined across all hinges.
+/// Joins corners across all hinges.
 std::vector<int> fans_of(const TriangleMesh& mesh) {
   std::vector<int> parent(3 * mesh.triangles.size());
   for (int corner = 0; corner < int(parent.size()); ++corner) parent[corner] = corner;

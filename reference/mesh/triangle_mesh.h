@@ -35,8 +35,8 @@ struct TriangleMesh {
   int particles() const { return int(rest.cols()); }
 };
 
-/// Where the parts of a mesh were read, so that a refusal can name the line. Empty for
-/// meshes made by code.
+/// The lines from which the parts of a mesh were read, for error messages. Empty for meshes made by
+/// code.
 struct MeshOrigin {
   std::string file;
   std::vector<int> vertex_lines;    // N, 1-based
@@ -44,8 +44,8 @@ struct MeshOrigin {
 };
 
 /// Finds edges and hinges of the triangles over the N rest positions (3 x N [m]).
-/// Refuses (InputError naming origin's file and line, and the reason) anything but an oriented
-/// manifold with boundary: no triangles, indices out of range, NaN or infinite coordinates, unused
+/// Refuses anything but an oriented manifold with boundary; the InputError names origin's file and
+/// line, and the reason: no triangles, indices out of range, NaN or infinite coordinates, unused
 /// vertices, zero-area triangles, edges with three triangles or more, two neighbours of opposite
 /// orientation, a vertex whose triangles do not form one fan.
 TriangleMesh make_triangle_mesh(PerParticle3 rest, std::vector<Triangle> triangles,

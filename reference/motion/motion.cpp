@@ -14,7 +14,7 @@ Vector3 rotate_about_axis(const Motion& motion, const Vector3& start, double t) 
   return Eigen::AngleAxisd(rate * t, motion.angular_velocity / rate) * (start - motion.center);
 }
 
-/// How long the motion has acted by the time t [s].
+/// The time for which the motion has acted by time t [s].
 double active_duration(const Motion& motion, double t) {
   return std::clamp(t, motion.from, motion.until) - motion.from;
 }

@@ -9,11 +9,11 @@
 namespace foldproof {
 
 /// A motion given in closed form: rotation about a fixed axis, then a shift that drifts and
-/// oscillates. It acts from one time until another, at rest before and after, and is smooth
-/// between. With t counted from its start:
+/// oscillates. It acts smoothly between two times, and rests before and after. With t counted from
+/// its start:
 ///   X(t) = C + R(angular_velocity t) (X0 - C) + velocity t +
 ///          amplitude (sin(2 pi frequency t + phase) - sin(phase))
-/// All zero: held at rest. X0 is its place until it starts.
+/// All zero: held at rest. X0 is the position until it starts.
 struct Motion {
   Vector3 velocity = Vector3::Zero();                                // m/s
   Vector3 amplitude = Vector3::Zero();                               // m
@@ -25,7 +25,7 @@ struct Motion {
 };
 
 /// Position [m] and velocity [m/s] at time t [s] of the point that is at `start` [m] until the
-/// motion starts. Where the velocity jumps it is the later one.
+/// motion starts. Where the velocity jumps, the later one is returned.
 Vector3 position_at(const Motion& motion, const Vector3& start, double t);
 Vector3 velocity_at(const Motion& motion, const Vector3& start, double t);
 

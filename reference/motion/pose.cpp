@@ -6,7 +6,7 @@ namespace foldproof {
 
 namespace {
 
-/// The keyframe interval that holds t, and t's place in it.
+/// The keyframe interval that holds t, and the fraction of it at t.
 struct Interval {
   const Keyframe *from, *to;
   double part;  // 0 at `from`, 1 at `to`

@@ -25,22 +25,22 @@ struct Keyframe {
   Pose pose;
 };
 
-/// Poses at given times, in rising order: between two the translation is linear and the rotation
-/// turns at a constant rate about a fixed axis, the short way (slerp); before the first and after
-/// the last it rests.
+/// Poses at given times, in ascending order: between two the translation is linear and the rotation
+/// turns at a constant rate about a fixed axis, the short way (slerp). The body rests before the
+/// first and after the last.
 struct Keyframes {
   std::vector<Keyframe> keys;  // at least one
 };
 
 using RigidMotion = std::variant<Motion, Keyframes>;
 
-/// Throws InputError unless there is a keyframe and the times rise.
+/// Throws InputError unless there is a keyframe and the times ascend.
 Keyframes make_keyframes(std::vector<Keyframe> keys);
 
 Pose pose_at(const RigidMotion& motion, double t);
 
-/// Velocity [m/s] at time t [s] of the body's point that is at x [m] then. At a keyframe: that of
-/// the interval that begins.
+/// Velocity [m/s] at time t [s] of the body's point that is at x [m] then; at a keyframe, the
+/// velocity of the interval that begins.
 Vector3 velocity_at(const RigidMotion& motion, const Vector3& x, double t);
 
 }  // namespace foldproof

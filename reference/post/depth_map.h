@@ -9,7 +9,7 @@ namespace foldproof {
 
 /// The distances between which a map works.
 struct DepthBand {
-  double nearest;  // eps: how far out the deepest points come to lie [m]
+  double nearest;  // eps: distance outside at which the deepest points end up [m]
   double reach;    // tau: points farther out than this stay where they are [m]
   double deepest;  // t^: the deepest penetration that is still distinguished [m]
 };
@@ -23,8 +23,8 @@ struct DepthMap {
 
 /// "plain":  f = max(phi, eps). Everything inside ends up flat on the surface.
 /// "power":  f = eps + (tau - eps) u^p, u = (phi + t^)/(tau + t^), p = (tau + t^)/(tau - eps): f
-///           and f' are those of phi at tau. With t^ = 5 tau, p = 6: the deeper half of the
-///           penetrations shares .5 % of the band.
+///           and f' match the identity at tau. With t^ = 5 tau, p = 6: the deeper half of the
+///           penetrations shares 0.5 % of the band.
 /// "blend":  linear up to w = (tau - eps)/2 before tau; from there its slope rises evenly to 1,
 ///           reached at tau. No depth is compressed by more than
 ///           (tau + t^ - w/2)/(tau - eps - w/2), 7.7 where "power" compresses without limit.

@@ -7,7 +7,7 @@ namespace foldproof {
 
 namespace {
 
-/// Where a point has come to.
+/// The current place of a point.
 struct Place {
   Vector3 x;   // m
   double phi;  // there [m]
@@ -25,7 +25,7 @@ struct Union {
   }
 };
 
-/// Moves p, where the objects say `here`, until phi is f or a little more.
+/// Moves p, where the objects return `here`, until phi is f or slightly more.
 Place move_point(Union& solids, const FoldProjection& projection, Vector3 p, ObjectPoint here,
                  double f) {
   const double aim = f + projection.tolerance / 2;

@@ -12,7 +12,7 @@
 
 namespace foldproof {
 
-/// Treatment of points inside two or more objects. The paper leaves them alone: moving out of one
+/// Treatment of points inside two or more objects. The paper does not move them: moving out of one
 /// object, they would go deeper into the other.
 enum class PinchedPoints { left_alone, projected };
 
@@ -29,8 +29,8 @@ enum class ProjectionOutcome {
   // bitwise unchanged: it is farther out than tau, or already at the mapped distance
   untouched,
   moved,    // it is at the mapped distance, within the tolerance
-  pinched,  // left alone, bitwise unchanged
-  // left where phi came nearest to f, as between objects with too little clearance
+  pinched,  // not moved, bitwise unchanged
+  // left where phi came nearest to f, for instance between objects with too little clearance
   unfinished
 };
 
@@ -44,12 +44,12 @@ struct ProjectedCloth {
   int count(ProjectionOutcome fate) const;
 };
 
-/// Projects the points x (3 x N [m]) of the cloth at `time` [s]. phi is that of the union of the
-/// objects, the min over them. A point moves by (f + tolerance/2 - phi) N, with phi and N
-/// queried again after each move, since an interpolated phi, or that of the union, need not
-/// increase uniformly along N. Arrived points are never on the inner side of f: a point
-/// projected onto the surface is not inside, not even by rounding. Throws InputError for an
-/// invalid band, tolerance or cap.
+/// Projects the points x (3 x N [m]) of the cloth at `time` [s]. phi is the distance to the union
+/// of the objects, the minimum over them. A point moves by (f + tolerance/2 - phi) N, with phi and
+/// N queried again after each move, since an interpolated phi, or the phi of a union, need not
+/// increase uniformly along N. Points that arrived are never on the inner side of f: a point
+/// projected onto the surface is not inside, not even by rounding. Throws InputError for an invalid
+/// band, tolerance or cap.
 ProjectedCloth project_folds(std::span<const Object> objects, const PerParticle3& x, double time,
                              const FoldProjection& projection);
 

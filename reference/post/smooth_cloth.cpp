@@ -12,13 +12,13 @@ namespace {
 
 constexpr double least_share = 1.0 / 1024;  // below it a point stays on the cloth
 
-/// Lessens the shares of the triangle's points; true if there was one to lessen.
+/// Reduces the shares of the triangle's points; true if any was not yet 0.
 bool hold_back(const Triangle& triangle, std::vector<char>& is_held_back, PerParticle& share) {
   bool lessened = false;
   for (const int i : triangle) {
     if (share[i] == 0) continue;
     lessened = true;
-    if (is_held_back[std::size_t(i)]) continue;  // once a round
+    if (is_held_back[std::size_t(i)]) continue;  // once per round
     is_held_back[std::size_t(i)] = 1;
     share[i] = share[i] / 2 < least_share ? 0 : share[i] / 2;
   }

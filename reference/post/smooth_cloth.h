@@ -17,17 +17,17 @@ struct ClothSmoother {
 
 struct SmoothedCloth {
   PerParticle3 x;       // 3 x N fine [m]
-  PerParticle share;    // N fine: of the way from the flat place to the smooth one, 0 to 1
-  int rounds = 0;       // of checking the whole surface
-  long pairs_left = 0;  // of triangles that intersect all the same: those of the cloth itself
+  PerParticle share;    // N fine: fraction of the way from flat to smooth, 0 to 1
+  int rounds = 0;       // checks of the whole surface
+  long pairs_left = 0;  // of triangles that still intersect, as in the cloth itself
 };
 
-/// Fine points start on the cloth's triangles and go all of their way to the smooth
-/// surface. Where two triangles then intersect (exactly decided), their points' shares are
-/// halved, and taken as 0 after ten times, until none do. Every round lessens a share, so
-/// that it ends; all 0 is the cloth.
-/// The surface at the end is judged, not the way there: it may pass through layers that are thinner
-/// than the way to the smooth surface is long. x: 3 x N [m], of the cloth.
+/// Fine points start on the cloth's triangles and move all the way to the smooth surface. Where two
+/// triangles then intersect (decided exactly), the shares of their points are halved, and set to 0
+/// after ten halvings, until none intersect. Every round reduces a share, so it ends; all 0 is the
+/// cloth.
+/// Only the final surface is checked, not the motion to it, which may pass through layers closer
+/// than the distance to the smooth surface. x: 3 x N [m], of the cloth.
 SmoothedCloth smooth_cloth(const ClothSmoother& smoother, const PerParticle3& x);
 
 }  // namespace foldproof

@@ -30,7 +30,7 @@ ObjectCollision object_collision(const Scene& scene, const System& system,
 
 SelfCollision self_collision(const Scene& scene, const System& system, const State& start) {
   CrossingTriangles at_start;
-  if (scene.self_collision->untangle)  // else the reader has rejected a start that crosses itself
+  if (scene.self_collision->untangle)  // else the reader rejects a start that crosses itself
     at_start = self_intersections(start.x, scene.mesh.triangles);
   return {*scene.self_collision, make_cloth_tree(scene.mesh), system.mass, system.inverse_mass,
           at_start};

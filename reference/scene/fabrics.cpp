@@ -51,7 +51,7 @@ Fabric fabric_of(const KeyTable& keys) {
   return fabric;
 }
 
-/// The median of the mean of least and greatest, and the largest ratio of the two.
+/// The median of the mean of least and greatest D/ke, and the largest ratio of the two.
 struct LocalRigidity {
   double middle, anisotropy;
 };

@@ -14,20 +14,20 @@ struct Fabric {
   std::string name, words, source, place, method;
   double density;                  // kg/m^2
   std::array<double, 2> rigidity;  // B along the first and the second direction [N m]
-  double scatter;                  // of B, relative; NaN: the source says nothing [1]
+  double scatter;                  // relative, of B; NaN if the source gives none [1]
   std::vector<std::string> missing;
 };
 
 /// All fabrics of a file. Throws InputError "file:line: ..." for an unknown key, a missing
 /// text, a number that is not positive, a fabric without rigidity or with two kinds of it, or a
-/// name that is taken.
+/// duplicate name.
 std::vector<Fabric> read_fabrics(const std::string& path);
 
 /// Throws InputError at `where` with the known names.
 const Fabric& fabric_named(const std::vector<Fabric>& fabrics, const std::string& name,
                            const std::string& where);
 
-/// What a fabric's rigidity along its first direction asks of the hinges of this mesh.
+/// The hinge stiffness of this mesh that gives the fabric its rigidity along its first direction.
 struct FabricOnMesh {
   double stiffness;  // ke [J]
   // B/ke of a narrow strip of the mesh along x, as a laboratory would cut it; on a mesh that is not
@@ -36,11 +36,11 @@ struct FabricOnMesh {
   double anisotropy;  // of the mesh: its greatest D over its least [1]
   // of strips along y over strips along x of this mesh [1]; NaN for a mesh that is not flat
   double second_over_first;
-  std::string report;  // of all this, in words
+  std::string report;  // a summary in words
 };
 
-/// The fabric's first direction is that of the x axis on a flat mesh. On others ke follows from the
-/// median over particles of the mean of the least and greatest D/ke around them.
+/// On a flat mesh the fabric's first direction is the x axis. On others ke follows from the median
+/// over particles of the mean of the least and greatest D/ke around them.
 FabricOnMesh fabric_on_mesh(const Fabric& fabric, const TriangleMesh& mesh);
 
 }  // namespace foldproof

@@ -15,8 +15,8 @@ constexpr int samples = 8000;
 constexpr int first_cells = 16;
 constexpr double band = 3;  // cells to each side
 
-/// Points even over the area, moved along the faces' normals by `height` (between -1 and 1)
-/// times a distance.
+/// Points spread evenly over the area, moved along the face normals by a random fraction (-1 to 1)
+/// of a distance.
 class SurfaceSamples {
  public:
   explicit SurfaceSamples(const MeshDistance& mesh) : mesh_(mesh) {
@@ -43,7 +43,7 @@ class SurfaceSamples {
   double share() { return (double(random_()) + 0.5) / 4294967296.0; }
 
   const MeshDistance& mesh_;
-  std::vector<double> until_;  // areas of the triangles up to each [m^2]
+  std::vector<double> until_;  // cumulative areas of the triangles [m^2]
   std::mt19937 random_{71993};
 };
 

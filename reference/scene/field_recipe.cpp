@@ -34,7 +34,7 @@ struct FieldMaker {
     grid.method.cells = cells;
     return GridSolid{level_sets.make_level_set(grid.soup, grid.method, grid.repair)};
   }
-  /// Half the accuracy is for the tolerance, so that finer cells can reach it.
+  /// Half the accuracy goes to the tolerance, so that finer cells can reach the rest.
   Solid of_cells(const OctreeRecipe& octree, int cells) const {
     const Bounds bounds = bounds_of(octree.x);
     const OctreeSettings settings =

@@ -39,8 +39,8 @@ struct AnimationRecipe {
 struct FieldRecipe {
   std::variant<GridRecipe, OctreeRecipe, ExactRecipe, AnimationRecipe> of;
   std::string where;  // "file:line" of the key that sets its resolution; for error messages
-  // of grids and octrees of one mesh: the largest error that is allowed [m], from which the number
-  // of cells follows (field_accuracy.h); 0: the cells of the recipe
+  // for grids and octrees of one mesh: the largest error allowed [m], which sets the number of
+  // cells (field_accuracy.h); 0: the cells of the recipe
   double accuracy = 0;
 };
 
@@ -49,12 +49,11 @@ struct FieldRecipe {
 /// is three to either side. tolerance [m]. Throws InputError for more than 2^20 cells.
 OctreeSettings octree_about(const Bounds& bounds, double cell, double tolerance);
 
-/// Gives the body the field that the recipe describes. Throws InputError with the recipe's
-/// place for a field that is too fine or an accuracy that cannot be had, and whatever the
-/// provider throws.
+/// Gives the body the field that the recipe describes. Throws InputError with the recipe's place
+/// for a field that is too fine or an accuracy out of reach, and anything that the provider throws.
 void make_field(const FieldRecipe& recipe, const LevelSetProvider& level_sets, Body& body);
 
-/// Cells, measured error and bytes of a field that was built for an accuracy; "" for others.
+/// Cells, measured error and bytes of a field built for an accuracy; "" for others.
 std::string accuracy_report(const FieldRecipe& recipe, const Body& body);
 
 }  // namespace foldproof

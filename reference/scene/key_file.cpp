@@ -14,8 +14,8 @@ namespace foldproof {
 
 namespace {
 
-constexpr int most_nested = 32;  // tables and lists in each other
-constexpr int most_dots = 200;   // in a line
+constexpr int most_nested = 32;  // nested tables and lists
+constexpr int most_dots = 200;   // per line
 
 std::string place(const std::string& file, const toml::source_region& source) {
   return source.begin.line == 0 || file.starts_with("--")
@@ -237,8 +237,8 @@ void KeyTable::reject_unused() const {
 
 namespace {
 
-/// Behind the text in quotes that begins at `at`; at the end of the line or file in which
-/// it does not end.
+/// The position after the quoted text that begins at `at`; if the quotes do not close, the end of
+/// the line or file.
 size_t behind_quotes(std::string_view text, size_t at) {
   const std::string one(1, text[at]), three(3, text[at]);
   const bool has_escapes = text[at] == '"', is_long = text.substr(at).starts_with(three);
@@ -256,10 +256,10 @@ struct Unbearable {
   std::string why;
 };
 
-/// Input that would break the parser, outside of comments and quoted strings. A key of as many
-/// parts as a line has room for nests as many tables, and the parser's stack with them: a line may
-/// have a few hundred dots, in whatever meaning. Where toml++ 3.3 looks for blanks, letters outside
-/// ASCII lead it to where it must never come: in keys, too.
+/// Finds input that would break the parser, outside comments and quoted strings. Each dot of a key
+/// nests a table, and the parser's stack with it, so the dots of a line are limited, of any
+/// meaning. Where toml++ 3.3 expects blanks, and in keys, non-ASCII letters lead it to unreachable
+/// code.
 std::optional<Unbearable> unbearable(std::string_view text) {
   int line = 1, dots = 0;
   // the mark that some editors put before UTF-8
@@ -282,8 +282,8 @@ std::optional<Unbearable> unbearable(std::string_view text) {
   return {};
 }
 
-/// Tried without its letters outside ASCII first: what is well formed has them in comments and
-/// texts alone, where the parser bears them. On the way to a complaint it does not.
+/// First parses without non-ASCII letters: valid files have them only in comments and strings,
+/// which the parser accepts, but not while it composes an error message.
 toml::table parse_toml(const std::string& text, const std::string& file) {
   std::string plain = text;
   const auto mark = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;
@@ -323,7 +323,7 @@ KeyTable& table_below(KeyTable& table, const std::string& step, const std::strin
       table.entries.try_emplace(step, KeyValue{std::make_shared<KeyTable>(step, where), where});
   KeyValue* value = &entry->second;
   if (auto* list = std::get_if<std::vector<KeyValue>>(&value->data); list && list->size() == 1)
-    value = &list->front();  // the only entry of a list needs no number
+    value = &list->front();  // a list with one entry needs no number
   auto* below = std::get_if<std::shared_ptr<KeyTable>>(&value->data);
   if (!below) throw InputError(where + ": '" + step + "' is not a table");
   return **below;

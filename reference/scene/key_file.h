@@ -48,8 +48,7 @@ class KeyTable {
   /// The tables of [[key]]; empty if there is none.
   std::vector<std::shared_ptr<KeyTable>> tables(const std::string& key) const;
 
-  /// Leaves the key to another reader: it is known, and neither read nor searched by
-  /// reject_unused here.
+  /// Leaves the key to another reader: it counts as known, and reject_unused does not search it.
   void leave(const std::string& key) const;
 
   /// "file:line" of the key, or of the table if it lacks the key.
@@ -71,7 +70,7 @@ class KeyTable {
 };
 
 /// Parses TOML text; `file` names it in messages. Throws InputError "file:line: ..." for a syntax
-/// error, for tables and lists in more than 32 others, and, outside of quotes and comments, for a
+/// error, for tables and lists nested more than 32 deep, and, outside of quotes and comments, for a
 /// line with more than 200 dots, and for a character outside ASCII.
 std::shared_ptr<KeyTable> parse_keys(const std::string& text, const std::string& file);
 
@@ -79,7 +78,7 @@ std::shared_ptr<KeyTable> parse_keys(const std::string& text, const std::string&
 bool is_override(const std::string& where);
 
 /// Overrides "a.b.c=value" (value as in TOML, or else a string; a number in the path picks an entry
-/// of a list, and the only entry needs none). Missing tables are made. Throws InputError for an
+/// of a list, and a single entry needs none). Missing tables are created. Throws InputError for an
 /// override without '=' or a path through a value.
 void set_key(KeyTable& root, const std::string& assignment);
 

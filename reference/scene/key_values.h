@@ -19,7 +19,7 @@ double positive_or(const KeyTable& keys, const std::string& key, double fallback
 double non_negative_or(const KeyTable& keys, const std::string& key, double fallback);
 long count_or(const KeyTable& keys, const std::string& key, long fallback);  // 1 .. 1,000,000,000
 
-/// The value of the choice that the key names; the first is the default.
+/// The value of the choice named by the key; the first is the default.
 template <class Choice>
 Choice choice(const KeyTable& keys, const std::string& key,
               std::vector<std::pair<std::string, Choice>> choices) {
@@ -52,7 +52,7 @@ Motion read_motion(const KeyTable& keys);
 Eigen::AngleAxisd read_turn(const KeyTable& keys);
 
 /// The file or folder that the key names. In a case file it is relative to the file's folder and
-/// may not leave it, by an absolute path, by "..", or by a link; a value given by --set is taken as
+/// may not leave it by an absolute path, by "..", or by a link. A value given by --set is used as
 /// typed, relative to the working folder.
 std::string path_of(const KeyTable& keys, const std::string& key, const std::string& folder);
 

@@ -8,7 +8,7 @@ namespace foldproof {
 
 namespace {
 
-constexpr int vertices_around = 64;  // the axis, on each circle
+constexpr int vertices_around = 64;  // vertices on each circle around the axis
 constexpr int along_arc = 16;        // edges of a quarter of a circle in the profile
 constexpr int subdivisions = 4;      // of the sphere: 5120 triangles
 
@@ -17,7 +17,7 @@ struct ProfilePoint {
 };
 
 /// The profile turned about the z axis; it runs upwards (counter-clockwise if it closes), so that
-/// triangles point away from the axis. Points on the axis must not be in it.
+/// triangles point away from the axis. It must have no points on the axis.
 ObjectSurface revolve(const std::vector<ProfilePoint>& profile, bool closes) {
   const int rings = int(profile.size());
   ObjectSurface surface;

@@ -1,4 +1,4 @@
-// Triangulated surfaces of the solids that are known in closed form: for pictures and files.
+// Triangulated surfaces of the closed-form solids, for pictures and files.
 #pragma once
 
 #include <vector>

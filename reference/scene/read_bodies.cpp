@@ -33,20 +33,20 @@ TriangleSoup read_soup(const KeyTable& keys, const CaseContext& context) {
   return soup;
 }
 
-/// The finest cells: as wide as the key `cells` says of the longest side of the body at rest [m].
+/// The width of the finest cells: the longest side of the body at rest over the key `cells` [m].
 double read_cell(const KeyTable& keys, const PerParticle3& x) {
   return bounds_of(x).sizes().maxCoeff() / double(count_or(keys, "cells", 64));
 }
 
-/// By default the octree may miss a tenth of a cell: what a finest cell misses of a surface of 2.5
-/// cells' radius r, cell^2/(4 r).
+/// By default the octree's error may be a tenth of a cell: the error cell^2/(4 r) of a finest cell
+/// on a surface of radius r = 2.5 cells.
 OctreeSettings read_octree(const KeyTable& keys, const Bounds& bounds, double cell) {
   const double tolerance = positive_or(keys, "tolerance", cell / 10);
   return with_error_location(keys.where("cells"),
                              [&] { return octree_about(bounds, cell, tolerance); });
 }
 
-/// The largest error that is allowed, whatever `cells` says [m]; 0: none is given.
+/// The largest error allowed, regardless of `cells` [m]; 0: none is given.
 double read_accuracy(const KeyTable& keys, bool is_stored, Repair repair) {
   if (!keys.has("accuracy")) return 0;
   if (!is_stored)
@@ -57,8 +57,8 @@ double read_accuracy(const KeyTable& keys, bool is_stored, Repair repair) {
   return positive(keys, "accuracy");
 }
 
-/// The refusal of make_closed_mesh with what the frame is called, and another remedy: no repair
-/// is offered here.
+/// The refusal of make_closed_mesh, with the name of the frame and a different remedy: no repair is
+/// offered here.
 void reject_open_frame(const MeshSequence& animation, size_t k, const std::string& where) {
   try {
     make_closed_mesh({animation.positions[k], animation.triangles, {}});
@@ -70,15 +70,15 @@ void reject_open_frame(const MeshSequence& animation, size_t k, const std::strin
   }
 }
 
-/// The folder lies within the case file's; so must what its links name.
+/// The folder lies within the case file's folder; so must the targets of its links.
 void reject_links_outside(const std::string& folder, const std::string& case_folder,
                           const std::string& where) {
-  std::error_code none;  // a folder that is not there is refused by who reads it
+  std::error_code none;  // its reader refuses a missing folder
   for (const auto& entry : std::filesystem::directory_iterator(folder, none))
     reject_outside(entry.path().string(), case_folder, where);
 }
 
-/// The recipe with the place of the key that says how fine the field is.
+/// The recipe with the place of the key that sets the resolution of the field.
 template <class Recipe>
 std::shared_ptr<const FieldRecipe> recipe_of(const KeyTable& keys, Recipe of, double accuracy = 0) {
   const std::string where = keys.where(accuracy > 0 ? "accuracy" : "cells");
@@ -110,7 +110,7 @@ BodyDeformation read_deformation(const KeyTable& keys) {
   return {kind, unit * keys.number("amplitude"), positive(keys, "period")};
 }
 
-/// Times 0, interval, ... until the last one that the case asks for.
+/// Times 0, interval, ... up to the last one that the case needs.
 std::vector<double> read_times(const KeyTable& keys, const CaseContext& context) {
   const double interval = positive_or(keys, "interval", 1.0 / 30);
   const double until = positive_or(keys, "until", context.end);
@@ -150,11 +150,11 @@ BodyShape read_mesh_body(const KeyTable& keys, const CaseContext& context) {
   const auto repair =
       choice<Repair>(keys, "repair", {{"refuse", Repair::refuse}, {"winding", Repair::winding}});
   const double accuracy = read_accuracy(keys, field != Field::exact, repair);
-  // known to all fields, so that one --set changes between them
+  // known to all kinds of field, so that one --set can switch between them
   const int cells = int(count_or(keys, "cells", 64));
   ObjectSurface surface{soup.rest, soup.triangles};
   if (field == Field::grid) {
-    if (repair == Repair::refuse) make_closed_mesh(soup);  // for its refusals
+    if (repair == Repair::refuse) make_closed_mesh(soup);  // to refuse a mesh that is not closed
     const GridMethod method{cells, 4, 3, MarchingOrder::second};
     return {GridSolid{}, std::move(surface),
             recipe_of(keys, GridRecipe{std::move(soup), method, repair}, accuracy)};

@@ -14,21 +14,21 @@
 
 namespace foldproof {
 
-/// Context of a body that its keys do not contain.
+/// Context of a body beyond its keys.
 struct CaseContext {
-  std::string folder;  // where relative files of the case are looked for
+  std::string folder;  // base of relative paths in the case
   double end;          // of the run [s]
   const SceneLimits& limits;
 };
 
 /// A solid in its own frame, with its surface.
 struct BodyShape {
-  Solid solid;  // without its field if there is a recipe for it
+  Solid solid;  // lacks its field if there is a recipe for it
   ObjectSurface surface;
   std::shared_ptr<const FieldRecipe> field = {};
 };
 
-/// True if the body deforms: `frames` or [[object.deform]]?
+/// True if the body deforms: `frames` or [[object.deform]].
 bool is_deforming(const KeyTable& keys);
 
 /// `shape = "statue"` or `mesh`, as the exact distance, a grid or an octree of it: `field`,

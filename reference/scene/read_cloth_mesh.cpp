@@ -49,7 +49,7 @@ TriangleMesh read_sheet(const KeyTable& keys, const SceneLimits& limits) {
   sheet.height = keys.number("height");
   sheet.columns = count(keys, "columns");
   sheet.rows = count(keys, "rows");
-  // three at most in the others
+  // at most three in the other patterns
   const double in_a_cell = sheet.pattern == SheetPattern::criss_cross ? 4 : 3;
   reject_many_triangles(keys, "columns", in_a_cell * sheet.columns * sheet.rows, limits);
   sheet.jitter = keys.number_or("jitter", 0);
@@ -73,8 +73,8 @@ TriangleMesh read_cylinder(const KeyTable& keys, const SceneLimits& limits) {
   return make_cylinder(keys.number("radius"), keys.number("height"), around, along);
 }
 
-/// How finely an icosahedron is divided: its edges are halved `subdivisions` times, or are in
-/// `divisions` parts.
+/// Division of an icosahedron: its edges are halved `subdivisions` times, or cut into `divisions`
+/// parts.
 struct Fineness {
   int subdivisions, divisions;  // one of them is 0
 };
@@ -119,8 +119,8 @@ TriangleMesh make_shape(const KeyTable& keys, const SceneLimits& limits) {
                    "'; known: sheet, disc, cylinder, sphere, statue, hinge");
 }
 
-/// The mesh file; its panels sewn together if `seams` says so, then split where they meet in a
-/// point if `repair` does.
+/// Reads the mesh file, sews its panels together if `seams` is given, and with `repair` splits
+/// vertices that connect parts in a single point.
 SplitMesh read_mesh(const KeyTable& keys, const std::string& folder) {
   enum class ClothRepair { refuse, split };
   const std::string file = mesh_file(keys, folder, "cloth");
@@ -145,7 +145,7 @@ PlacedMesh read_or_make(const KeyTable& cloth, const std::string& folder,
   return {with_error_location(cloth.where("shape"), [&] { return make_shape(cloth, limits); }), {}};
 }
 
-/// Scales, turns and moves the positions, in this order.
+/// Scales, rotates and translates the positions, in this order.
 void place(const KeyTable& keys, PerParticle3& x) {
   scale_to_fit(keys, x);
   if (keys.has("turn")) {
@@ -155,7 +155,7 @@ void place(const KeyTable& keys, PerParticle3& x) {
   x.colwise() += keys.vector_or("move", Vector3::Zero());
 }
 
-/// The positions (3 x n [m]) and copies of them, each turned and moved on from the one before.
+/// The positions (3 x n [m]) and copies of them, each rotated and moved from the one before.
 PerParticle3 repeat(const PerParticle3& x, int copies, const Eigen::Matrix3d& turn,
                     const Vector3& move) {
   const Eigen::Index n = x.cols();
@@ -170,7 +170,7 @@ PerParticle3 repeat(const PerParticle3& x, int copies, const Eigen::Matrix3d& tu
   return all;
 }
 
-/// So many pieces of the cloth in place of one; rest shapes are moved, too, so that they lie apart.
+/// Copies of the cloth; their rest shapes are moved, too, so that they lie apart.
 void copy(const KeyTable& keys, const SceneLimits& limits, PlacedMesh& cloth) {
   const int copies = count(keys, "count"), n = cloth.mesh.particles();
   reject_many_triangles(keys, "count", double(copies) * double(cloth.mesh.triangles.size()),

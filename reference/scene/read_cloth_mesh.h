@@ -13,11 +13,10 @@ namespace foldproof {
 struct PlacedMesh {
   TriangleMesh mesh;              // with the rest shape
   PerParticle3 start;             // 3 x N [m]
-  std::vector<int> copy_of = {};  // as that of Scene
+  std::vector<int> copy_of = {};  // as Scene::copy_of
 };
 
-/// Reads the keys of [cloth] that say shape and place. folder: where relative files of the case
-/// are looked for.
+/// Reads the keys of [cloth] for shape and place. folder: base of relative paths in the case.
 PlacedMesh read_cloth_mesh(const KeyTable& cloth, const std::string& folder,
                            const SceneLimits& limits);
 

@@ -7,7 +7,7 @@
 
 namespace foldproof {
 
-/// Reads both into the scene, whose schedule is known.
+/// Reads both into the scene; needs its schedule.
 void read_objects(const KeyTable& keys, const CaseContext& context, Scene& scene);
 
 }  // namespace foldproof

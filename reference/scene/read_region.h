@@ -8,7 +8,7 @@
 
 namespace foldproof {
 
-/// Each takes x, where the things are (3 x N [m]), or their count N, and throws InputError
+/// Each takes the positions x of the items (3 x N [m]), or their count N, and throws InputError
 /// "file:line: ..." for a value out of its range.
 ///   select_in_box      box = [[x, y, z], [x, y, z]]
 ///   select_in_sphere   sphere = { center, radius }

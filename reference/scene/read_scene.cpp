@@ -139,8 +139,8 @@ void read_solver(const KeyTable& keys, SolverSettings& solver) {
 
 constexpr size_t longest_name = 100;
 
-/// A case's name becomes a part of file names, and of names of findings: it must not lead anywhere,
-/// nor need quoting.
+/// A case's name becomes part of file names and of names of findings: it must contain no path and
+/// need no quoting.
 void reject_name(const std::string& name, const std::string& path) {
   const auto is_plain = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
@@ -163,7 +163,7 @@ void refine(const KeyTable& cloth, const SceneLimits& limits, Scene& scene) {
   for (int k = 0; k < times; ++k) refine_cloth(scene);
 }
 
-/// Numbers of a case can each be sound and yet come to more than a double holds, or to less.
+/// Numbers of a case can be valid one by one, yet their product can overflow or underflow a double.
 void reject_overflow(const KeyTable& cloth, const Scene& scene) {
   const State start = start_state(scene);
   if (!start.x.allFinite() || !start.v.allFinite() || !scene.mesh.rest.allFinite())
@@ -174,7 +174,7 @@ void reject_overflow(const KeyTable& cloth, const Scene& scene) {
     throw InputError(cloth.where() + ": a particle has the mass 0, or one that is not finite");
 }
 
-/// The fabric that the cloth names, if it does.
+/// The fabric that the cloth names, if any.
 std::optional<Fabric> read_fabric(const KeyTable& cloth, const std::string& folder) {
   if (!cloth.has("fabric")) {
     if (cloth.has("fabrics"))

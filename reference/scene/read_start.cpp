@@ -18,12 +18,12 @@ struct Serpentine {
   double run, gap;  // length of a straight run, distance between two [m]
   double last;      // number of runs before the last
 
-  /// How far along its last run the point at the arc length s [m] is: 0 before it, 1 at its end.
+  /// The fraction of the last run at arc length s [m]: 0 before it, 1 at its end.
   double along_last(double s) const {
     return std::max(0.0, (s - last * (run + pi * gap / 2)) / run);
   }
 
-  /// Where the point at the arc length s [m] lies: along, up [m].
+  /// The place of the point at arc length s [m]: along, up [m].
   Eigen::Vector2d at(double s) const {
     const double radius = gap / 2, turn = pi * radius;
     const double below = std::floor(s / (run + turn));  // runs completed
@@ -39,7 +39,7 @@ struct Serpentine {
   }
 };
 
-/// Lays the cloth, flat and square to `up`, in a serpentine of so many layers.
+/// Folds the cloth, flat and perpendicular to `up`, into a serpentine of that many layers.
 void fold(const KeyTable& keys, PerParticle3& x) {
   const long layers = keys.integer("layers");
   if (!(layers >= 2 && layers <= 1000))

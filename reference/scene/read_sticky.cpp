@@ -16,12 +16,12 @@ namespace foldproof {
 
 namespace {
 
-/// The triangles that something sticky is made of.
+/// The triangles from which a sticky patch is selected.
 struct StickySheet {
   const PerParticle3& x;  // of the corners at the start [m]
   const std::vector<Triangle>& triangles;
   std::function<FaceGroups()> groups;  // of its OBJ file; empty if it has none
-  int parts = 1;                       // of each triangle that a list or a group means
+  int parts = 1;                       // of each triangle that a list or a group names
 };
 
 /// Groups of the OBJ file that the table's key `mesh` names.
@@ -31,7 +31,7 @@ std::function<FaceGroups()> groups_of(const std::shared_ptr<KeyTable>& keys,
   return [=] { return read_obj_groups(mesh_file(*keys, folder, table)); };
 }
 
-/// Numbers of the triangles that those listed were divided into.
+/// Numbers of the triangles into which the listed ones were divided.
 std::vector<int> divided(const std::vector<int>& triangles, int parts) {
   std::vector<int> all;
   for (const int t : triangles)
@@ -53,8 +53,8 @@ std::vector<int> triangles_of_group(const KeyTable& keys, const StickySheet& she
                    "'; known: " + (known.empty() ? "none" : known));
 }
 
-/// Things selected by a table: at the places x, and of a group by of_group; all if it selects none.
-/// parts: number of things that each number of a list stands for.
+/// Items selected by a table: by their positions x, or of a group by of_group; all if it selects
+/// none. parts: number of items per number of a list.
 std::vector<int> read_region(const KeyTable& keys, const std::string& list, int parts,
                              const PerParticle3& x,
                              const std::function<std::vector<int>()>& of_group) {
@@ -102,9 +102,9 @@ std::vector<int> read_particles(const KeyTable& keys, const StickySheet& cloth,
   return chosen;
 }
 
-/// Lets an object carry the patch; keeps those of its vertices that the patch uses.
+/// Lets an object carry the patch; keeps only the vertices that the patch uses.
 void carry(StickyPatch& patch, const SceneObject& by) {
-  std::map<int, int> place_of;  // of a vertex among those that are used
+  std::map<int, int> place_of;  // new number of a used vertex
   for (Triangle& triangle : patch.triangles)
     for (int& corner : triangle)
       corner = place_of.try_emplace(corner, int(place_of.size())).first->second;

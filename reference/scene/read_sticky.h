@@ -8,9 +8,9 @@
 
 namespace foldproof {
 
-/// Reads [[sticky]] into the scene, whose cloth, schedule and objects are known.
+/// Reads [[sticky]] into the scene; needs its cloth, schedule and objects.
 ///   case_keys   of the whole file; [cloth] and [[object]] name the OBJ files with the groups
-///   folder      where relative files of the case are looked for
+///   folder      base of relative paths in the case
 void read_sticky(const KeyTable& case_keys, const std::string& folder, Scene& scene);
 
 }  // namespace foldproof

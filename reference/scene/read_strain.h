@@ -6,7 +6,7 @@
 
 namespace foldproof {
 
-/// Reads the table, if the case has one, into the scene, whose springs are known.
+/// Reads the table, if the case has one, into the scene; needs its springs.
 void read_strain_limits(const KeyTable& keys, Scene& scene);
 
 }  // namespace foldproof

@@ -6,14 +6,14 @@
 
 namespace foldproof {
 
-/// How often [cloth] says that triangles are divided into four, 0 to 8; 0 without the key. Throws
+/// Number of times that [cloth] divides triangles into four, 0 to 8; 0 without the key. Throws
 /// InputError "file:line: ..." for another number.
 int refinements_of(const KeyTable& cloth);
 
-/// Divides each triangle into four by the middles of its edges. Surfaces at rest and at the start
-/// stay what they were; so do velocities, which are linear on each old triangle. Old particles keep
-/// their numbers, and those of triangle t are triangles 4t to 4t + 3. Halves of an old edge keep
-/// its rest angle; new edges, each within an old triangle, have none. Holds, sticky patches and
+/// Divides each triangle into four at the midpoints of its edges. The rest and start surfaces do
+/// not change; nor do velocities, which are linear on each old triangle. Old particles keep their
+/// numbers, and those of triangle t are triangles 4t to 4t + 3. Halves of an old edge keep its rest
+/// angle; new edges, each within an old triangle, have none. Holds, sticky patches and
 /// self-collision are left as they are.
 void refine_cloth(Scene& scene);
 

@@ -22,7 +22,7 @@ namespace foldproof {
 struct LevelSetProvider;  // bodies/level_set_provider.h
 struct FieldRecipe;       // scene/field_recipe.h
 
-/// An object, and its surface as triangles: for pictures, not for the collisions.
+/// An object, and its surface as triangles: for pictures, not for collisions.
 struct SceneObject {
   // if there is a recipe for the body's field, the field is missing until it is built
   Object object;
@@ -36,21 +36,21 @@ struct SceneObject {
 /// The surface's vertices at time t [s], 3 x V [m].
 PerParticle3 surface_at(const SceneObject& part, double t);
 
-/// Their velocities, 3 x V [m/s]; where they jump the later ones.
+/// Their velocities, 3 x V [m/s]; where they jump, the later ones.
 PerParticle3 surface_velocity_at(const SceneObject& part, double t);
 
-/// How cloth meets the objects.
+/// Settings of the collision between cloth and objects.
 struct CollisionSettings {
   double forecast_time = 0;  // tau [s]; 0: the step
   PointKind points = PointKind::particles;
   std::string response = "forecast";
 };
 
-/// A scene names its parts; anything else is absent, is not built and costs nothing.
+/// A scene names its parts; a part that it does not name is not built and costs nothing.
 struct Scene {
   std::string name, title, about;
   std::string text;  // the case file with its overrides, empty for scenes made by code
-  // of the case file, where its relative files are looked for; empty for scenes made by code
+  // of the case file, base of its relative files; empty for scenes made by code
   std::string folder;
 
   TriangleMesh mesh;   // with the rest shape
@@ -63,14 +63,14 @@ struct Scene {
   std::optional<Vector3> gravity;  // m/s^2
   std::optional<StretchMaterial> stretch;
   std::optional<BendingMaterial> bending;
-  std::vector<double> rest_angles;  // one a hinge [rad], when there is bending
+  std::vector<double> rest_angles;  // one per hinge [rad], if there is bending
   std::vector<PrescribedParticle> prescribed;
-  std::vector<std::string> warnings;  // of what is allowed, but seldom meant; a sentence each
+  std::vector<std::string> warnings;  // input that is allowed, but seldom meant; a sentence each
   std::vector<SceneObject> objects;
   CollisionSettings collision;
   std::optional<StrainLimits> strain_limits;  // needs stretch
   std::optional<SelfCollisionSettings> self_collision;
-  std::vector<StickyPatch> sticky;  // what cloth may stick to
+  std::vector<StickyPatch> sticky;  // patches that cloth may stick to
 
   std::string integrator = "C";
   Schedule schedule;
@@ -90,8 +90,7 @@ struct CaseKeys {
 ///   overrides   "a.b=c", applied in order
 CaseKeys parse_case(const std::string& path, const std::vector<std::string>& overrides);
 
-/// The same for text; `path` names it in messages, and relative mesh files are
-/// looked for beside it.
+/// The same for text; `path` names it in messages; relative mesh files are read from its folder.
 CaseKeys parse_case_text(const std::string& text, const std::string& path,
                          const std::vector<std::string>& overrides);
 
@@ -111,7 +110,7 @@ Scene read_scene_text(const std::string& text, const std::string& path,
 struct BuiltScene {
   System system;
   State start;
-  // with the fields of their bodies; for judging, instead of the system's own
+  // with the fields of their bodies; for checks, instead of the system's own
   std::vector<Object> objects;
 };
 

@@ -1,4 +1,4 @@
-// A scene and what is built of it, in words.
+// A scene, and the system built from it, in words.
 #include <cstdio>
 #include <set>
 
