@@ -1,4 +1,4 @@
-// Checks of what is refused as a solid, and of the test for intersecting triangles.
+// Checks of meshes that are refused as solids, and of the test for intersecting triangles.
 #include <iterator>
 #include <tuple>
 #include <utility>
@@ -24,14 +24,14 @@ TriangleSoup turned_round(TriangleSoup soup) {
 
 TriangleSoup ball(double radius) { return soup_of(make_icosphere(radius, 2)); }
 
-/// A surface that is no solid, and what the refusal must say of it.
+/// A surface that is not a solid, and the words that its refusal must contain.
 struct BadSolid {
   std::string name;
   TriangleSoup soup;
   std::vector<std::string> parts;
 };
 
-/// The line of triangle t in a file that write_obj wrote: a comment, the vertices, the triangles.
+/// ":LINE:" of triangle t in a file written by write_obj: a comment, the vertices, the triangles.
 std::string line_of(const TriangleSoup& soup, int t) {
   return ":" + std::to_string(2 + soup.rest.cols() + t) + ":";
 }
@@ -110,7 +110,7 @@ Finding solids_are_accepted() {
   return judge_worst(measured, 0, "each of them parts inside from outside");
 }
 
-// ---- pairs of triangles whose answer is known by how they were made, in whole numbers
+// ---- pairs of triangles whose answer follows from their construction, in whole numbers
 
 using Six = std::array<Vector3, 6>;
 
@@ -119,8 +119,8 @@ Vector3 whole(Random& random, double size) {
   return {std::round(v.x()), std::round(v.y()), std::round(v.z())};
 }
 
-/// Three vectors with 1, 2 and 3 times of them adding up to zero: the origin is inside the triangle
-/// that they span.
+/// Three vectors, weighted 1, 2 and 3, add up to zero: the origin is inside the triangle that they
+/// span.
 std::array<Vector3, 3> around_origin(Random& random) {
   const Vector3 a = 6 * whole(random, 50), b = 6 * whole(random, 50);
   return {a, b, -(a + 2 * b) / 3};
@@ -133,7 +133,7 @@ Six crossing(Random& random) {
   return {at + s[0], at + s[1], at + s[2], at + t[0], at + t[1], at + t[2]};
 }
 
-/// A vertex of the second lies in the first, the rest of it on one side.
+/// A vertex of the second lies in the first; the rest of it is on one side.
 Six touching(Random& random) {
   Six x = crossing(random);
   const Vector3 normal = (x[1] - x[0]).cross(x[2] - x[0]);
@@ -144,8 +144,8 @@ Six touching(Random& random) {
   return x;
 }
 
-/// The same, the second moved away by `gap` along an axis. The smallest gap that these numbers have
-/// room for is 2^-44.
+/// The same, with the second moved away by `gap` along an axis. These numbers can hold a gap of
+/// 2^-44 at the least.
 Six apart(Random& random, double gap) {
   Six x = touching(random);
   const Vector3 normal = (x[1] - x[0]).cross(x[2] - x[0]);
@@ -155,7 +155,7 @@ Six apart(Random& random, double gap) {
   return x;
 }
 
-/// In one plane, the second within the first or beyond its far side.
+/// Coplanar: the second lies within the first, or beyond its far side.
 Six in_plane(Random& random, bool overlapping) {
   const Vector3 u = whole(random, 50), v = whole(random, 50), at = whole(random, 1000);
   const auto point = [&](double a, double b) { return Vector3(at + a * u + b * v); };
@@ -228,7 +228,7 @@ Finding neighbours_are_told_apart() {
                      "contact in a shared vertex does not count, any other contact does");
 }
 
-/// The tree must find the pairs that a look at all of them finds.
+/// The tree must find the same pairs as a brute-force search.
 Finding pairs_are_complete() {
   Table measured{{"case", ""}, {"pairs missing or superfluous", "1"}};
   for (const double shift : {0.4, 1.1}) {

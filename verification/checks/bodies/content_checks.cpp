@@ -1,5 +1,5 @@
-// Level sets cached between runs: keys that change with every input, and content that must
-// not be trusted.
+// Level sets cached between runs: keys that change with every input, and content from untrusted
+// files.
 #include "reference/bodies/deforming_content.h"
 #include "reference/bodies/grid_content.h"
 #include "reference/mesh/shapes.h"
@@ -10,15 +10,15 @@ namespace foldproof {
 
 namespace {
 
-/// One thing that is changed, and what must follow from it.
+/// One change, and the function that makes it.
 template <class T>
 struct Change {
   std::string what;
   std::function<void(T&)> act;
 };
 
-/// For each change alone: is the key of the original kept? It must not be. `key` of an unchanged
-/// copy must be the same.
+/// Counts the single changes that leave the key as it was: there must be none. The `key` of an
+/// unchanged copy must be the same.
 template <class T>
 Finding keys_are_distinct(const T& original, const std::vector<Change<T>>& changes,
                           const std::function<std::string(const T&)>& key) {

@@ -20,20 +20,20 @@ std::string body(const std::string& file, const std::string& keys) {
          "\n";
 }
 
-/// A case that lies beside the file.
+/// A case in the same folder as the file.
 Scene read_case_beside(const std::string& file, const std::string& keys) {
   const std::string path = std::filesystem::path(file).replace_filename("trial.toml").string();
   return trial_scene(body(file, keys), {}, path);
 }
 
-/// The direction of the triangles that are left out first [1].
+/// Direction of the triangles that are left out first [1].
 Vector3 above_the_hole() {
   const TriangleMesh ball = make_icosphere(radius, 3);
   return ball.rest.col(ball.triangles[0][1]).normalized();
 }
 
-/// A ball of 1280 triangles; the first `missing` are left out, those from 100 to 100 +
-/// `flipped` turned round.
+/// A ball of 1280 triangles; the first `missing` are left out, and triangles 100 to 100 + `flipped`
+/// are reversed.
 std::string write_ball(const ScratchFolder& folder, int missing, int flipped) {
   TriangleMesh ball = make_icosphere(radius, 3);
   for (int t = 100; t < 100 + flipped; ++t) std::swap(ball.triangles[t][0], ball.triangles[t][1]);
@@ -61,8 +61,8 @@ Finding open_bodies_are_rejected() {
   return judge_worst(measured, 0, "each refusal must name the file or the key, and the reason");
 }
 
-/// Largest error of phi over points at distances 0.5 to 1.2 from the ball's centre, half of them
-/// below or above where triangles may be missing [cells].
+/// Largest error of phi at distances 0.5 to 1.2 from the ball's centre; half of the points are
+/// below or above the triangles that may be missing [cells].
 double error_of(const Scene& scene, double cell) {
   const auto solid = std::get<RigidObject>(build_objects(scene, computing_provider()).at(0).body);
   Random random(109);

@@ -149,8 +149,8 @@ Finding tree_is_near() {
                      "of the full turn that cancels");
 }
 
-/// Nodes where the repaired grid is on the wrong side, and the mean error of the rest, against
-/// the whole surface.
+/// Nodes on the wrong side in the repaired grid, and the mean error of the others, against the
+/// whole surface.
 struct Mended {
   double wrong_sides, mean_error;  // 1; cells
 };
@@ -172,7 +172,7 @@ TriangleSoup overlapping_balls() {
   return join(join({PerParticle3(3, 0), {}, {}}, ball, -c), ball, c);
 }
 
-/// The union of the two balls' own grids, on the lattice given: min of the two, exact outside.
+/// The union of the two balls' own grids on the given lattice: the minimum, exact outside.
 Mended against_union(const Grid& mended) {
   Mended result{0, 0};
   long outside = 0;

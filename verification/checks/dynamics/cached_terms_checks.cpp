@@ -1,5 +1,5 @@
-// Savings from computing the position-dependent terms of damping once per solve, and to
-// assemble no matrix.
+// Savings from computing the position-dependent terms of damping once per solve, and from
+// assembling no matrix.
 #include <set>
 
 #include "reference/dynamics/simulate.h"
@@ -24,13 +24,13 @@ double seconds_of(const std::function<void()>& run) {
   return processor_seconds() - start;
 }
 
-/// Ratio of the least times of two things, in several batches.
+/// Ratio of the shortest times of two functions, over several batches.
 struct TimedRatio {
-  std::array<double, 2> seconds;  // the least of all batches [s]
+  std::array<double, 2> seconds;  // the shortest of all batches [s]
   double least, most;             // ratio of a batch [1]
 };
 
-/// In a batch the two run in turns, so that what slows the machine down slows both.
+/// The two alternate within a batch, so that a slow spell of the machine affects both.
 TimedRatio timed_ratio(const std::function<void()>& one, const std::function<void()>& other) {
   constexpr int batches = 8, runs = 5;
   TimedRatio ratio{{INFINITY, INFINITY}, INFINITY, 0};
@@ -77,7 +77,7 @@ Finding time_finding() {
           "the range, so that a clock whose spread reaches over the bound decides nothing"};
 }
 
-/// The 3 x 3 blocks of D on and above its diagonal that springs and hinges fill.
+/// The 3 x 3 blocks of D, on and above its diagonal, that springs and hinges fill.
 double blocks_of(const TriangleMesh& mesh) {
   std::set<std::pair<int, int>> blocks;
   const auto couple = [&](int i, int j) { blocks.insert({std::min(i, j), std::max(i, j)}); };

@@ -1,4 +1,4 @@
-// Diagnostics against sums of our own, and the balance of energy.
+// Diagnostics against independent sums, and the balance of energy.
 #include "reference/dynamics/simulate.h"
 #include "verification/oracles/definitions.h"
 #include "verification/specimens/check.h"
@@ -23,8 +23,8 @@ oracles::SpringInput spring_input(const Scene& scene, const Edge& edge, const St
     if (triangle >= 0) area += rest_area(scene, triangle);
   const double rest = (scene.mesh.rest.col(edge.b) - scene.mesh.rest.col(edge.a)).norm(),
                scale = scene.stretch->rest_length_scale;
-  // The stiffness is Y A_e/L0^2 of the rest shape whatever the scale: the law's area grows
-  // with its length.
+  // The stiffness is Y A_e/L0^2 of the rest shape at any scale: the area in the formula grows with
+  // its length.
   return {{s.x.col(edge.a), s.x.col(edge.b)},
           {s.v.col(edge.a), s.v.col(edge.b)},
           {scene.stretch->stiffness, scene.stretch->damping, area * scale * scale, scale * rest}};
@@ -79,7 +79,7 @@ Followed record_run(const Scene& scene, const std::string& integrator, double h,
                       {steps * h, h, {h, 0.5, 0.1}, 1000000});
 }
 
-/// The largest error of a row, each quantity in epsilon of its own size.
+/// The largest error of a row, each quantity in epsilon of its own magnitude.
 double row_error(const Diagnostics& row, const Sums& sums, double damping_work,
                  double size_of_work) {
   Worst worst;
@@ -135,11 +135,11 @@ Finding diagnostics_finding() {
           "springs, hinges and dampers in 50 digits, masses and areas by an independent loop"};
 }
 
-/// Largest departure of energy minus the work of damping from its start, over the first
-/// kinetic energy [1].
+/// Largest change of energy minus the work of damping since the start, over the first kinetic
+/// energy [1].
 double imbalance(const std::string& integrator, double h, int steps) {
   Scene scene = partly_prescribed_sheet();
-  for (PrescribedParticle& p : scene.prescribed) p.motion = Motion{};  // what is held does no work
+  for (PrescribedParticle& p : scene.prescribed) p.motion = Motion{};  // held particles do no work
   const Followed run = record_run(scene, integrator, h, steps);
   Worst worst;
   for (const Diagnostics& row : run.rows)
@@ -152,7 +152,7 @@ double imbalance(const std::string& integrator, double h, int steps) {
 Finding balance_finding(const std::string& integrator) {
   Table errors{{"step", "s"}, {"imbalance over kinetic energy", "1"}, {"observed order", "1"}};
   double last = NAN, order = NAN;
-  // s: until later, a hinge may have folded by half a circle, where its energy jumps
+  // s; later on a hinge may have folded through pi, where its energy jumps
   constexpr double time = 0.04;
   for (int n = 100; n <= 800; n *= 2) {
     const double error = imbalance(integrator, time / n, n);

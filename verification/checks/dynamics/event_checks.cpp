@@ -1,4 +1,4 @@
-// Events: prescribed motions that start and stop on the way, and what a run does there.
+// Events: prescribed motions that start and stop during a run, and how the run handles them.
 #include "reference/dynamics/simulate.h"
 #include "reference/mesh/shapes.h"
 #include "verification/oracles/exact_solutions.h"
@@ -9,8 +9,8 @@ namespace foldproof {
 
 namespace {
 
-// A particle on a damped spring of no length, whose other end is led: off at one time, to
-// rest at another.
+// A particle on a damped spring of zero length whose other end is prescribed: it starts at one time
+// and stops at another.
 constexpr double mass = 0.37, stiffness = 5.3, damping = 1.9;            // kg, N/m, N s/m
 constexpr double from = 0.2371, until = 0.6193, end = 0.9, speed = 1.7;  // s, s, s, m/s
 constexpr double start_x = 0.23, start_v = -0.41;                        // m, m/s
@@ -48,7 +48,7 @@ State start_of_spring() {
   return s;
 }
 
-/// Position [m] and velocity [m/s] of the free particle relative to the led one.
+/// Position [m] and velocity [m/s] of the free particle relative to the prescribed one.
 struct Relative {
   double x, v;
 };
@@ -59,8 +59,8 @@ Relative after(const Relative& at, double t) {
   return {exact.x.value, exact.v.value};
 }
 
-/// Relative to the led end, which stands again: a free oscillation that each event gives
-/// another velocity.
+/// Relative to the prescribed end, now at rest: a free oscillation whose velocity changes at each
+/// event.
 Relative exact_end() {
   Relative at = after({start_x, start_v}, from);
   at.v -= speed;
@@ -96,7 +96,7 @@ Finding order_holds() {
 
 const Schedule ten_frames{end, 0.1, {0.013, 0.5, 0.1}, 100000};
 
-/// A row for each event: how far it is from the nearest end of a step of the run [s].
+/// A row for each event: its distance from the nearest end of a step of the run [s].
 void see_events(const System& system, std::string_view integrator,
                 const std::vector<double>& events, Table& measured) {
   const Followed run =
@@ -124,8 +124,8 @@ Finding events_are_hit() {
   return judged_events(measured);
 }
 
-/// A ball, a led cube of keyframes and a ball that deforms, far from the spring, and the times at
-/// which they jump.
+/// Far from the spring: a ball, a cube moved by keyframes and a ball that deforms, with the times
+/// at which their motions jump.
 struct Movers {
   ObjectCollision collision;
   std::vector<double> times;  // s
@@ -165,8 +165,7 @@ Finding object_events_are_hit() {
   return judged_events(measured);
 }
 
-/// A motion that drifts and swings, between two times of which one is a frame's, but
-/// for a rounding.
+/// A motion that drifts and swings between two times, one of them a rounding away from a frame.
 Finding path_is_kept() {
   System system = led_spring();
   Motion& motion = system.prescribed.front().motion;

@@ -42,7 +42,7 @@ struct TurningPair {
   double length, omega;
 };
 
-/// A pre-stretched pair that turns about its centre of mass, exactly steadily in continuous time.
+/// A pre-stretched pair that turns about its centre of mass, steadily in continuous time.
 TurningPair turning_pair() {
   const oracles::SpringPair pair{53, 0.31, 0.62, 0.27, 0.43};
   TurningPair turning;
@@ -111,8 +111,8 @@ Finding no_drift_finding(const std::string& integrator) {
           deviations};
 }
 
-/// A particle on a spring whose other end oscillates along it, which is a linear oscillator
-/// driven by a force.
+/// A particle on a spring whose other end oscillates along it: a linear oscillator driven by a
+/// force.
 struct DrivenSpring {
   double stiffness = 41, mass = 0.13, rest_length = 0.7;  // N/m, kg, m
   double amplitude = 0.09, frequency = 1.3;               // m, Hz
@@ -129,7 +129,7 @@ struct DrivenSpring {
     return system;
   }
 
-  /// The solution that oscillates with the drive alone: the free particle is at rest_length +
+  /// The solution that oscillates with the drive only: the free particle is at rest_length +
   /// response sin(omega t).
   double response() const {
     const double omega = 2 * pi * frequency;
@@ -151,7 +151,7 @@ struct DrivenSpring {
   }
 };
 
-/// Observed orders with a driven end: each stage must have it where it then is.
+/// Observed orders with a driven end: each stage must place the end at the stage's own time.
 Finding driven_finding() {
   const DrivenSpring driven;
   const System system = driven.system();

@@ -1,5 +1,5 @@
-// The methods that the paper's schemes are compared with: the equations of a step, and
-// what limits it.
+// The methods that the paper's schemes are compared with: the equations of a step, and the limits
+// of the step.
 #include <fmt/format.h>
 #include <numeric>
 
@@ -23,7 +23,7 @@ double norm_of(const PerParticle3& momentum, const PerParticle& inverse_mass) {
   return std::sqrt(momentum.colwise().squaredNorm().dot(inverse_mass.transpose()));
 }
 
-/// A step that a method has made, and the states before it, the latest last.
+/// A step made by a method, and the states before it, the latest last.
 struct MadeStep {
   std::vector<State> past;
   State next;
@@ -36,8 +36,8 @@ MadeStep step_made_by(Stepper& stepper, double h) {
   return {{start, second}, stepper.step_after({start, second}, h)};
 }
 
-/// Where and with which velocity a method takes the forces, over which span [s], and the change of
-/// velocity that they make there, all by the textbook.
+/// Position and velocity at which a method evaluates the forces, the span [s] that they act over,
+/// and the resulting change of velocity, all by the textbook.
 struct Equation {
   State at;
   double span;
@@ -73,7 +73,7 @@ double residual_of(const Stepper& stepper, const Equation& equation, const PerPa
          (norm_of(momentum, inverse_mass) + norm_of(impulse, inverse_mass));
 }
 
-/// Prescribed particles are where and as fast as they are at that time.
+/// Prescribed particles have the position and velocity prescribed for that time.
 void lead(const System& system, State& s) {
   impose(velocities_at(system.prescribed, s.time), s.v);
   for (const PrescribedParticle& p : system.prescribed)
@@ -130,14 +130,14 @@ Finding linearised_step(const Subject& subject) {
                      "condition, at most some 1e3");
 }
 
-/// The scene with a hundred times its damping.
+/// The scene with its damping multiplied by 100.
 Scene heavily_damped(Scene scene) {
   scene.stretch->damping *= 100;
   scene.bending->damping *= 100;
   return scene;
 }
 
-/// A damped sheet, two damped a hundred times as much, and an undamped one whose springs are
+/// A damped sheet, two with 100 times its damping, and an undamped one whose springs are
 /// compressed, so that the exact derivative is indefinite.
 std::vector<std::pair<std::string, Scene>> sheets_to_solve() {
   std::vector<std::pair<std::string, Scene>> sheets = {
@@ -150,7 +150,7 @@ std::vector<std::pair<std::string, Scene>> sheets_to_solve() {
   return sheets;
 }
 
-/// How many of 36 solves missed their tolerance, at steps up to 50 times the elastic limit.
+/// Solves out of 36 that missed their tolerance, at steps up to 50 times the elastic limit.
 Finding large_steps_finding(const Subject& subject) {
   Table missed{{"case", ""}, {"solves that missed their tolerance", "solves"}};
   for (const auto& [name, scene] : sheets_to_solve())
@@ -173,8 +173,8 @@ Finding large_steps_finding(const Subject& subject) {
           missed};
 }
 
-/// Shapes at rest far from the origin, held together by springs alone, or by hinges alone: all that
-/// pulls at them is how their places are rounded.
+/// Shapes at rest far from the origin, held together by springs alone or by hinges alone: the only
+/// forces come from the rounding of positions.
 std::vector<Specimen> shapes_at_rest() {
   std::vector<Specimen> cases;
   for (Specimen shape : curved_shapes())
@@ -208,7 +208,7 @@ Finding rest_is_found(const Subject& subject) {
       "cloth at rest up to the rounding of its positions needs no solve, and none can improve it");
 }
 
-/// Sheets that turn and crumple against damping a hundred times their usual.
+/// Sheets that turn and crumple, with 100 times their usual damping.
 Finding newton_is_quick(const Subject& subject) {
   Table measured{{"case", ""}, {"Newton iterations of a step", "1"}};
   for (Scene scene : {heavily_damped(free_sheet()), heavily_damped(partly_prescribed_sheet())}) {
@@ -262,7 +262,7 @@ Finding damping_bound_is_a_bound(const Subject& subject) {
   return judge_worst(measured, 1, "an upper bound may not be exceeded");
 }
 
-/// Two equal masses joined by a damper: as fast as the bound says.
+/// Two equal masses joined by a damper: they reach the bound.
 Finding damping_rate_is_reached() {
   Table measured{{"case", ""}, {"bound over the rate of one damper, less 1", "1"}};
   for (const double mass : {0.3, 2.7}) {
@@ -299,7 +299,7 @@ Finding explicit_steps_respect_damping() {
   return judge_worst(measured, 8 * epsilon, "the limit times the safety, in a few roundings");
 }
 
-/// After a step of a hundredth of what is allowed, the next one.
+/// The next step after a step of a hundredth of the allowed one.
 Finding growth_is_limited() {
   const System system = build_system(free_sheet());
   State before = start_state(free_sheet()), now = before;
@@ -321,8 +321,8 @@ Finding growth_is_limited() {
       "BDF2 is zero-stable for ratios below 1 + sqrt(2); one-step methods need no such limit");
 }
 
-/// Derivatives of the elastic forces that Newton's method asks for in an iteration, where they are
-/// definite: steps so short that the masses outweigh what springs and hinges under pressure lack.
+/// Derivatives of the elastic forces in Newton iterations, where they are definite: the steps are
+/// so short that the masses outweigh the negative stiffness of compressed springs and hinges.
 Finding newton_asks_finding() {
   const System system = build_system(undamped_sheet());
   const State start = start_state(undamped_sheet());

@@ -11,8 +11,7 @@ namespace foldproof {
 
 namespace {
 
-/// Momenta of velocities v at positions x, and the sums of absolute values that they
-/// are compared with.
+/// Momenta of velocities v at positions x, and the sums of absolute values used as their scale.
 struct Momenta {
   Vector3 linear, angular;           // kg m/s, kg m^2/s about the origin
   double linear_size, angular_size;  // sum m |v|, sum m |x| |v|
@@ -32,8 +31,7 @@ Momenta momenta(const PerParticle& mass, const PerParticle3& x, const PerParticl
 
 enum class Momentum { linear, angular };
 
-/// Drift from the start, in epsilon of the sum of absolute values (the largest on the
-/// way) [epsilon].
+/// Drift from the start, in epsilon of `size`, the largest sum of absolute values on the way.
 double drift(const Momenta& now, const Momenta& start, Momentum which, double size) {
   const Vector3 change = which == Momentum::linear ? Vector3(now.linear - start.linear)
                                                    : Vector3(now.angular - start.angular);
@@ -182,8 +180,8 @@ std::vector<Check> momentum_checks() {
                         "a free damped sheet keeps its angular momentum to rounding, however loose "
                         "the tolerance of its solves.",
                         source, damped_angular_finding}});
-  // C moves x with one velocity and carries momentum with another: its drift is O(h^2); a
-  // study measures it
+  // C moves x with one velocity and carries momentum with another: its drift is O(h^2); a study
+  // measures it
   std::erase_if(damped, [](const Check& check) { return check.name.ends_with(".C"); });
   list.insert(list.end(), damped.begin(), damped.end());
   list.push_back({"dynamics.truncated-solve-conserves-momentum",

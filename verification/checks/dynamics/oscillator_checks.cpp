@@ -1,4 +1,4 @@
-// The schemes on one oscillator, where each is a matrix of two by two.
+// The schemes on one oscillator, where each is a 2 x 2 matrix.
 #include "reference/dynamics/integrator.h"
 #include "verification/oracles/dense_algebra.h"
 #include "verification/oracles/exact_solutions.h"
@@ -20,8 +20,8 @@ Scheme scheme_named(const std::string& integrator) {
   throw NotOffered{"a derived step matrix for integrator " + integrator};
 }
 
-/// One particle with x'' = -k x - c x' in every direction; of 1/4 kg, so that no mass
-/// adds a rounding.
+/// One particle with x'' = -k x - c x' in every direction; it weighs 1/4 kg, so that the mass adds
+/// no rounding.
 System oscillator_system(const Oscillator& oscillator) {
   const double m = 0.25, k = oscillator.stiffness, c = oscillator.damping;
   System system = make_system(PerParticle::Constant(1, m));
@@ -32,7 +32,7 @@ System oscillator_system(const Oscillator& oscillator) {
   };
   system.forces.push_back(force);
   system.solver.tolerance = 1e-15;
-  system.solver.max_iterations = 3;  // one finishes: D is a multiple of M
+  system.solver.max_iterations = 3;  // one iteration suffices: D is a multiple of M
   return system;
 }
 
@@ -40,7 +40,7 @@ State one_particle(double x, double v) {
   return {0, PerParticle3(Vector3(x, 0, 0)), PerParticle3(Vector3(v, 0, 0))};
 }
 
-/// The reference's step matrix, found by stepping the two unit vectors.
+/// The reference's step matrix, from steps of the two unit vectors.
 Eigen::Matrix2d stepped_matrix(const std::string& integrator, const Oscillator& oscillator,
                                double h) {
   const System system = oscillator_system(oscillator);
@@ -64,7 +64,7 @@ Finding verlet_finding(const std::string& integrator) {
     State s = one_particle(oscillator.x0, oscillator.v0);
     for (int n = 1; n <= 1000; ++n) {
       s = step_once(integrator, system, s, h);
-      if (n % 9 != 1) continue;  // the 1,000th step included; 50 digits take their time
+      if (n % 9 != 1) continue;  // step 1,000 included; 50 digits are slow
       const oracles::OscillatorEstimate exact = oracles::verlet_oscillator(oscillator, h, n);
       here.observe(std::abs(s.x(0, 0) - exact.x.value) / amplitude);
       here.observe(std::abs(s.v(0, 0) - exact.v.value) / (amplitude * speed));
@@ -79,11 +79,11 @@ Finding verlet_finding(const std::string& integrator) {
       errors};
 }
 
-/// Sums of the absolute values of the terms that make an entry of the step matrix, explicit
-/// guesses included.
+/// Sums of the absolute values of the terms in each entry of the step matrix, including explicit
+/// guesses.
 Eigen::Matrix2d term_sizes(const std::string& integrator, const Oscillator& oscillator, double h) {
   const double a = h * oscillator.damping / 2, b = h * h * oscillator.stiffness / 2;
-  const double first = integrator == "A" ? 1 + a : 1;  // what multiplies v in the moving velocity
+  const double first = integrator == "A" ? 1 + a : 1;  // coefficient of v in the moving velocity
   Eigen::Matrix2d sizes;
   sizes << 1 + b, h * first, b / h * (2 + a + b), (1 + a) + b * first;
   if (integrator == "B") sizes(1, 1) = (1 + a) + b;
@@ -150,7 +150,7 @@ Finding pure_damping_finding(const std::string& integrator) {
   for (double a : {0.11, 0.37, 0.94, 2.7, 10.0, 23.0}) {
     const double h = 2 * a / c, expected = integrator == "A" ? 1 - a * a : 1;
     const System system = oscillator_system({0, c, 0, 0});
-    // to e^-40 of the velocity
+    // the velocity decays by e^-40
     const int steps = int(std::ceil(40 / -std::log(std::abs((1 - a) / (1 + a)))));
     State s = one_particle(0, v0);
     double path = 0;

@@ -1,4 +1,4 @@
-// Methods of other papers on small cloth: Newmark's implicit one, and Baraff and Witkin's solve.
+// Methods of other papers on small cloth: Newmark's implicit method, and Baraff and Witkin's solve.
 #include "reference/mesh/shapes.h"
 #include "verification/specimens/check.h"
 #include "verification/specimens/dense_steps.h"

@@ -1,4 +1,4 @@
-// Runs: frames at their times, steps within their limits, and stops that say what happened.
+// Runs: frames at their times, steps within their limits, and stops that report the reason.
 #include "reference/dynamics/simulate.h"
 #include "reference/mesh/shapes.h"
 #include "verification/specimens/check.h"
@@ -16,15 +16,14 @@ Followed record_run(const System& system, const std::string& integrator, const S
   return followed_run(system, integrator_named(integrator), start, schedule);
 }
 
-/// Defects in the frames and steps of a run that should have `frames` frames: the largest error in
-/// time [s], of a product and a sum that may be rounded as one; NaN for a wrong count or a step
-/// longer than the one asked for.
+/// Largest error in time [s] of the frames of a run that should have `frames` frames; product and
+/// sum may be rounded together. NaN for a wrong count or a step longer than requested.
 double frame_error(const Followed& run, const Schedule& schedule, size_t frames) {
   Worst worst;
   if (run.frames.size() != frames || run.result.stop) worst.observe(NAN);
   const double start = run.frames.front().time, fixed = schedule.step.fixed;
   for (size_t k = 0; k < run.frames.size(); ++k) {
-    // rounded, whatever the compiler fuses
+    // rounded, even if the compiler fuses
     const volatile double whole = double(k) * schedule.frame_interval;
     const double apart = std::min(schedule.end, start + whole),
                  as_one =
@@ -39,14 +38,14 @@ double frame_error(const Followed& run, const Schedule& schedule, size_t frames)
 }
 
 Finding frames_finding() {
-  const double interval = 0.0113, length = 0.0517;  // four whole intervals and a rest
+  const double interval = 0.0113, length = 0.0517;  // four whole intervals and a remainder
   Scene scene = partly_prescribed_sheet();
   scene.prescribed.clear();  // their paths begin at time 0, these runs do not
   Table errors{{"start", "s"}, {"step asked for, 0: automatic", "s"}, {"error of the times", "s"}};
   for (double start_time : {0.21, -0.0171, -0.0083, -0.0231})
     for (double fixed : {0.0017, 0.0113, 0.0}) {
       System system = build_system(scene);
-      if (fixed == interval) system.forces.clear();  // a step so long suits free flight only
+      if (fixed == interval) system.forces.clear();  // so long a step suits free flight only
       State start = start_state(scene);
       start.time = start_time;
       const Schedule schedule{start_time + length, interval, {fixed, 0.5, 0.1}, 100000};
@@ -72,7 +71,7 @@ double strain_in(const Scene& scene, const State& s, double h) {
 }
 
 Finding limits_finding() {
-  constexpr size_t least_steps = 4;  // fewer say nothing of how a step follows the cloth
+  constexpr size_t least_steps = 4;  // too few to show that the step follows the cloth
   Worst worst;
   Table used{{"speed", "1"},
              {"of the elastic limit", "1"},
@@ -110,7 +109,7 @@ Finding limits_finding() {
           "to there."};
 }
 
-/// About a stopped run.
+/// The finding about a stopped run.
 Finding judged_statements(const Table& statements, const std::string& note) {
   return {{count_false(statements), 0, 0, "false statements", "a statement is true or false"},
           statements,

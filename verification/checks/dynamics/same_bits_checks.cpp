@@ -1,5 +1,5 @@
-// Runs that must have the same bits: resumed from a checkpoint, reusing what they computed, on
-// several threads.
+// Runs that must have the same bits: resumed from a checkpoint, reusing computed values, on several
+// threads.
 #include <numeric>
 #include <random>
 
@@ -18,8 +18,7 @@ namespace {
 
 // ---- resumed
 
-/// Numbers that differ, over all frames of the run at which it is interrupted; NaN for a run that
-/// is not what it is meant to be.
+/// Most numbers that differ after an interruption, over all frames; NaN for an invalid run.
 double differences(const NamedRun& of) {
   const Integrator& integrator = integrator_named(of.integrator);
   const Followed whole = followed_run(of, build_system(of.scene), integrator);
@@ -47,7 +46,7 @@ Finding same_bits_finding() {
 
 // ---- reused
 
-/// All numbers of the forces at a state.
+/// All force values at a state.
 Numbers numbers_at(const System& system, const State& s, Work work) {
   const Forces forces = forces_at(system.forces, s, work);
   PerParticle3 damping = PerParticle3::Zero(3, s.x.cols());
@@ -59,7 +58,7 @@ Numbers numbers_at(const System& system, const State& s, Work work) {
   return numbers;
 }
 
-/// A state and others that differ from it in one thing on which forces depend.
+/// A state and variants, each with one change that may affect the forces.
 std::vector<std::pair<std::string, State>> neighbours_of(const State& s) {
   State moved = s, later = s, freed = s, faster = s;
   moved.x(1, s.x.cols() - 1) = std::nextafter(moved.x(1, s.x.cols() - 1), 1e9);
@@ -73,7 +72,7 @@ std::vector<std::pair<std::string, State>> neighbours_of(const State& s) {
           {"the velocity", faster}};
 }
 
-/// A force that depends on the velocity, as an experiment may.
+/// A force that depends on the velocity, as in an experiment.
 CustomForce experiment() {
   CustomForce force;
   force.elastic = [](const State& s, PerParticle3& f) { f -= 0.3 * s.v; };
@@ -81,7 +80,7 @@ CustomForce experiment() {
   return force;
 }
 
-/// Forces at neighbouring states, one after the other, by a run that keeps values.
+/// Forces at neighbouring states, one after the other, in a run that keeps values.
 void see_neighbours(bool has_custom, Table& measured) {
   StuckSpecimen specimen = stuck_to_turning_surface();
   specimen.scene.stretch = StretchMaterial{3.7, 0.6, 1};
@@ -131,7 +130,7 @@ Finding reuse_finding() {
       measured, 0, "a value is used again only for the same position, time and bonds, to the bit");
 }
 
-/// Steps by hand: how often forces are computed, over one each step and the start.
+/// Steps by hand: the number of force evaluations, beyond one per step and one at the start.
 Finding once_finding() {
   Table measured{{"scheme", ""}, {"of", ""}, {"asked", "1"}, {"computed", "1"}, {"too many", "1"}};
   constexpr int steps = 7;
@@ -172,7 +171,7 @@ Numbers numbers_on(int threads, const NamedRun& of) {
 /// A sheet of n x n alternating cells.
 TriangleMesh plain_mesh(int n) { return make_sheet({SheetPattern::alternating, 1.3, 1.1, n, n}); }
 
-/// The same, its particles numbered at random: each thread then shares most elements with others.
+/// The same, numbered at random: most elements then have particles of several threads.
 TriangleMesh shuffled_mesh(int n) {
   const TriangleMesh plain = plain_mesh(n);
   std::vector<int> number(size_t(plain.particles()));
@@ -186,7 +185,7 @@ TriangleMesh shuffled_mesh(int n) {
   return make_triangle_mesh(std::move(rest), std::move(triangles));
 }
 
-/// The sheet waved and moving, damped, under gravity, with a particle held.
+/// The sheet waved and moving, damped, under gravity, with one particle held.
 Scene held_and_waved(TriangleMesh mesh) {
   const double height = 0.1 / std::sqrt(double(mesh.particles()));  // m
   Scene scene = waved_sheet(std::move(mesh), height);
@@ -195,7 +194,7 @@ Scene held_and_waved(TriangleMesh mesh) {
   return scene;
 }
 
-/// So many steps of half the elastic limit, each a frame.
+/// `steps` steps of half the elastic limit, each of them a frame.
 NamedRun stepped(const std::string& name, Scene scene, int steps) {
   const double h = 0.5 * elastic_limit(build_system(scene), start_state(scene));
   scene.schedule = {steps * h, h, {h, 0.5, 0.1}, 100000};
@@ -214,7 +213,7 @@ Scene on_a_ball(PointKind points) {
   return scene;
 }
 
-/// Sheets thrown through each other, were it not for many impulses in a step.
+/// Sheets that would be thrown through each other without many impulses in a step.
 NamedRun thrown_layers() {
   LayeredSheets layers;
   layers.sheets = 6;
@@ -226,7 +225,7 @@ NamedRun thrown_layers() {
   return {"layers thrown at each other", "C", std::move(scene)};
 }
 
-/// Sums and searches of many parts.
+/// Sums and searches that have many parts.
 std::vector<NamedRun> larger_runs() {
   return {stepped("316 x 316 particles", held_and_waved(plain_mesh(315)), 1),
           stepped("particles numbered at random", held_and_waved(shuffled_mesh(11)), 9),

@@ -1,4 +1,4 @@
-// The conjugate gradients of the reference against dense linear algebra, and what they promise.
+// The conjugate gradients of the reference against dense linear algebra, and their promises.
 #include "reference/dynamics/conjugate_gradient.h"
 #include "reference/dynamics/system.h"
 #include "reference/mesh/shapes.h"
@@ -25,7 +25,7 @@ double largest_eigenvalue(const DenseProblem& dense) {
   return values.maxCoeff();
 }
 
-/// A solve of a problem, for half a step s [s].
+/// The solution of a problem, for half a step s [s].
 struct Solved {
   PerParticle3 w;  // 3 x N [m/s], solved for
   Work work = {};
@@ -120,7 +120,7 @@ Finding cholesky_finding() {
           "here."};
 }
 
-/// Particles that are each damped at one of k rates: D has k distinct eigenvalues beside zero.
+/// Particles that are each damped at one of k rates: D has k distinct nonzero eigenvalues.
 SolveResult solve_with_rates(int k, unsigned seed) {
   const int particles = 23;
   Random random(seed);
@@ -157,7 +157,7 @@ Finding eigenvalue_finding() {
           solves};
 }
 
-/// Number of false reports of a solve that may not finish, and of one that cannot.
+/// Number of false reports by a solve whose iterations are capped, and by one that cannot converge.
 Finding cap_finding() {
   const Problem problem = make_problem(free_sheet(), 3);
   const auto solve = [&](double tolerance, int cap, const PerParticle3& guess) {

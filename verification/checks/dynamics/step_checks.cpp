@@ -1,5 +1,5 @@
-// The lines of the schemes, one by one: what is modified, what continues from what, what is
-// led and counted.
+// The lines of the schemes, one by one: modified velocities, their continuation, prescribed motion
+// and counted work.
 #include "reference/dynamics/integrator.h"
 #include "verification/specimens/check.h"
 #include "verification/specimens/differences.h"
@@ -46,7 +46,7 @@ struct Call {
   PerParticle3 given, left;
 };
 
-/// A free damped sheet with a filter that changes every velocity and writes down what it did.
+/// A free damped sheet with a filter that changes every velocity and records its calls.
 struct FilteredStep {
   State now, next;
   std::vector<Call> calls;
@@ -96,8 +96,8 @@ Finding filter_finding(const std::string& integrator) {
                : "The filter is called for the motion only."};
 }
 
-/// Velocity after one step of a particle with x'' = g - c x'; a filter adds d to the
-/// velocity that moves it.
+/// Velocity after one step of a particle with x'' = g - c x'; a filter adds d to the velocity that
+/// moves it.
 double end_velocity(const std::string& integrator, double h, double c, double g, double v,
                     double d) {
   const double m = 0.25;
@@ -164,7 +164,7 @@ Finding held_finding(const Subject& subject) {
           counts};
 }
 
-/// Where a led point is, straight from the definition of Motion, the rotation by
+/// Position of a prescribed particle, from the definition of Motion, with the rotation by
 /// Rodrigues' formula.
 State led_point(const PrescribedParticle& p, double t) {
   const Motion& m = p.motion;

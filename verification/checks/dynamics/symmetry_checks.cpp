@@ -1,5 +1,5 @@
-// Invariance of the answer under changes of units, the frame of reference, the day on
-// which it is run.
+// Invariance of the result under changes of units, of the frame of reference, and of the start
+// time.
 #include "verification/specimens/check.h"
 #include "verification/specimens/differences.h"
 #include "verification/specimens/moving_sheets.h"
@@ -40,14 +40,14 @@ Scene convert(Scene scene, const Units& u) {
   return scene;
 }
 
-/// Solved to the end: a solve that stops at a tolerance may stop an iteration later in other units.
+/// Solved to rounding: in other units, a solve to a tolerance may take one more iteration.
 Scene solved_sheet() {
   Scene scene = partly_prescribed_sheet();
   scene.solver.tolerance = 1e-14;
   return scene;
 }
 
-/// The end of 20 steps in other units, converted back.
+/// The state after 20 steps in other units, converted back.
 State run_in(const Units& u, const Subject& subject, const std::string& integrator, double h,
              int steps) {
   Stepper stepper(subject, convert(solved_sheet(), u), integrator);
@@ -57,7 +57,7 @@ State run_in(const Units& u, const Subject& subject, const std::string& integrat
   return s;
 }
 
-/// How far the ends of two runs lie apart, in epsilon of the extent and of the extent over the
+/// Difference between the ends of two runs, in epsilon of the extent and of the extent over the
 /// time [epsilon].
 double distance(const State& a, const State& b, double size, double duration) {
   Worst worst;

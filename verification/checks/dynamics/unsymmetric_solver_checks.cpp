@@ -12,8 +12,8 @@ namespace foldproof {
 
 namespace {
 
-/// M - s D - s^2 K of a moving, crumpled, damped sheet, as the reference has it and dense, and a
-/// right-hand side.
+/// M - s D - s^2 K of a moving, crumpled, damped sheet, as the reference's operator and as a dense
+/// matrix, and a right-hand side.
 struct NewtonProblem {
   System system;
   DampingOperator damping;
@@ -28,7 +28,7 @@ struct NewtonProblem {
   NewtonMatrix matrix() const { return {system.mass, system.inverse_mass, damping, derivative, s}; }
 };
 
-/// Columns of D and K come from products with unit vectors, and are put together here.
+/// Columns of D and K come from products with unit vectors, and are assembled here.
 void make_dense(NewtonProblem& problem) {
   const Eigen::Index n = problem.r.size();
   const Eigen::MatrixXd whole = matrix_of(n / 3, [&](const PerParticle3& unit) -> PerParticle3 {
@@ -47,7 +47,7 @@ void make_dense(NewtonProblem& problem) {
   problem.scaled_r = inverse.cwiseProduct(Eigen::VectorXd(problem.r.reshaped()(problem.free)));
 }
 
-/// With thirty times the damping of the scene.
+/// With the scene's damping multiplied by 30.
 NewtonProblem make_newton_problem(Scene scene, double s, unsigned seed) {
   scene.stretch->damping *= 30;
   scene.bending->damping *= 30;

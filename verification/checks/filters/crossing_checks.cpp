@@ -9,7 +9,7 @@ namespace foldproof {
 
 namespace {
 
-/// Four points of one kind or another, made anew at each call.
+/// Makes four points of one kind, new ones at each call.
 struct PointMaker {
   std::string name;
   Corners4 (*make)(Random& random);
@@ -17,8 +17,8 @@ struct PointMaker {
 
 Corners4 anywhere(Random& random) { return random.vectors(4, 1); }
 
-/// Few places, so that points, edges and planes coincide, edges are parallel or points,
-/// triangles lines.
+/// Few positions, so that points, edges and planes coincide, edges are parallel or degenerate, and
+/// triangles collapse to lines.
 Corners4 on_a_lattice(Random& random) {
   Corners4 x;
   for (double& c : x.reshaped()) c = std::floor(random.uniform(-2, 3));
@@ -46,8 +46,8 @@ oracles::Estimate true_distance(PairKind kind, const Corners4& x) {
                                    x);
 }
 
-/// Two edges whose directions differ by the sine s, one over the other or crossing it, within both;
-/// or a triangle whose angle at one corner is that small, and a vertex over it or in it.
+/// Two edges whose directions differ by the sine s, one above the other or crossing it, inside
+/// both; or a triangle with such a small angle, and a vertex above it or in it.
 Corners4 thin(Random& random, PairKind kind, double s) {
   Corners4 x = anywhere(random);
   const Vector3 d = x.col(1) - x.col(0), across = random.vectors(1, 1).col(0);
@@ -67,14 +67,14 @@ Corners4 thin(Random& random, PairKind kind, double s) {
   return x;
 }
 
-/// The worst error of the distance between features made `count` times, in units of `scale`.
+/// The worst error of the distance between features, over `count` samples, in units of `scale`.
 oracles::Estimate worst_distance(PairKind kind, int count, const std::function<Corners4()>& make,
                                  const std::function<double(const Corners4&)>& scale) {
   Worst worst, uncertainty;
   for (int k = 0; k < count; ++k) {
     const Corners4 x = make();
     const double unit = scale(x);
-    if (unit == 0) continue;  // all four in the origin
+    if (unit == 0) continue;  // all four at the origin
     const oracles::Estimate truth = true_distance(kind, x);
     worst.observe(std::abs(nearness(kind, x).distance - truth.value) / unit);
     uncertainty.observe(truth.uncertainty / unit);
@@ -114,7 +114,7 @@ Finding thin_ones_are_as_good() {
                      "which can miss as much of their extent");
 }
 
-/// How far the weights are from those of two points, one of each feature [1].
+/// Difference between the weights and those of two points, one of each feature [1].
 double weight_error(PairKind kind, const Eigen::Vector4d& w) {
   const int first = kind == PairKind::vertex_triangle ? 1 : 2;
   Worst worst;

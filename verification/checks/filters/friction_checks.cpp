@@ -13,7 +13,7 @@ namespace {
 constexpr double g = 9.80665;   // m/s^2
 constexpr double h = 1. / 240;  // s
 
-/// Particles at rest on a slope of the angle al [rad] that moves along with a constant velocity.
+/// Particles at rest on a slope of the given angle [rad] that moves with a constant velocity.
 struct Slope {
   Scene scene;
   Vector3 normal, down;  // out of the slope, along it
@@ -38,8 +38,8 @@ Slope slope(double angle, double friction, const Vector3& velocity) {
   return result;
 }
 
-/// How far the particles have slid on the slope, seen from it [m], and how far from it they
-/// are at worst [m].
+/// Distance that the particles have slid, relative to the slope, and their largest distance from it
+/// [m].
 struct Slid {
   double distance, off;
 };
@@ -61,7 +61,7 @@ Slid slid_on(const Subject& subject, const Slope& on, const Vector3& velocity,
 
 constexpr int steps = 240;
 
-/// tan(angle) a little below and a little above mu: at rest, and sliding by (sin - mu cos) g t^2/2.
+/// tan(angle) slightly below and above mu: at rest, and sliding by (sin - mu cos) g t^2/2.
 Finding slope_finding(const Subject& subject, const std::string& integrator,
                       const Vector3& velocity) {
   Table ways{{"friction", "1"}, {"slope", "degrees"}, {"slid", "m"}, {"expected", "m"}};
@@ -91,8 +91,8 @@ Finding moving_slope(const Subject& subject, const std::string& integrator) {
   return slope_finding(subject, integrator, {1.3, 0.4, -0.9});
 }
 
-/// Laid on a belt that runs at U: it slides for U/(mu g), gains half of the way, and
-/// then is carried.
+/// Laid on a belt that runs at U: it slides for U/(mu g), covers half of the belt's way, and then
+/// is carried.
 Finding belt_finding(const Subject& subject, const std::string& integrator) {
   const double mu = 0.37, speed = 0.9;
   const Vector3 belt(speed, 0, 0);
@@ -142,10 +142,10 @@ Finding turntable_finding(const Subject& subject, const std::string& integrator)
 }
 
 constexpr double drum_radius = 0.1, straight = 0.08, width = 0.016;  // m
-constexpr double strained = 1.02;  // the strip's length at the start over its own
-constexpr double speed = 0.04;     // at which one end is drawn [m/s]
+constexpr double strained = 1.02;  // the strip's length at the start over its rest length
+constexpr double speed = 0.04;     // speed at which one end is pulled [m/s]
 
-/// The point of the strip's middle line at the way s [m] along a straight piece, the drum and a
+/// The point of the strip's middle line at arc length s [m] along a straight piece, the drum and a
 /// straight piece.
 Vector3 on_path(double s, double wrap) {
   const auto on_drum = [](double a) {
@@ -179,7 +179,7 @@ Scene wrapped_strip(double wrap, double friction) {
   return scene;
 }
 
-/// Pull on the ends [N], held and drawn, and the turn of the strip between them [rad].
+/// Tension at the held and at the pulled end [N], and the wrap angle between them [rad].
 struct Pull {
   double held = 0, drawn = 0, turn = 0;
 };

@@ -1,5 +1,5 @@
-// Motion that leaves the cloth free of crossings, rigid zones, and cloth that starts
-// crossing itself.
+// Motion that leaves the cloth free of crossings, rigid zones, and cloth that crosses itself at the
+// start.
 #include <fmt/format.h>
 #include <thread>
 
@@ -21,7 +21,7 @@ namespace {
 
 constexpr double span = 0.004;  // s
 
-/// Layers that would pass through each other in a step, answered by impulses or, with hardly any
+/// Layers that would pass through each other in a step, stopped by impulses or, with very few
 /// rounds of these, by zones.
 std::vector<std::pair<std::string, LayeredSheets>> fast_layers() {
   std::vector<std::pair<std::string, LayeredSheets>> all;
@@ -41,7 +41,7 @@ bool boxes_meet(const Corners4& a, const Corners4& b, int first) {
   return one.intersects(other);
 }
 
-/// Pairs that the velocities v take through each other on the way to x + h v, as it is rounded.
+/// Pairs that cross on the way from x to x + h v, as rounded, with the velocities v.
 double meetings(const Scene& scene, const PerParticle3& v) {
   const PerParticle3 end = scene.x + span * v;
   double count = 0;
@@ -70,8 +70,8 @@ Finding free_finding(const Subject& subject) {
                      "all pairs of features except neighbours, tested in exact arithmetic");
 }
 
-/// Of pairs farther apart than a tenth of the thickness at the start, the least distance at
-/// the end over that.
+/// Of pairs that start farther apart than a tenth of the thickness, the least distance at the end
+/// over that tenth.
 Finding distance_finding(const Subject& subject) {
   Table measured{{"case", ""},
                  {"a tenth of the thickness over the least distance after the step", "1"}};
@@ -107,7 +107,7 @@ Finding energy_finding(const Subject& subject) {
       "brakes, a zone's rigid motion has the least energy for its momentum");
 }
 
-/// Particles in a cloud, a plane, on a line, and two.
+/// Particles in a cloud, in a plane and on a line, and two alone.
 std::vector<std::pair<std::string, PerParticle3>> clouds() {
   Random random(21);
   PerParticle3 cloud = random.vectors(17, 0.3), plane = random.vectors(9, 0.2),
@@ -164,7 +164,7 @@ Finding zone_momentum_finding() {
                      "roundings, times the condition of the zone's inertia, below ten for these");
 }
 
-/// (x_i - x_j).(v_i - v_j) = 0: no distance changes; and what is led leads.
+/// (x_i - x_j).(v_i - v_j) = 0: no distance changes; and prescribed particles keep their velocity.
 Finding zone_rigid_finding() {
   Table measured{
       {"case", ""},
@@ -230,7 +230,7 @@ Finding same_bits_finding(const Subject& subject) {
       "one order of pairs, fixed by the mesh and the boxes; no state but the arguments");
 }
 
-/// Pairs that one list has and the other has not, or has elsewhere.
+/// Number of pairs that are in one list only, or at another position.
 double differences(const std::vector<FeaturePair>& a, const std::vector<FeaturePair>& b) {
   double count = std::abs(double(a.size()) - double(b.size()));
   for (size_t k = 0; k < std::min(a.size(), b.size()); ++k)
@@ -238,8 +238,8 @@ double differences(const std::vector<FeaturePair>& a, const std::vector<FeatureP
   return count;
 }
 
-/// Pairs searched with 3 mm to spare, after random motions within and beyond them; with some
-/// particles marked, too.
+/// Pairs searched with 3 mm to spare, after random motions within and beyond this; also with some
+/// particles marked.
 void see_choices(Table& measured) {
   const double margin = 0.004, spare = 0.003;
   const Scene scene = layered_scene({4, 0.003, 0.001, 0, {0.004, 0, 0, 8, true}, 17});
@@ -263,8 +263,8 @@ void see_choices(Table& measured) {
   }
 }
 
-/// Numbers of a run's end that depend on whether it keeps the pairs that it found; NaN if it hardly
-/// ever uses them again.
+/// Numbers at the end of a run that change if found pairs are kept; NaN if these are hardly ever
+/// used again.
 double numbers_that_kept_pairs_change() {
   Scene scene = layered_scene({3, 0.003, 0.001, 0.2, {0.004, 3, 0.2, 8, true}, 18});
   scene.stretch = StretchMaterial{20, 0.02, 1};
@@ -296,7 +296,7 @@ Finding kept_pairs_finding() {
                      "search, in the same order");
 }
 
-/// Two sheets that cross, pushed apart step by step: how many crossings are left.
+/// Two sheets that cross are pushed apart step by step: the number of crossings left.
 Finding untangle_finding(const Subject& subject) {
   Table measured{{"case", ""}, {"crossings left over those at the start", "1"}};
   Scene scene = layered_scene({2, 0.003, 0.0002, 0, {0.002, 5, 0, 8, true}, 15});

@@ -1,5 +1,5 @@
-// Impulses against crossings: how far they let two features approach, which motions they leave
-// alone, what they conserve together with rigid zones; and those that push crossed triangles
+// Impulses against crossings: how close they let two features come, which motions they leave
+// unchanged, what they conserve together with rigid zones; and impulses that push crossed triangles
 // apart.
 #include <Eigen/LU>
 #include <fmt/format.h>
@@ -17,7 +17,7 @@ constexpr double thickness = 0.002;  // m
 constexpr double span = 0.004;       // s
 constexpr int apex_above = 0, apex_below = 6;
 
-/// A corner of a triangle above the inside of a horizontal one, and a corner of a third below it:
+/// A corner of a triangle above the interior of a horizontal one, and one of a third below:
 ///
 ///        1 ---- 2
 ///           0           `gap` above
@@ -53,17 +53,17 @@ double approach_rate(const Scene& scene, const PerParticle3& v, int apex) {
   return apex == apex_above ? relative : -relative;
 }
 
-/// The corrected velocities where the apex's triangle moves towards the horizontal one by `path`
-/// [m] in the step.
+/// The corrected velocities when the apex's triangle moves towards the horizontal one by `path` [m]
+/// in the step.
 PerParticle3 corrected_motion(const Subject& subject, Scene& scene, int apex, double path) {
   const double toward = apex == apex_above ? -1 : 1;
   scene.v.middleCols(apex, 3).row(2).setConstant(toward * path / span);
   return corrected_by_self_collision(subject, scene, {span, true});
 }
 
-/// The first impulse lets a pair come as near as the thickness, a later one not at all. Hit from
-/// above, the horizontal triangle is pushed towards the third, whose pair was asked before and is
-/// answered in the second round.
+/// The first impulse lets a pair approach to the thickness, a later one not at all. Hit from above,
+/// the horizontal triangle is pushed towards the third; their pair was tested earlier and is
+/// corrected in the second round.
 Finding first_impulse_finding(const Subject& subject) {
   Table measured{{"case", ""}, {"difference over the approach that the first permits", "1"}};
   const double gap = 1.2 * thickness, permitted = (gap - thickness) / span;
@@ -82,8 +82,7 @@ Finding first_impulse_finding(const Subject& subject) {
                      "stopped, not the vertical one");
 }
 
-/// A motion that ends farther away than half as much again as the distance to be
-/// kept is left alone.
+/// A motion that ends beyond 1.5 times the required distance is left unchanged.
 Finding left_alone_finding(const Subject& subject) {
   Table measured{{"distance at the end over the thickness", "1"}, {"change over the speed", "1"}};
   const double gap = 2 * thickness;
@@ -135,7 +134,7 @@ struct Place {
   Vector3 shares;  // along the edge from a; of the second and third corner
 };
 
-/// p = a + along (b - a) = t0 + w1 (t1 - t0) + w2 (t2 - t0), solved for the shares.
+/// p = a + along (b - a) = t0 + w1 (t1 - t0) + w2 (t2 - t0), solved for along, w1 and w2.
 Place place_of(const PerParticle3& x, int a, int b, const Triangle& plane) {
   const Vector3 t0 = x.col(plane[0]), edge = x.col(b) - x.col(a);
   Eigen::Matrix3d M;
@@ -150,7 +149,7 @@ bool is_steep(const PerParticle3& x, const Place& at) {
   return std::abs((x.col(at.b) - x.col(at.a)).normalized().dot(n)) > steepness;
 }
 
-/// The two ends of the line in which the triangles cross; empty where they do not, or hardly.
+/// The two ends of the segment in which the triangles cross; empty if they do not, or hardly.
 std::vector<Place> ends_of_line(const PerParticle3& x, const Triangle& s, const Triangle& t) {
   std::vector<Place> ends;
   for (const auto& [edges, plane] : {std::pair(s, t), std::pair(t, s)})
@@ -180,7 +179,7 @@ Vector3 steepest(const PerParticle3& x, const Place& end, const Place& other) {
   return direction.normalized();
 }
 
-/// One impulse between the edge's point and the triangle's, if they part too slowly.
+/// One impulse between the edge's point and the triangle's, if they separate too slowly.
 void part(const Place& end, const Vector3& direction, const PerParticle& inverse_mass,
           PerParticle3& v) {
   PerParticle row = PerParticle::Zero(v.cols());  // of each particle in their relative velocity
@@ -203,7 +202,7 @@ struct Tangle {
 
 const Triangle first{0, 1, 2}, second{3, 4, 5};
 
-/// Two triangles that cross well: both ends on edges of one of them, or one on each.
+/// Two triangles with a clear crossing: both ends on edges of one of them, or one on each.
 Tangle random_tangle(Random& random, bool both_of_one) {
   for (;;) {
     Tangle tangle{random.vectors(6, 1), random.vectors(6, 0.2), PerParticle(6), {}};
@@ -214,7 +213,7 @@ Tangle random_tangle(Random& random, bool both_of_one) {
   }
 }
 
-/// The largest difference from the definition, in either order of the two ends [1].
+/// The largest difference from the definition, for either order of the two ends [1].
 double difference_from_definition(const Tangle& tangle) {
   PerParticle3 pushed = tangle.v;
   push_out_of_tangle({{0, 1}}, {first, second}, tangle.x, speed, tangle.inverse_mass, pushed);

@@ -1,4 +1,4 @@
-// How objects move, and that nothing passes through them.
+// Motion of objects, and that nothing passes through them.
 #include "verification/specimens/check.h"
 #include "verification/specimens/contact_scenes.h"
 #include "verification/specimens/random.h"
@@ -28,7 +28,7 @@ RigidMotion keyframed_motion() {
                          {2.1, pose(-1.7, {0.2, 1, -2}, {0.6, -0.2, 0.4})}});
 }
 
-/// The velocity of a body's point against the central difference of its places, each h away.
+/// The velocity of a body's point against the central difference of its positions, each h away.
 Finding velocity_finding() {
   Table measured{{"case", ""}, {"difference over that of the places' derivative", "1"}};
   const double small = 1e-4;
@@ -53,7 +53,7 @@ Finding velocity_finding() {
                      "and by rounding of some 1e-12");
 }
 
-/// On the keys themselves, and outside them at rest.
+/// At the keys themselves, and at rest before and after them.
 Finding keyframe_finding() {
   Table measured = roundings_of("length");
   const RigidMotion motion = keyframed_motion();
@@ -93,8 +93,8 @@ double depth(const std::vector<SceneObject>& objects, const Vector3& p, double t
   return deepest;
 }
 
-/// Points outside are shot, step after step, so that each moves by `displacement` [m] in a step in
-/// a random direction, seen from the first object: how deep any of them has come in [m].
+/// Points outside move at random, step after step, by `displacement` [m] relative to the first
+/// object: the greatest depth that any of them reaches in it [m].
 double deepest_shot(const Subject& subject, std::vector<SceneObject> objects, double displacement) {
   const double h = 0.01;
   Scene scene = loose_particles(15);
@@ -121,7 +121,7 @@ double deepest_shot(const Subject& subject, std::vector<SceneObject> objects, do
 
 const Pose at_rest;
 
-/// A convex object that does not turn lies behind its tangent planes, which the forecast is about.
+/// A convex object that does not turn lies behind its tangent planes, which the forecast uses.
 Finding convex_finding(const Subject& subject) {
   const Vector3 drift(0.7, -0.4, 1.1);
   const Pose above{Eigen::Quaterniond::Identity(), {0, 0, 0.03}};
@@ -142,8 +142,8 @@ Finding convex_finding(const Subject& subject) {
                      "rounding of positions of up to a metre in a moving frame, over 60 steps");
 }
 
-/// A point outside must move by half the object's thickness in a step, seen from it, to pass
-/// where it is deepest.
+/// To pass through at the deepest place, a point outside must move by half the object's thickness
+/// in a step, relative to it.
 Finding limit_finding(const Subject& subject) {
   const Vector3 drift(0.3, 0.2, -0.4), turning(2.1, -1.3, 0.8);
   const SceneObject ring = moving(object_at("ring", Torus{0.5, 0.1}, at_rest), drift, turning);

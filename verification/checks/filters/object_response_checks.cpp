@@ -16,15 +16,15 @@ Vector3 expected_answer(const KnownPoint& at, const Vector3& v, double push, dou
   return v + push * at.normal - lost * sliding.normalized();
 }
 
-/// The push that a point with this velocity needs [m/s], 0 for none; NaN where roundings decide.
+/// The push needed by a point with this velocity [m/s], 0 for none; NaN where roundings decide.
 using Push = std::function<double(const Contact&, const KnownPoint&, const Vector3& v)>;
 
 double known_push(double depth, double push) {
   return std::abs(depth) < 1e-12 ? NAN : depth > 0 ? push : 0;
 }
 
-/// Actual against expected response for the particles of all contacts. `moves`: their velocity
-/// takes them through the step, or else it is the one that ends it.
+/// Actual against expected response for the particles of all contacts. `moves`: the velocity moves
+/// the particles through the step; otherwise it ends the step.
 Finding response_finding(const Subject& subject, const std::string& response, bool moves,
                          const Push& push) {
   Table measured = roundings_of("speed");
@@ -64,8 +64,8 @@ Finding projection_finding(const Subject& subject) {
                           });
 }
 
-/// The velocity that ends the step: a point that would reach the surface in a thousandth
-/// of it is on it.
+/// The velocity that ends the step: a point that would reach the surface within a thousandth of the
+/// step counts as on it.
 Finding stopping_finding(const Subject& subject) {
   return response_finding(subject, "projection", false,
                           [](const Contact& contact, const KnownPoint& at, const Vector3& v) {

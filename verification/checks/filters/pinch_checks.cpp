@@ -1,4 +1,4 @@
-// Points that two objects claim, and points that belong to several particles.
+// Points that are inside two objects, and points that depend on several particles.
 #include "reference/filters/object_collision.h"
 #include "verification/oracles/dense_algebra.h"
 #include "verification/specimens/check.h"
@@ -34,8 +34,8 @@ Finding equal_depth_finding(const Subject& subject) {
                      "as many roundings as a forecast against one object takes, twice");
 }
 
-/// The velocity along the surface between is shortened by at most the sum of both Coulomb
-/// limits, not turned.
+/// The velocity along the surface between both objects is shortened, not turned, by at most the sum
+/// of both Coulomb limits.
 Finding pinch_friction_finding(const Subject& subject) {
   const Pinch pinch = known_pinch();
   const PerParticle3 after = corrected_by_objects(subject, pinch.scene, pinch.span, pinch.state);
@@ -108,9 +108,9 @@ Scene wedge(double degrees) {
   return scene;
 }
 
-/// Particles outside both half-spaces that would enter both: held equally deep in both where the
-/// normals are more than 120 degrees apart; else on the surface of the one that corrects last,
-/// which lies in the other.
+/// Particles outside both half-spaces that would enter both. Normals more than 120 degrees apart:
+/// held equally deep in both. Otherwise: on the surface of the half-space that corrects last, which
+/// lies inside the other.
 Finding closing_finding(const Subject& subject) {
   const double h = 0.01;
   Random random(37);
@@ -145,8 +145,8 @@ Finding closing_finding(const Subject& subject) {
                      "as many roundings as a forecast against one object takes, twice");
 }
 
-/// Midpoints and centres get exactly the velocity of the response, by impulses that
-/// fall with the mass.
+/// Midpoints and centres get exactly the velocity of the response, by impulses that decrease with
+/// the mass.
 Finding shares_finding() {
   const Contact contact = known_contacts().front();
   System system = build_system(contact.scene);
@@ -175,9 +175,8 @@ Finding shares_finding() {
                      "three divisions and sums of numbers near 1, shares up to 15 apart");
 }
 
-/// A sheet of loose particles that comes down on a spike which none of them touches, with
-/// the points of this kind kept out: how deep the spike gets into the means of these
-/// groups of particles.
+/// A sheet of loose particles falls onto a spike that none of them touches, with the points of this
+/// kind kept out: depth of the spike in the means of these groups of particles.
 template <class Groups>
 Finding spike_finding(const Subject& subject, const Groups& groups, const Vector3& place,
                       PointKind needed) {
@@ -221,8 +220,7 @@ Finding midpoints_finding(const Subject& subject) {
   return spike_finding(subject, ends, {1. / 8, 0, 0}, PointKind::edges);
 }
 
-/// A triangle of unlike particles whose centre alone is to be kept out of a ball that
-/// it comes down on.
+/// A triangle of different masses; only its centre is kept out of the ball that it falls onto.
 struct ComingDown {
   ObjectCollision filter;
   State state;

@@ -1,4 +1,4 @@
-// Layers within the thickness: what they do to each other, and what stays.
+// Layers within the thickness: their effect on each other, and what is conserved.
 #include <numeric>
 
 #include "reference/filters/cloth_pairs.h"
@@ -12,8 +12,8 @@ namespace {
 
 constexpr double step = 0.004;  // s
 
-/// A vertex over a triangle, as two pieces of cloth: the vertex is a corner of one that
-/// reaches up and away.
+/// A vertex over a triangle, as two pieces of cloth: the vertex is a corner of a triangle that
+/// extends up and away.
 struct OverTriangle {
   double height, parting, sliding;  // of the vertex over it [m], v_N and along x [m/s]
   double stiffness, friction;       // N/m, 1
@@ -30,8 +30,8 @@ Scene over_triangle(const OverTriangle& wanted) {
   return scene;
 }
 
-/// The change of relative velocity by the law of the two authors' reference, written down a second
-/// time: with the weights of the foot from areas, and m/(1 + ...) for the compliance.
+/// The change of relative velocity by the rule of BFA02, coded a second time: with the weights of
+/// the foot from areas, and m/(1 + ...) for the compliance.
 Vector3 expected_change(const OverTriangle& wanted, const Scene& scene) {
   const PerParticle mass = lumped_masses(scene.mesh, scene.density);
   const auto area = [&](int a, int b, double x, double y) {
@@ -104,7 +104,7 @@ std::vector<MomentumCase> momentum_cases() {
           {"crossings and friction", fast, true}};
 }
 
-/// sum m |v|: what roundings of momentum are counted in.
+/// sum m |v|: the scale for roundings of momentum.
 double momentum_scale(const PerParticle& mass, const PerParticle3& v) {
   return v.colwise().norm().dot(mass.transpose());
 }
@@ -145,8 +145,8 @@ Finding angular_finding(const Subject& subject) {
                          "features' size over their distance, some eight here");
 }
 
-/// Friction acts at two points a distance apart: it turns the cloth by that times the
-/// impulse, and no more.
+/// Friction acts at two points a distance apart: the angular momentum changes by at most that
+/// distance times the impulse.
 Finding friction_turn_finding(const Subject& subject) {
   Table measured{
       {"case", ""},
@@ -158,8 +158,8 @@ Finding friction_turn_finding(const Subject& subject) {
     const PerParticle3 change =
         corrected_by_self_collision(subject, rubbing, {step, false}) - rubbing.v;
     const Eigen::Index half = change.cols() / 2;
-    // normal impulses: at least what the upper sheet's momentum across the layers changed
-    // by, per particle
+    // normal impulses: at least the change of the upper sheet's momentum across the layers, per
+    // particle
     const double normal = (change.row(2).rightCols(half).cwiseAbs() * mass.tail(half))[0];
     measured.row("seed " + std::to_string(seed),
                  angular_momentum_of(mass, rubbing.x, change).norm() / (0.004 * 0.4 * normal));
@@ -193,8 +193,8 @@ Finding untouched_finding(const Subject& subject) {
   return judge_worst(measured, 0, "nothing is to be done about them: not a bit may change");
 }
 
-/// Every pair that comes nearer than the margin is among those found, once; found ones
-/// share no particle.
+/// Every pair that comes nearer than the margin is found once; found pairs have no particle in
+/// common.
 Finding pairs_finding() {
   Table measured{{"case", ""}, {"pairs missed, found twice, or of neighbours", "pairs"}};
   const double margin = 0.004;
@@ -238,8 +238,8 @@ Finding pairs_finding() {
                      "counted against all pairs of two sheets, looked at four times on their way");
 }
 
-/// A stack of sheets on a slope. The lowest is larger, so that nothing hangs over its rim, and
-/// held; Coulomb's law holds between any two. Ways of the others in .1 s [m], from below.
+/// A stack of sheets on a slope. The lowest is held, and larger, so that nothing overhangs its rim;
+/// Coulomb's law holds between any two. Distances that the others slide in 0.1 s [m], from below.
 std::vector<double> ways_on_slope(const Subject& subject, double friction, double degrees) {
   constexpr int free_sheets = 3;
   Scene scene = layered_scene({1 + free_sheets, 0.0035, 0, 0, {0.004, 0, friction, 8, true}, 7});

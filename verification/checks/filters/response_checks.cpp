@@ -8,7 +8,7 @@ namespace foldproof {
 
 namespace {
 
-/// One particle before and after the correction, in the object's terms.
+/// One particle before and after the correction, relative to the object.
 struct Answer {
   KnownPoint known;
   Vector3 before, after;           // velocities [m/s]
@@ -33,8 +33,7 @@ Answer answer_of(const Contact& contact, const PerParticle3& after, Eigen::Index
   return a;
 }
 
-/// How far from zero a forecast must be for its sign to be known in spite of rounding
-/// [m]; lengths are near 1 m.
+/// Smallest forecast whose sign is known in spite of rounding [m]; lengths are near 1 m.
 double unsure(const Contact& contact) { return 100 * epsilon * (1 + 4 * contact.tau); }
 
 // Error of phi and of the object's velocity due to rounding of positions near 1 m, in velocities of
@@ -46,7 +45,7 @@ double velocity_scale(const Contact& contact, const Answer& a) {
   return a.speed + 1 / contact.span.step;
 }
 
-/// The worst of a quantity in roundings over all particles of all contacts that `wanted` picks.
+/// The worst of a quantity in roundings, over the contacts' particles that `wanted` accepts.
 Finding worst_over(const Subject& subject,
                    const std::function<bool(const Contact&, const Answer&)>& wanted,
                    const std::function<double(const Contact&, const Answer&)>& roundings) {
@@ -94,7 +93,7 @@ Finding cone_finding(const Subject& subject) {
       });
 }
 
-/// A part turned back, a part turned aside and a growth: none of the three may be there.
+/// Reversed, sideways and increased sliding: none of the three may occur.
 Finding reversal_finding(const Subject& subject) {
   return worst_over(subject, is_treated, [](const Contact& contact, const Answer& a) {
     const double scale = epsilon * velocity_scale(contact, a);
@@ -157,7 +156,7 @@ Finding galilean_finding(const Subject& subject) {
   const Vector3 shared(5.3, -7.1, 3.7);
   Table measured = roundings_of("speed");
   for (Contact contact : known_contacts()) {
-    contact.span = {0, contact.span.step, contact.span.step};  // at the time 0 the frames coincide
+    contact.span = {0, contact.span.step, contact.span.step};  // the frames coincide at time 0
     contact.state.time = 0;
     Contact seen = contact;
     seen.state.v.colwise() += shared;
@@ -174,7 +173,7 @@ Finding galilean_finding(const Subject& subject) {
   return judge_worst(measured, 40, why_roundings);
 }
 
-/// A sheet of particles through the middle of a body, row by row, each moving at random.
+/// A sheet of particles through the middle of a body, row by row, each with a random velocity.
 struct Crossing {
   Scene scene;
   State state;
@@ -211,7 +210,7 @@ Finding neighbours_finding(const Subject& subject) {
   double worst = 0;
   Motion turning, flying;
   turning.angular_velocity = {0, 1, 3};
-  flying.velocity = {0, 0, -20};  // by its diameter in a step: it is met from afar
+  flying.velocity = {0, 0, -20};  // by its diameter in a step: contact is forecast from far away
   const SceneObject flies =
       with_motion(object_at("two balls, one flying", Sphere{0.1}, {{1, 0, 0, 0}, {0.25, 0, 0.25}}),
                   flying, 0.3);

@@ -1,5 +1,4 @@
-// One correction by strain limits: of one spring, exactly; of a cloth, whatever the
-// order of sweeps.
+// One correction by strain limits: of one spring, exactly; of a cloth, in every order of sweeps.
 #include "reference/dynamics/system.h"
 #include "verification/oracles/limited_spring.h"
 #include "verification/specimens/check.h"
@@ -13,15 +12,15 @@ namespace {
 
 // ---- one spring of a triangle
 
-/// A triangle whose third corner is so far off, and so much slower, that only the spring 0-1
-/// leaves its limits.
+/// A triangle whose third corner is so far away and so slow that only the spring 0-1 leaves its
+/// limits.
 struct OneSpring {
   LimitedCloth cloth;
   oracles::LimitedSpringInput input;
   oracles::LimitedSpringAnswer answer;
 };
 
-/// How the spring 0-1 of a triangle may be: at rest, now and after a step.
+/// State of the spring 0-1 of a triangle: at rest, now and after a step.
 struct SpringDraw {
   double now_low, now_high;  // current over rest length [1]
   // change of its length by the motion along it, over the rest length [1]
@@ -50,7 +49,7 @@ OneSpring one_spring(const SpringDraw& draw, Random& random) {
                     (random.uniform(draw.along_low, draw.along_high) * along +
                      random.uniform(draw.across_low, draw.across_high) * across);
   if (draw.held >= 0) scene.prescribed.push_back({draw.held, scene.x.col(draw.held), Motion{}});
-  // what the filter is asked about: the velocity of a led particle too
+  // the filter's input: includes the velocity of a prescribed particle
   State state{0, scene.x, scene.v};
   const PerParticle mass = lumped_masses(scene.mesh, scene.density);
   const auto inverse = [&](int i) { return draw.held == i ? 0 : 1 / mass[i]; };
@@ -67,8 +66,8 @@ OneSpring one_spring(const SpringDraw& draw, Random& random) {
   return {{"", std::move(scene), std::move(state), h}, input, limited_spring(input)};
 }
 
-/// Distance from the oracle's velocities, in roundings of what they are computed from; infinite if
-/// they are not the same at the far corner, bit for bit.
+/// Distance from the oracle's velocities, in roundings of the terms that they are computed from;
+/// infinite if the far corner's velocity differs in any bit.
 double error_of(const Subject& subject, const OneSpring& spring) {
   const PerParticle3 v = corrected_by_strain_limits(subject, spring.cloth, spring.cloth.state.v);
   if (!(v.col(2) == spring.cloth.state.v.col(2))) return INFINITY;
@@ -169,7 +168,7 @@ Finding momentum_finding(const Subject& subject) {
                      "walk to 4, and the impulses' own to as much");
 }
 
-/// The last particle is to fly the cloth's extent in a step.
+/// The last particle flies across the cloth in one step.
 void make_last_fast(LimitedCloth& cloth) {
   const Eigen::Index last = cloth.state.v.cols() - 1;
   cloth.state.v.col(last) *= extent(cloth.state.x) / (cloth.step * cloth.state.v.col(last).norm());
@@ -178,7 +177,7 @@ void make_last_fast(LimitedCloth& cloth) {
 Finding held_finding(const Subject& subject) {
   Table measured{{"case", ""}, {"numbers that differ", "numbers"}};
   for (LimitedCloth& cloth : cloths_in_all_orders()) {
-    // two neighbours are held: what they break stays broken
+    // two neighbours are held: their violated spring stays violated
     cloth.scene.strain_limits->sweeps = 30;
     for (const int i : {0, 3, 7, 8})
       cloth.scene.prescribed.push_back({i, cloth.state.x.col(i), Motion{}});
@@ -200,8 +199,8 @@ PerParticle3 gentle(const LimitedCloth& cloth) {
   return v;
 }
 
-/// Gentle velocities, but for the last particle's, which is fast: those that share no triangle with
-/// it are to be left.
+/// Gentle velocities, except for the fast last particle: particles with no triangle in common with
+/// it must keep theirs.
 Finding untouched_within_limits_finding(const Subject& subject) {
   Table measured{{"case", ""}, {"numbers that differ", "numbers"}};
   for (LimitedCloth& cloth : cloths_in_all_orders()) {

@@ -1,4 +1,4 @@
-// Strain limits in steps, the sweeps themselves, and what a case file says of them.
+// Strain limits in steps, the sweeps themselves, and their keys in a case file.
 #include "reference/dynamics/system.h"
 #include "verification/specimens/check.h"
 #include "verification/specimens/differences.h"
@@ -22,17 +22,17 @@ int farthest(const PerParticle3& rest) {
   return int(last);
 }
 
-/// Cloth within its limits that falls, stretches and bends, two particles of it led: far from each
-/// other, so that their motion leaves lengths within the limits possible. The step is one that
-/// explicit forces bear.
+/// Cloth within its limits that falls, stretches and bends. Two of its particles are prescribed,
+/// far from each other, so that lengths within the limits stay possible. The step is stable for
+/// explicit forces.
 LimitedCloth falling(LimitedCloth cloth) {
   Scene& scene = cloth.scene;
   scene.gravity = Vector3(0.7, -9.1, 1.9);
   scene.bending = BendingMaterial{3.1e-4, 2.3e-5, Weighting::rest, DampingFactor::edge, "sine"};
   Motion swing;
   swing.velocity = Vector3(0.11, -0.07, 0.19);
-  // limits that act from the first steps on: tight ones, and springs too weak to draw
-  // lengths away from them
+  // limits that act from the first steps on: tight ones, with springs too weak to pull lengths away
+  // from them
   scene.stretch->stiffness = 0.37;
   StrainLimits& limits = *scene.strain_limits;
   if (limits.compression > 0) limits.compression += 0.001 + strain_violation(scene, scene.x);
@@ -75,7 +75,7 @@ Finding report_finding(const Subject& subject) {
     const State s = stepper.step(stepper.start(), cloth.step);
     const double left = std::max(0.0, strain_violation(cloth.scene, s.x));
     measured.row(cloth.name, std::abs(stepper.work().strain_left - left) / epsilon);
-    // the second only where the first found something to correct
+    // the second one only if the first found something to correct
     const long sweeps = stepper.work().strain_sweeps;
     const bool plausible = sweeps == 2 || (sweeps == 1 && left == 0);
     measured.row(cloth.name + ", sweeps", plausible ? 0 : INFINITY);
@@ -88,8 +88,8 @@ Finding report_finding(const Subject& subject) {
 
 // ---- sweeps
 
-/// Particles on a line, springs between neighbours or from the first to all others: there, lengths
-/// within limits are an interval for each velocity difference.
+/// Particles on a line, with springs between neighbours or from the first to all others: here,
+/// lengths within limits are an interval for each velocity difference.
 struct Chain {
   StrainLimiter limiter;
   PerParticle3 x, v, within;  // 3 x N; `within`: velocities that keep the limits
@@ -244,7 +244,7 @@ Finding rejected_finding() {
   });
 }
 
-/// v after the springs, in the order given, were corrected one after the other.
+/// v after the springs were corrected one after the other, in the given order.
 PerParticle3 one_by_one(const StrainLimiter& limiter, const LimitedCloth& cloth, PerParticle3 v) {
   for (const LimitedSpring& spring : limiter.springs)
     limit_strain(
@@ -256,7 +256,7 @@ PerParticle3 one_by_one(const StrainLimiter& limiter, const LimitedCloth& cloth,
   return v;
 }
 
-/// Springs of the cloth in their own order, for `sweeps` sweeps that nothing ends before.
+/// Springs of the cloth in their own order, for `sweeps` sweeps without early exit.
 StrainLimiter limiter_of(const LimitedCloth& cloth, SweepOrder order, int sweeps) {
   const System system = build_system(cloth.scene);
   StrainLimits limits = *cloth.scene.strain_limits;

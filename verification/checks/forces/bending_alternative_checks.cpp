@@ -1,5 +1,5 @@
-// Other models of bending: what of the paper's element they violate, where they agree with it,
-// and the buckling springs of Choi and Ko.
+// Other models of bending: the laws of the paper's element that they violate, where they agree with
+// it, and the buckling springs of Choi and Ko.
 #include "verification/specimens/differences.h"
 #include "verification/specimens/bending_alternatives.h"
 #include "verification/specimens/buckling_column.h"
@@ -11,7 +11,7 @@ namespace foldproof {
 
 namespace {
 
-/// By how much four forces break each of the laws, relative to their size [1].
+/// Violation of each law by four forces, relative to their size [1].
 struct Defects {
   double force;   // |sum F_i| over sum |F_i|
   double torque;  // |sum x_i x F_i| about the centre over sum |x_i||F_i|
@@ -19,8 +19,8 @@ struct Defects {
   double in_plane;
 };
 
-/// Motions that bend nothing and turn nothing: x1 and x2 in the planes of their triangles, the
-/// edge's stretch.
+/// Motions that bend nothing and turn nothing: x1 and x2 in the planes of their triangles, and a
+/// stretch of the edge.
 std::vector<PerParticle3> in_plane_motions(const Corners& x) {
   const Vector3 edge = x[3] - x[2], none = Vector3::Zero();
   std::vector<PerParticle3> motions;
@@ -47,16 +47,16 @@ Defects defects_of(const Corners& x, const std::array<Vector3, 4>& force) {
   return {epsilon * net_force(f), epsilon * net_torque(corners, f), work.value()};
 }
 
-/// A folded hinge of the reference's, and the paper's forces on it by the subject.
+/// A folded hinge of the reference, and the paper's forces on it from the subject.
 struct FoldedHinge {
   std::string name;
   Corners x, rest;
   Defects of_the_paper;
 };
 
-/// Random hinges at angles of either sign from .2 to 2.9 rad where |cos theta| > .1: flat, no model
-/// has a force; at right angles the shortcut, which puts sin theta cos theta into the edge's
-/// stretch, happens to be right.
+/// Random hinges at angles of either sign from .2 to 2.9 rad where |cos theta| > .1. Flat hinges
+/// have no force in any model. At right angles the shortcut puts sin theta cos theta into the
+/// edge's stretch, which happens to be right.
 std::vector<FoldedHinge> folded_hinges(const Subject& subject) {
   constexpr int tries = 48;
   Random random(613);
@@ -95,7 +95,7 @@ Finding acts_in_plane(const Subject& subject, const BendingAlternative& model) {
           "force were that motion; measured is the paper's over the model's, at worst"};
 }
 
-/// The paper's element under the same measures, and the shortcut that spoils nothing.
+/// The paper's element under the same measures, and a shortcut that is exact.
 Finding paper_keeps_all(const Subject& subject) {
   Table measured = roundings_of("the forces, thinness");
   measured.add({"in plane, normals alone taken as constant", "epsilon thinness"});
@@ -116,7 +116,7 @@ Finding paper_keeps_all(const Subject& subject) {
       "sin d(cos) their changes cancel. The edge's length must not be treated so.");
 }
 
-// ---- where other models are the paper's
+// ---- where other models agree with the paper's
 
 constexpr double angle_range[] = {0.01, 0.03, 0.1, 0.3, 1};  // rad
 
@@ -206,7 +206,7 @@ Finding force_is_the_energys() {
                      "differences in double precision over a hundred-thousandth of the length");
 }
 
-/// The strain at which a straight column gives way, by bisection, as a load over Euler's.
+/// The strain at which a straight column buckles, by bisection, as a load over Euler's.
 Finding gives_way_at_once() {
   BucklingColumn column;
   double holds = 0, gives_way = 0.1;

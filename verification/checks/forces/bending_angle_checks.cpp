@@ -18,7 +18,7 @@ std::string in_radians(double angle) {
 
 double sine_of(const Corners& x) { return hinge_shape(x[0], x[1], x[2], x[3]).sin_half; }
 
-/// A hinge in the plane z = 0, exactly flat or (folded) exactly sharp: the second triangle on
+/// A hinge in the plane z = 0, exactly flat or (folded) exactly sharp: the second triangle lies on
 /// either side of the edge.
 Corners planar_hinge(double height2) {
   return {Vector3(0.11, 0.23, 0), Vector3(0.19, height2, 0), Vector3(0.03, 0, 0),
@@ -64,7 +64,7 @@ Finding angle_is_accurate() {
       "sine and cosine of theta take fewer than 16 roundings of 1, magnified by the thinness");
 }
 
-/// The hinge of a sweep: axis-aligned, so that the angle is the only thing that changes.
+/// The hinge of a sweep: axis-aligned, so that only the angle changes.
 Corners swept(double angle) {
   return {Vector3(0.11, 0.23, 0), Vector3(0.19, -0.17 * std::cos(angle), -0.17 * std::sin(angle)),
           Vector3(0.03, 0, 0), Vector3(0.37, 0, 0)};
@@ -182,7 +182,7 @@ std::vector<Loss> losses(const Scene& scene) {
   return cases;
 }
 
-/// True if `ask` throws with the names that the loss asks for.
+/// True if `ask` throws an error that names the particles in `lost`.
 template <class Ask>
 bool is_reported(const Loss& loss, const Ask& ask) {
   try {

@@ -15,7 +15,7 @@ const char* const why_sums =
     "each hinge's forces cancel to a few roundings and about 20 hinge forces are added to a "
     "particle, a rounding each";
 
-/// A law of momentum on all crumpled sheets and some hinges, for the materials given.
+/// A momentum law on all crumpled sheets and some hinges, for the given materials.
 Table over_specimens(const Subject& subject, const std::vector<BendingMaterial>& materials,
                      const std::string& scale, Measurement measure) {
   std::vector<Specimen> specimens = crumpled_sheets();
@@ -73,7 +73,7 @@ Finding other_laws_keep_momentum(const Subject& subject) {
 /// The elastic forces of a whole specimen in 50 digits: the sum over its hinges, N each.
 struct Expected {
   PerParticle3 force;  // 3 x N [N]
-  // sum over the hinges at a particle of what a rounding of the magnitude 1 would move [N]
+  // sum over the hinges at a particle of the change caused by a rounding of magnitude 1 [N]
   PerParticle scale;
   PerParticle uncertainty;  // N
 };

@@ -16,8 +16,8 @@ std::vector<Specimen> specimens() {
   return chosen;
 }
 
-/// How far a path may lead from a specimen's state without folding a hinge through pi or losing
-/// a triangle [m].
+/// Largest displacement of a path from a specimen's state that folds no hinge through pi and
+/// flattens no triangle [m].
 double excursion(const Specimen& specimen) {
   return 0.08 * smallest_height(specimen.scene.mesh.triangles, specimen.state.x);
 }
@@ -39,7 +39,7 @@ Finding force_is_minus_gradient(const Subject& subject) {
                      "the quadrature's own error is the uncertainty");
 }
 
-/// Energy of one hinge in units of ke c, whatever the law [1].
+/// Energy of one hinge in units of ke c, for any law [1].
 double potential_50(const oracles::HingeInput& input, std::string_view law, double rest_weight) {
   if (law == "sine") return oracles::bending_energy_50(input).value / (input.ke * rest_weight);
   const double squared = std::pow(oracles::hinge_angle_50(input.x).value - input.theta0, 2);
@@ -76,7 +76,7 @@ Finding energy_is_as_defined(const Subject& subject) {
                      "hinges are added one by one");
 }
 
-/// A hinge or sheet led round a closed path.
+/// A hinge or sheet moved around a closed path.
 struct Loop {
   std::string name;
   RoundTrip trip;

@@ -10,9 +10,9 @@ namespace {
 
 using Mode = Eigen::Matrix<double, 12, 1>;
 
-/// The motions of a hinge that change no angle, each of length 1: three translations,
-/// three rotations, two motions of x1 and two of x2 in the planes of their triangles, one
-/// stretch of the edge.
+/// The motions of a hinge that change no angle, each of length 1: three translations, three
+/// rotations, two motions of x1 and two of x2 in the planes of their triangles, one stretch of the
+/// edge.
 struct Eleven {
   Eigen::Matrix<double, 12, 11> modes;
   static constexpr std::array<const char*, 11> names = {
@@ -85,7 +85,7 @@ Finding mode_is_the_only_one() {
     const double smallest = parts.values[10] / parts.values[0];
     const Mode u = reference_mode(x).normalized(), alone = parts.V.col(11);
     const double sine = (u - u.dot(alone) * alone).norm();
-    const bool several = !(smallest > 1e-4);  // the eleven would not be independent
+    const bool several = !(smallest > 1e-4);  // otherwise the eleven would not be independent
     measured.row("hinge " + std::to_string(measured.rows() + 1),
                  several ? nan : sine * smallest / (epsilon * aspect_ratio(x)), smallest);
   }
@@ -120,7 +120,7 @@ Finding mode_is_minus_gradient() {
                      "as the last two columns show. The printed forces are right.");
 }
 
-/// Where along the edge the foot of p lies: 1 at x3, 0 at x4.
+/// Position of the foot of p along the edge: 1 at x3, 0 at x4.
 long double foot(const Corners& x, const Vector3& p) {
   const Eigen::Matrix<long double, 3, 1> from4 = p.cast<long double>() - x[3].cast<long double>(),
                                          edge = x[2].cast<long double>() - x[3].cast<long double>();

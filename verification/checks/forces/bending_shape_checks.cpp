@@ -1,4 +1,4 @@
-// Nonlinear damping of the angle's rate; and whether a sculpted shape comes back.
+// Nonlinear damping of the angle's rate; and whether a sculpted shape recovers.
 #include "reference/mesh/shapes.h"
 #include "verification/oracles/dense_algebra.h"
 #include "verification/specimens/check.h"
@@ -19,8 +19,8 @@ constexpr double rate_scale = 23;  // rate at which the cubic part equals the li
 /// A damping law: forces for the velocities v of a hinge's corners, a cubic polynomial in v [N].
 using Law = std::function<Vector12(const Vector12& v)>;
 
-/// dF/dv by central differences of five points, which are exact for cubic polynomials,
-/// and what rounds.
+/// dF/dv by five-point central differences, which are exact for cubic polynomials, and their
+/// rounding.
 struct Jacobian {
   Matrix12 matrix = Matrix12::Zero();  // N s/m
   double rounding = 0;  // epsilon times the largest |F| of the stencil over its width [N s/m]
@@ -48,8 +48,8 @@ Vector12 stack(const std::array<Vector3, 4>& vectors) {
   return result;
 }
 
-/// The subject's linear damping, stiffened with the square of the true rate
-/// d(theta)/dt: all four alike.
+/// The subject's linear damping, stiffened with the square of the true rate d(theta)/dt: by the
+/// same factor for all four corners.
 Law stiffened_together(const Probe& probe, const State& s, const Vector12& gradient) {
   return [&probe, &s, gradient](const Vector12& v) {
     const double part = gradient.dot(v) / rate_scale;
@@ -58,7 +58,7 @@ Law stiffened_together(const Probe& probe, const State& s, const Vector12& gradi
   };
 }
 
-/// The same, each corner by its own share of the rate.
+/// The same, each corner by its own part of the rate.
 Law stiffened_one_by_one(const Probe& probe, const State& s, const Vector12& gradient) {
   return [&probe, &s, gradient](const Vector12& v) {
     PerParticle3 f = probe.damping(s, v.reshaped(3, 4));
@@ -74,8 +74,8 @@ double relative_asymmetry(const Matrix12& J) {
   return (J - J.transpose()).cwiseAbs().maxCoeff<Eigen::PropagateNaN>() / J.cwiseAbs().maxCoeff();
 }
 
-/// Largest eigenvalue of the symmetric part [N s/m]; at most 0 where the law dissipates
-/// more as v grows.
+/// Largest eigenvalue of the symmetric part [N s/m]; at most 0 if the rule dissipates more as v
+/// grows.
 double largest_eigenvalue(const Matrix12& J) {
   const Matrix12 symmetric = (J + J.transpose()) / 2;
   return oracles::symmetric_eigenvalues(symmetric)[11];
@@ -113,7 +113,7 @@ Finding nonlinear_damping_stays_symmetric(const Subject& subject) {
           "count as asymmetry does.");
 }
 
-/// A flat sheet whose rest angles are those of pleats: unfolded, free, damped, without gravity.
+/// A flat sheet with the rest angles of pleats: unfolded, free, damped, without gravity.
 Scene unfolded_pleats(double rest_share) {
   constexpr double angle = 1.1;  // between neighbouring panels [rad]
   Scene scene = scene_at_rest(make_sheet({SheetPattern::union_jack, 0.24, 0.09, 8, 3}), 0.19);
@@ -135,7 +135,7 @@ double unfolding(const Scene& scene, const PerParticle3& x, const std::vector<do
   return std::sqrt(sum);
 }
 
-/// How much of the unfolding is left after `duration` [s], over that at the start [1].
+/// Unfolding that is left after `duration` [s], over that at the start [1].
 double left_after(const Subject& subject, const Scene& scene, const std::vector<double>& angles,
                   double duration) {
   Stepper stepper(subject, scene, scene.integrator);

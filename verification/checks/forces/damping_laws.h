@@ -23,10 +23,10 @@ struct DampingPower {
 /// At the state's own velocities.
 DampingPower damping_power_of(const Probe& probe, const State& s);
 
-/// A table for damping powers, one case per row: name, share and power.
+/// A table for damping powers, one case per row: name, `share` and power.
 Table no_powers();
 
-/// The largest share of the table, with its sign: negative when every motion loses energy.
+/// The largest `share` of the table, with its sign: negative when every motion loses energy.
 Finding dissipation(const Table& powers);
 
 /// Largest entry of D - D^T, over epsilon times the largest entry of D.

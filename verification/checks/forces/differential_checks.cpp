@@ -1,5 +1,5 @@
-// Derivatives of forces by the positions: of the elastic forces, and of all forces while the
-// velocities stay, which Newton's method needs on damped cloth.
+// Derivatives of forces with respect to positions: of the elastic forces, and of all forces at
+// fixed velocities, which Newton's method needs on damped cloth.
 #include <optional>
 
 #include "reference/dynamics/system.h"
@@ -38,7 +38,7 @@ BendingMaterial bending_by(std::string_view law, Weighting weighting) {
   return {0.0037, 0, weighting, DampingFactor::edge, law};
 }
 
-/// The largest difference of an entry of a hinge's matrix, in roundings of the largest entry times
+/// The largest difference in an entry of a hinge's matrix, in roundings of the largest entry times
 /// the thinness squared.
 oracles::Estimate entries_off(const Specimen& hinge, const Matrix& found,
                               const oracles::MatrixEstimate& exact) {
@@ -62,7 +62,7 @@ Finding hinge_is_second_derivative() {
                      "magnified by the triangle's thinness, its derivative's once more");
 }
 
-/// Sheets and hinges with all that has a derivative: springs, both laws of bending, both at once.
+/// Sheets and hinges with each differentiable force: springs, both bending laws, both at once.
 std::vector<Specimen> elastic_specimens() {
   std::vector<Specimen> all;
   const StretchMaterial springs{41.0, 0, 1.04};
@@ -74,8 +74,8 @@ std::vector<Specimen> elastic_specimens() {
   return all;
 }
 
-/// dF/dx of the subject by central differences with Richardson's extrapolation, 3N x 3N [N/m], and
-/// how far the two steps disagree.
+/// dF/dx of the subject by central differences with Richardson extrapolation, 3N x 3N [N/m], and
+/// the difference between the two steps.
 struct EstimatedDerivative {
   Matrix K;
   double uncertainty;
@@ -119,8 +119,8 @@ Finding is_symmetric() {
                      "roundings magnified by crumpled triangles about ten times");
 }
 
-/// How far P is from the nearest negative semidefinite matrix to A in the Frobenius norm, which
-/// alone has P <= 0, A - P >= 0 and P (A - P) = 0; relative to |A|.
+/// Distance of P from the negative semidefinite matrix nearest to A in the Frobenius norm, the only
+/// one with P <= 0, A - P >= 0 and P (A - P) = 0; relative to |A|.
 double projection_error(const Matrix& A, const Matrix& P) {
   const double scale = A.norm();
   Worst worst;
@@ -143,7 +143,7 @@ Finding projection_is_nearest() {
                      "roundings of its norm");
 }
 
-/// Two particles and the one spring of their length, by the reference alone.
+/// Error of one spring's derivatives at this stretch [1], by the reference alone.
 double spring_error(double stretch) {
   StretchSprings springs{{{0, 1, 0.31, 23.0, 0}}};
   State s = resting_state(PerParticle3::Zero(3, 2));
@@ -179,7 +179,7 @@ Matrix derivative_of(const Specimen& specimen) {
   return force_derivative(specimen.scene, specimen.state);
 }
 
-/// Both factors of the damping with both weightings, damping and stiffness of like size.
+/// Both damping factors with both weightings; damping and stiffness of similar size.
 std::vector<BendingMaterial> moving_materials() {
   return {{0.0037, 0.00053, Weighting::rest, DampingFactor::edge, "sine"},
           {0.0019, 0.0071, Weighting::current, DampingFactor::edge_squared_over_area, "sine"}};

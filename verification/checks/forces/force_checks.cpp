@@ -12,8 +12,8 @@ namespace {
 
 const Vector3 field(1.3, -9.7, 2.9);  // m/s^2
 
-/// A third of each triangle's area times the density, by way of Heron's formula in extended
-/// precision [kg].
+/// A third of each triangle's area times the density, by Heron's formula in extended precision
+/// [kg].
 PerParticle masses_by_heron(const TriangleMesh& mesh, double density) {
   PerParticle masses = PerParticle::Zero(mesh.particles());
   for (const auto& [i, j, k] : mesh.triangles) {
@@ -83,7 +83,7 @@ oracles::Estimate largest_frequency(const Probe& probe, const State& s, const Pe
   return {found[1], std::abs(found[1] - found[0])};
 }
 
-/// Two triangles ten times as high as their common edge is long, at rest as regular as most.
+/// Two triangles ten times as high as their common edge is long; ordinary ones at rest.
 Specimen tall_hinge(double angle) {
   const double edge = 0.031, height1 = 9.4 * edge, height2 = 9.8 * edge;
   const auto corners = [&](double shrink, double folded) -> Corners {
@@ -142,8 +142,8 @@ Finding bound_is_a_bound(const Subject& subject) {
                      "an upper bound may not be exceeded");
 }
 
-/// Hinges far from their rest angles, whose forces change by their size more than by their angle:
-/// at half a turn the sine's slope is nothing.
+/// Hinges far from their rest angles, whose forces change more through the geometric factors than
+/// through the angle: at a half turn the slope of the sine vanishes.
 std::vector<Specimen> far_from_rest() {
   std::vector<Specimen> cases;
   unsigned seed = 340;
@@ -172,8 +172,8 @@ PerParticle row_bounds(const Specimen& specimen) {
   return rows;
 }
 
-/// The sums over each row of the reference's derivative, particle by particle, of what a 3 x 3
-/// block stretches at most [N/m].
+/// The row sums of the reference's derivative, particle by particle, of the largest stretch of each
+/// 3 x 3 block [N/m].
 PerParticle row_sums(const Specimen& specimen) {
   const Eigen::MatrixXd K = force_derivative(specimen.scene, specimen.state);
   PerParticle sums = PerParticle::Zero(specimen.state.x.cols());
@@ -198,7 +198,7 @@ Finding rows_are_covered() {
                      "an upper bound may not be exceeded, but for rounding in thin triangles");
 }
 
-/// Hinges in their rest shape, where only the rank-one part is left: there the bound is the sum.
+/// Hinges at rest, where only the rank-one part remains: there the bound equals the sum.
 Finding rows_are_reached() {
   Table measured{{"case", ""}, {"largest |sum of a row over its bound - 1|", "1"}};
   std::vector<Specimen> cases;
@@ -218,7 +218,7 @@ Finding rows_are_reached() {
                      "term or a wrong factor is of order 1");
 }
 
-/// The same hinge seen from its other side: x1 and x2 in turn, and x3 and x4.
+/// The same hinge seen from its other side: x1 and x2 exchanged, and x3 and x4.
 Corners turned_round(const Corners& x) { return {x[1], x[0], x[3], x[2]}; }
 
 Finding rows_follow_their_particles() {

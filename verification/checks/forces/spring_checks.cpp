@@ -17,7 +17,7 @@ namespace {
 StretchMaterial soft() { return {37.0, 0.043, 1}; }
 StretchMaterial stiff_and_shrunk() { return {2900.0, 1.7, 0.93}; }
 
-/// Crumpled sheets with springs of both materials by turns.
+/// Crumpled sheets with springs of both materials in turn.
 std::vector<Specimen> sprung_sheets() {
   std::vector<Specimen> sheets = crumpled_sheets();
   for (size_t k = 0; k < sheets.size(); ++k)
@@ -44,7 +44,7 @@ Finding torques_sum_to_zero(const Subject& subject) {
   return judge_worst(measured, 16, why_sums);
 }
 
-/// One edge of a sheet as the oracles see it.
+/// One edge of a sheet as oracle input.
 oracles::SpringInput spring_input(const Specimen& sheet, size_t edge) {
   const auto& [a, b, triangles] = sheet.scene.mesh.edges[edge];
   const StretchMaterial& material = *sheet.scene.stretch;
@@ -52,7 +52,7 @@ oracles::SpringInput spring_input(const Specimen& sheet, size_t edge) {
   oracles::SpringInput input;
   input.x = {sheet.state.x.col(a), sheet.state.x.col(b)};
   input.v = {sheet.state.v.col(a), sheet.state.v.col(b)};
-  // A_e/L0^2 is that of the rest shape, whatever the scale of the rest lengths
+  // A_e/L0^2 is that of the rest shape, at any scale of the rest lengths
   input.law = {material.stiffness, material.damping,
                scale * scale * edge_areas(sheet.scene.mesh)[edge], scale * length};
   return input;
@@ -161,8 +161,8 @@ Finding rest_gives_no_force(const Subject& subject) {
       "two ways to a length differ by a few roundings; about eight springs meet in a particle");
 }
 
-/// Y A_e/L0^2 is that of the rest shape, so a scale only moves the length at which a
-/// spring is at ease.
+/// Y A_e/L0^2 is that of the rest shape, so a scale only changes the length at which a spring has
+/// no force.
 Finding rest_length_scale_is_kept(const Subject& subject) {
   Table measured = roundings_of("of the size");
   Specimen sheet = crumpled_sheets()[4];
@@ -267,8 +267,8 @@ struct Strain {
   double along, across;
 };
 
-/// Energy per area and squared strain [N/m] of a homogeneous strain, turned by `direction` [rad]
-/// and `size` large; the mean of both signs, which leaves an error relative size^2.
+/// Energy per area and squared strain [N/m] of a homogeneous strain, turned by `direction` [rad],
+/// of amplitude `size`; the mean of both signs leaves a relative error of size^2.
 double energy_density(const Probe& probe, const TriangleMesh& mesh, const Strain& strain,
                       double direction, double size) {
   const double area = columns * rows * edge * edge * 0.5 * std::numbers::sqrt3;

@@ -19,13 +19,13 @@ namespace foldproof {
 
 namespace {
 
-/// The state with what a step begins with; dt is too short to matter.
+/// The state with the bonds formed at the start of a step; dt is too short to matter.
 State begun(const Subject& subject, const Scene& scene, const State& s) {
   return Stepper(subject, scene, "C").step(s, 1e-12);
 }
 
-/// A crumpled lower layer and particles all about it, all of which may stick to it, its
-/// own corners too.
+/// A crumpled lower layer and particles all around it, all of which may stick to it; so may its own
+/// corners.
 Scene crumpled_layers() {
   Scene scene = scene_at_rest(two_sheets(4, 0.3, 0.02), 0.2);
   Random random(101);
@@ -103,7 +103,7 @@ Finding renewal_finding(const Subject& subject) {
   return finding;
 }
 
-/// A held particle above a palm that goes up and down past it.
+/// A held particle above a palm that moves up and down past it.
 Finding again_finding(const Subject& subject) {
   Motion motion;
   motion.amplitude = {0, 0, 0.09};
@@ -119,7 +119,7 @@ Finding again_finding(const Subject& subject) {
 
   Stepper stepper(subject, scene, "B");
   State s = stepper.start();
-  // of each particle's target from it; NaN while it does not stick
+  // of each particle from its target; NaN while it does not stick
   std::vector<double> offset(4, NAN);
   std::vector<double> made(4, 0);
   double wrong = 0;
@@ -229,8 +229,8 @@ Scene sheet_on_a_palm() {
   return scene;
 }
 
-/// Numbers that differ at the end of two runs of which one is cut after `half` steps and goes on
-/// with the states alone.
+/// Numbers that differ at the end of two runs, one of them stopped after `half` steps and continued
+/// from its states alone.
 Finding memory_finding(const Subject& subject) {
   constexpr int half = 9;
   constexpr double h = 4e-4;
@@ -260,7 +260,7 @@ Finding memory_finding(const Subject& subject) {
                      "a step is a function of its states: bonds are in them and nowhere else");
 }
 
-/// A triangle that rests by itself, with particles about it, `distance` away on all six sides.
+/// A triangle that rests alone, with particles around it, `distance` away on all six sides.
 struct SurroundedParticle {
   StickyPatch patch;
   State state;
@@ -276,7 +276,7 @@ SurroundedParticle surround(double near, double distance) {
   made.patch.particles = {0, 1, 2, 3, 4, 5};
   made.patch.stiffness = 3.7;
   made.patch.near = near;
-  made.patch.far = 0.3 * near;  // of what it sticks to where it is, a particle is no distance away
+  made.patch.far = 0.3 * near;  // a new target is at the particle: distance 0
   made.state =
       resting_state(PerParticle3{{0.13 - distance, 0.93 + distance, 0.35, 0.13, 0.35, 0.35},
                                  {0.41, 0.21, 0.21 - distance, 1.11 + distance, 0.41, 0.41},

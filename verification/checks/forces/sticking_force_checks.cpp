@@ -1,4 +1,4 @@
-// The forces of sticking against their definition in 50 digits, what they keep, and how they fade.
+// The forces of sticking against their definition in 50 digits, what they conserve, how they fade.
 #include <fmt/format.h>
 
 #include "reference/dynamics/system.h"
@@ -140,7 +140,7 @@ Finding torque_finding(const Subject& subject) {
                                  signed_largest(torques)));
 }
 
-/// A particle at rest that sticks to the origin, drawn away by d [m].
+/// A particle at rest that sticks to the origin, pulled away by d [m].
 StuckSpecimen stretched_bonds(double d) {
   StuckSpecimen specimen;
   specimen.scene = scene_at_rest(
@@ -158,9 +158,9 @@ StuckSpecimen stretched_bonds(double d) {
   return specimen;
 }
 
-/// How far the force changes over `width` and how its slope does, over what a stiffness k0 and a
-/// curvature 8 k0/far allow: the largest |k0 (1 - r^2)(1 - 5 r^2)| and |k0/far (20 r^3 - 12 r)|
-/// for r in [0, 1].
+/// Changes of the force and of its slope over `width`, over those allowed by a stiffness k0 and a
+/// curvature 8 k0/far: the largest |k0 (1 - r^2)(1 - 5 r^2)| and |k0/far (20 r^3 - 12 r)| for r in
+/// [0, 1].
 Finding fade_finding(const Subject& subject) {
   Table measured{{"case", ""}, {"change over what is allowed", "1"}};
   const StuckSpecimen one = stretched_bonds(0);
@@ -292,7 +292,7 @@ Finding lost_triangles_finding(const Subject& subject) {
   for (StuckSpecimen specimen : stuck_layers()) {
     const Probe probe(subject, specimen.scene);
     const int particle = specimen.particles[0][0];
-    // of the triangle that the first particle sticks to, two corners meet
+    // two corners coincide in the triangle that the first particle sticks to
     PerParticle3& x = specimen.state.x;
     x.col(specimen.particles[0][3]) = x.col(specimen.particles[0][1]);
     measured.row(specimen.name + ", forces",

@@ -1,4 +1,4 @@
-// Motion of stuck cloth: how it follows its target, its lag, its stable steps.
+// Motion of stuck cloth: following its target, lag, and stable steps.
 #include <fmt/format.h>
 #include <memory>
 
@@ -31,15 +31,15 @@ Scene over_the_palm(const RigidMotion& motion) {
 
 constexpr double mass = 0.0021;  // kg
 
-/// Particles move with the palm at the start.
+/// Particles start with the palm's velocity.
 State carried_start(const Scene& scene, const RigidMotion& motion) {
   State s = start_state(scene);
   for (Eigen::Index i = 0; i < s.x.cols(); ++i) s.v.col(i) = velocity_at(motion, s.x.col(i), 0);
   return s;
 }
 
-/// A swing with drift and a turn; its acceleration is never more than (2 pi f)^2
-/// |amplitude| + rate^2 |arm|.
+/// A swing with drift and a turn; its acceleration never exceeds (2 pi f)^2 |amplitude| + rate^2
+/// |arm|.
 Motion waving() {
   Motion motion;
   motion.velocity = {0.3, 0.7, -0.4};
@@ -75,7 +75,7 @@ Finding follows_finding(const Subject& subject) {
       s = stepper.step(s, h);
       if (s.bonds.size() < 3) worst.observe(NAN);
       for (Eigen::Index i = 0; i < s.x.cols(); ++i) {
-        // rigid motion of the particle's own start: its place in the palm's frame
+        // rigid motion of the particle's start: its position in the palm's frame
         const Vector3 place = to_world(pose_at(motion, s.time), scene.x.col(i));
         worst.observe((s.x.col(i) - place).norm() / bound);
       }
@@ -91,11 +91,11 @@ Finding follows_finding(const Subject& subject) {
 
 Finding lag_finding(const Subject& subject) {
   Table measured{{"case", ""}, {"lag less what was derived, over it", "1"}};
-  for (const double pull : {0.05, 0.15, 0.27}) {  // of k far: what m g is; at .286 it breaks
+  for (const double pull : {0.05, 0.15, 0.27}) {  // m g over k far; it breaks at .286
     Scene scene = over_the_palm(Motion{});
     const StickyPatch& patch = scene.sticky[0];
     scene.gravity = Vector3(0, 0, -pull * patch.stiffness * patch.far / mass);
-    double r = pull;  // of r (1 - r^2)^2 = pull, by iteration
+    double r = pull;  // solves r (1 - r^2)^2 = pull by iteration
     for (int n = 0; n < 400; ++n) r = pull / std::pow(1 - r * r, 2);
     Stepper stepper(subject, scene, "C");
     State s = stepper.start();
@@ -108,8 +108,7 @@ Finding lag_finding(const Subject& subject) {
                      "e^-t; the solve's tolerance is 1e-10");
 }
 
-/// A surface of one triangle that is bent by its animation: what is stuck to it stays at
-/// its place in it.
+/// A surface of one triangle, bent by its animation: a stuck particle keeps its place in it.
 Finding deforming_finding(const Subject& subject) {
   SceneObject part;
   const PerParticle3 x0 =

@@ -48,8 +48,8 @@ struct Refinement {
   double change;  // from the rule with half as many points [J]
 };
 
-/// A rule with `parts` and twice as many, and so on until that changes no more than eight roundings
-/// of the scale, or `most` parts are reached.
+/// Doubles the number of parts until the result changes by at most eight roundings of the scale, or
+/// `most` parts are reached.
 Refinement refine(const std::function<Integral(int)>& rule, int parts, int most) {
   Integral coarse = rule(parts);
   while (true) {
