@@ -26,15 +26,15 @@ struct BucklingSpring {
   double stiffness(double distance) const;   // [N/m], its derivative
 };
 
-/// With the meeting found by bisection. length [m], bending [N m^2], slope [N/m].
+/// The meeting distance is found by bisection. length [m], bending [N m^2], slope [N/m].
 BucklingSpring make_buckling_spring(double length, double bending, double slope);
 
-/// Which implicit method takes the steps of a column, each with one linear solve in which the
-/// springs' push counts for nothing across them.
+/// Implicit method for the steps of a column; each step is one linear solve that neglects the
+/// springs' push across their axis.
 enum class ColumnMethod { backward_euler, bdf2 };
 
-/// A column of particles in a plane. Neighbours are joined by springs that pull only; particles two
-/// apart by buckling springs. The two at each end are held.
+/// A column of particles in a plane. Neighbours are joined by springs that only pull, particles two
+/// apart by buckling springs. The two particles at each end are held.
 struct BucklingColumn {
   int particles = 17;
   double spacing = 0.01;  // m
@@ -53,8 +53,8 @@ struct Shortening {
 };
 Shortening shorten(const BucklingColumn& column, ColumnMethod method, double h, int steps);
 
-/// The least stiffness across a straight column that is shortened evenly by this strain [N/m]:
-/// negative once it gives way.
+/// The least stiffness across a straight column, evenly shortened by this strain [N/m]: negative
+/// once it buckles.
 double stiffness_across(const BucklingColumn& column, double strain);
 
 }  // namespace foldproof
