@@ -66,8 +66,8 @@ bool is_parted(const Stretch& s) {
   return false;
 }
 
-/// Does (d_i x d_{i+1}) . u, quadratic in time, keep the sign `side`? Its three Bernstein
-/// coefficients say so.
+/// Does (d_i x d_{i+1}) . u, quadratic in time, keep the sign `side`? By its three Bernstein
+/// coefficients.
 bool keeps_turning(const Stretch& s, std::size_t i, const Exact& u, int side) {
   const std::size_t k = (i + 1) % s.from.size();
   const auto turn = [&](const Exact& p, const Exact& q) { return dot(cross(p, q), u); };

@@ -6,7 +6,7 @@
 
 namespace foldproof::oracles {
 
-/// How the last end is held: slope and position, or position alone.
+/// Support of the last end: slope and position held, or position alone.
 enum class EndHold { clamped, pinned };
 
 /// A held end: its slope, and its position relative to the first end. The slope of a pinned end is

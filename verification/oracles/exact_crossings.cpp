@@ -33,9 +33,9 @@ struct Pair {
 
 // ---- decisions that doubles can make with certainty
 
-/// Sign of the area of a, b, c seen along an axis, or 0 if doubles cannot tell: Shewchuk (1997),
+/// Sign of the area of a, b, c seen along an axis, or 0 if double is not enough. Shewchuk (1997):
 /// (3 + 16 e) e times the same sum of absolute values, e half the spacing of doubles at 1; the
-/// least normal number is there for underflow.
+/// least normal number covers underflow.
 int sure_turn(const Vector3& a, const Vector3& b, const Vector3& c, int axis) {
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;
   const double left = (b[u] - a[u]) * (c[v] - a[v]), right = (b[v] - a[v]) * (c[u] - a[u]);

@@ -197,9 +197,9 @@ TriangleSoup box_between(const Vector3& low, const Vector3& high) {
   return box;
 }
 
-// The determinant in double is right in sign where it exceeds the bound of Shewchuk (1997), (7 + 56
-// e) e times the same sum of absolute values, e half the spacing of doubles at 1; the least normal
-// number is there for underflow.
+// The determinant in double has the right sign beyond the bound of Shewchuk (1997), (7 + 56 e) e
+// times the same sum of absolute values, e half the spacing of doubles at 1. The least normal
+// number covers underflow.
 int orientation(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) {
   const Vector3 p = b - a, q = c - a, r = d - a;
   const double xy = p.x() * q.y(), yx = p.y() * q.x(), yz = p.y() * q.z();

@@ -26,9 +26,9 @@ namespace foldproof::oracles {
 ReferenceSolution reference_solution(const RightHandSide& rhs, std::span<const double> y0,
                                      double t0, std::span<const double> times, double tolerance);
 
-/// The root of f in [lower, upper], at whose ends f has opposite signs (else InputError), by
-/// Brent's method until the bracket is as narrow as `width` or as doubles allow. The uncertainty is
-/// the final width.
+/// The root of f in [lower, upper], by Brent's method until the bracket is as narrow as `width` or
+/// as doubles allow. f has opposite signs at the two ends (else InputError). The uncertainty is the
+/// final width.
 Estimate bracketed_root(const std::function<double(double)>& f, double lower, double upper,
                         double width);
 

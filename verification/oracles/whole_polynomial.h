@@ -40,9 +40,9 @@ struct Root {
 /// The roots strictly between 0 and 1, ascending, each once. p is not zero.
 std::vector<Root> roots_within(const Polynomial& p);
 
-/// By Sturm and Tarski: the sign changes of the signed remainders of p and p'q at `low`, less those
-/// at `high`, equal the sum of the signs of q at the roots of p in between (Basu, Pollack and Roy
-/// 2006, theorem 2.61). Here there is one root.
+/// By Sturm and Tarski: the sum of the signs of q at the roots of p between `low` and `high` is the
+/// drop in sign changes of the signed remainders of p and p'q from `low` to `high` (Basu, Pollack
+/// and Roy 2006, theorem 2.61). Here there is one root.
 int sign_at(const Polynomial& q, const Root& root);
 
 /// +1 or -1 if the hull of the Bernstein coefficients shows that sign on all of [0, 1], else 0.

@@ -8,11 +8,11 @@
 
 namespace foldproof {
 
-//   A spring between particles two apart stands for a piece of cloth of length L that bends into an
-//   arc when they come nearer: with kappa its curvature and a = kappa L/2,
+//   A spring between particles two apart models a piece of cloth of length L that bends into an arc
+//   when they approach: with kappa its curvature and a = kappa L/2,
 //     |d| = L sin(a)/a,   energy = k_b L kappa^2/2,   force = k_b kappa^2/(cos(a) - sin(a)/a) < 0.
-//   At a = 0 that force is -12 k_b/L^2: a barrier. A line c_b (|d| - L) leads there instead:
-//   the weaker of the two acts. There is no force beyond L.
+//   At a = 0 that force is -12 k_b/L^2: a barrier. Near it a line c_b (|d| - L) acts instead:
+//   the weaker of the two counts. There is no force beyond L.
 struct BucklingSpring {
   double length;   // L [m]
   double bending;  // k_b [N m^2]

@@ -19,7 +19,7 @@ namespace foldproof {
 /// A table for statements that are true or false, one per row.
 Table no_statements();
 
-/// How many statements are false; NaN without any.
+/// Number of false statements; NaN for an empty table.
 double count_false(const Table& statements);
 
 /// A property that each scheme must have; `run` may ignore the subject.

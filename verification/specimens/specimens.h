@@ -29,9 +29,9 @@ void add_flat_hinges(Scene& scene, double stiffness, double damping);
 /// The particles that the scene does not prescribe, ascending.
 std::vector<int> free_particles(const Scene& scene);
 
-/// Sheets of six patterns, a disc and a sphere, 80 triangles or so each, with random displacements
-/// (normal and in-plane, up to 0.35 and 0.2 of an edge), random velocities (up to 1.5 m/s) and
-/// random rest angles (up to 0.9 rad).
+/// Sheets of six patterns, a disc and a sphere, about 80 triangles each. Random are displacements
+/// (normal and in-plane, up to 0.35 and 0.2 of an edge), velocities (up to 1.5 m/s) and rest angles
+/// (up to 0.9 rad).
 std::vector<Specimen> crumpled_sheets();
 
 /// Three of them, small enough for dense matrices: an even pattern, an irregular one, a

@@ -90,7 +90,7 @@ Finding meets_the_identity_smoothly() {
                      "that length, 1e-12 of a slope of 1 against 1e-5");
 }
 
-/// Of depths in ascending order, those whose mapped depth falls, or stays where it has to rise.
+/// Number of ascending depths whose mapped depth falls, or stays where it must rise.
 double disorder(const DepthMap& map, const DepthBand& band, bool has_to_rise) {
   double wrong = 0, last = map.at(band, -band.deepest);
   for (int k = 1; k <= 500; ++k) {
