@@ -79,7 +79,7 @@ class Table {
     return std::move(*this);
   }
 
-  /// Adds a column, as long as those that are there.
+  /// Adds a column as long as the existing ones.
   void add(Column column);
 
   const std::vector<Column>& columns() const { return columns_; }
@@ -89,7 +89,7 @@ class Table {
   const std::vector<double>& numbers(std::string_view column) const;
   std::vector<std::string> texts(std::string_view column) const;
 
-  /// The largest number of a column, or 0 if all are below it; NaN if any is, or if there is none.
+  /// The largest number of a column, or 0 if all are negative; NaN if any is, or if there is none.
   double worst(std::string_view column) const;
 
   /// The first row with that number, or the first NaN; needs at least one row with a value >= 0.
@@ -106,14 +106,14 @@ class Table {
 /// and "measured".
 Table roundings_of(const std::string& scale);
 
-/// The largest value with its sign; NaN if any is, or if there is none.
+/// The largest value with its sign; NaN if any is NaN, or if there is none.
 double signed_largest(const std::vector<double>& values);
 
 /// A maximum that propagates NaN.
 class Worst {
  public:
   void observe(double value);
-  double value() const { return worst_; }  // 0 if nothing was seen
+  double value() const { return worst_; }  // 0 if no value was observed
 
  private:
   double worst_ = 0;

@@ -35,7 +35,7 @@ struct Curve {
 Curve curve_of(const std::string& label, const Table& table, std::string_view x,
                std::string_view y);
 
-/// The values of a function at these places, without a floor.
+/// The values of a function at these x values, without a floor.
 template <class Function>
 Curve curve_over(std::string label, const std::vector<double>& places, const Function& value) {
   Curve curve{std::move(label), places};
@@ -77,12 +77,12 @@ struct Map {
   std::string name, title;
   Axis x, y;
   std::vector<double> x_values, y_values;  // ascending, in the axes' units
-  // in `unit`, row by row: [iy * x_values.size() + ix]; NaN: no value, as the caption says
+  // in `unit`, row by row: [iy * x_values.size() + ix]; NaN: no value; the caption says why
   std::vector<double> values;
   std::string quantity, unit;  // name and unit of the values
   Scale scale;                 // of the values
   std::string caption;
-  std::vector<Curve> curves;  // drawn over the map, on its axes: limits known beforehand
+  std::vector<Curve> curves;  // drawn over the map, on its axes: limits known in advance
 };
 
 }  // namespace foldproof

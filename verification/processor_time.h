@@ -5,8 +5,8 @@
 
 namespace foldproof {
 
-/// Processor time of this thread [s]: less affected by other programs and threads than
-/// wall-clock time.
+/// Processor time of this thread [s]: other programs and threads affect it less than wall-clock
+/// time.
 inline double processor_seconds() {
   timespec spent{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &spent);

@@ -21,8 +21,8 @@ struct PreparedScene {
 struct Subject {
   std::string name, version;
 
-  /// Builds the scene; the integrator and the solver's settings are the scene's. Throws NotOffered
-  /// for parts that it does not support.
+  /// Builds the scene, with the scene's integrator and solver settings. Throws NotOffered for parts
+  /// that the subject does not support.
   std::function<std::unique_ptr<PreparedScene>(const Scene&)> prepare;
 
   /// All elastic and external forces at s [N], 3 x N.
@@ -51,8 +51,8 @@ struct Subject {
                              const PerParticle3& v)>
       avoid_itself;
 
-  /// One step of dt [s] from the latest of the states `past`, of which a method may use two; adds
-  /// the counted work, if it counts any.
+  /// One step of dt [s] from the latest of the states `past`; a method may use two of them. Adds
+  /// the counted work, if any is counted.
   std::function<State(PreparedScene&, std::span<const State> past, double dt, Work& work)> step;
 };
 

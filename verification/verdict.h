@@ -26,16 +26,16 @@ struct Verdict {
 };
 
 /// holds iff measured + uncertainty <= bound, fails iff measured - uncertainty > bound, else
-/// inconclusive. Fails, too, if one of them is NaN, the bound infinite or the uncertainty negative.
+/// inconclusive. Also fails if one of them is NaN, the bound infinite or the uncertainty negative.
 Outcome outcome_of(const Verdict& verdict);
 
 struct Finding {
   Verdict verdict;
   Table evidence;
-  std::string note = {};  // what a reader must know besides the numbers; may be empty
-  // what was measured, in words and units, where the judged number is another; may be empty
+  std::string note = {};  // context that the numbers need; may be empty
+  // the measured value, in words and units, if the judged number is another; may be empty
   std::string headline = {};
-  // of a failure without a number: what happened, alike in findings that fail for the same reason
+  // for a failure without a number: what happened; the same text for the same reason
   std::string failure = {};
 };
 
@@ -47,8 +47,8 @@ Finding judge_worst(Table evidence, std::string_view column, double bound, std::
 /// The same for the table's last column.
 Finding judge_worst(Table evidence, double bound, std::string why_bound, std::string note = "");
 
-/// A property that the subject must have. `run` may throw NotOffered; a check that asks the
-/// reference alone gives a function without a parameter.
+/// A property that the subject must have. `run` may throw NotOffered; a check that uses the
+/// reference alone passes a function without a parameter.
 struct Check {
   using OfSubject = std::function<Finding(const Subject&)>;
   Check(std::string name, std::string claim, std::string source, OfSubject run);
@@ -79,14 +79,14 @@ struct Record {
   std::optional<Outcome> outcome;  // none for a bench, and before the run
   std::string better;              // bench only: "higher" or "lower"
   double seconds = 0;
-  std::vector<std::string> faults;  // seeded faults that it catches
+  std::vector<std::string> faults;  // seeded faults that the check catches
 };
 
-/// True if it lacks the outcome that all but a bench must have.
+/// True if the outcome is missing, which only a bench may lack.
 bool did_not_run(const Record& record);
 
-/// The outcome as files and listings spell it: name_of it, else "measured" (a bench)
-/// or "did not run".
+/// The outcome as spelt in files and listings: name_of it, else "measured" (a bench) or "did not
+/// run".
 std::string_view outcome_text(const Record& record);
 
 struct StudyRecord {
@@ -100,8 +100,8 @@ struct StudyRecord {
 /// Runs a check. One that throws anything but NotOffered fails, with the message as its note.
 Record run_check(const Check& check, const Subject& subject);
 
-/// Runs `act`, which gives a check's or a study's finding, and completes the record: outcome, note
-/// of what was thrown, seconds.
+/// Runs `act`, which returns a check's or a study's finding, and completes the record: outcome,
+/// note on what was thrown, seconds.
 Record judge(Record record, const std::function<Finding()>& act);
 
 }  // namespace foldproof

@@ -6,13 +6,13 @@
 
 #include "verification/oracles/exact_solutions.h"
 
-// Amplification factors of one step of a method on a linear oscillator, one for each
-// of its two modes.
+// Amplification factors of one step of a method on a linear oscillator, one for each of its two
+// modes.
 
 namespace foldproof::oracles {
 
 /// The factors of the two modes, in the order of the roots of lambda^2 + c lambda + k = 0 with +
-/// and - before the square root. Good to about ten roundings of 1.
+/// and - before the square root. Accurate to about ten roundings of 1.
 using Factors = std::array<std::complex<double>, 2>;
 
 /// e^{lambda h}, the exact factors. h [s] > 0.

@@ -42,8 +42,8 @@ long double tipping_load() {
   return bisected_root([](long double Q) { return twist_by_series(Q, 1); }, 8, 18);
 }
 
-/// phi(t) for the load G: of phi = sum a_k t^(3 k), a_(k+1) (3 k + 3)(3 k + 2) = -G a_k. Of its
-/// integral from 0 to t, each term is t/(3 k + 1) times as large.
+/// phi(t) for the load G: of phi = sum a_k t^(3 k), a_(k+1) (3 k + 3)(3 k + 2) = -G a_k. Each term
+/// of its integral from 0 to t is t/(3 k + 1) times as large.
 struct SlopeSeries {
   long double slope, integral;
 };
@@ -77,7 +77,7 @@ double last_value(const RightHandSide& rhs, const std::array<double, 2>& start, 
   return reference_solution(rhs, start, from, std::array<double, 1>{to}, 1e-13).values[0][0];
 }
 
-/// The root of y(end; p) where y' at p is by GSL good to 1e-12 of slopes of size 1.
+/// The root of y(end; p), where GSL's y' at p is accurate to 1e-12 for slopes of size 1.
 Estimate root_of_shots(const std::function<double(double)>& shot, double lower, double upper) {
   Estimate root = bracketed_root(shot, lower, upper, 0);
   const double change = 1e-4,
@@ -99,7 +99,7 @@ void require_slack(const HungChain& chain) {
     throw InputError("oracle chains_and_ribbons: the points must be nearer than the chain is long");
 }
 
-/// The pull across, and how far along the chain its lowest point is: both over L, or the weight.
+/// The horizontal pull over the weight, and the arc length of the chain's lowest point over L.
 struct Pulls {
   double H, V;
   double uncertainty;
@@ -167,7 +167,7 @@ Estimate chain_frequency_by_series(int n) {
 
 Estimate chain_frequency_by_shooting(int n) {
   require_known_mode(n);
-  // u y'' + y' + u y = 0 from where y = 1 - u^2/4 + u^4/64 to 1e-16
+  // u y'' + y' + u y = 0, started where y = 1 - u^2/4 + u^4/64 to 1e-16
   constexpr double from = 0.01;
   const RightHandSide rhs = [](double u, std::span<const double> y, std::span<double> dy) {
     dy[0] = y[1];

@@ -1,4 +1,4 @@
-// Hanging chains, and the weights under which a ribbon on edge and a column fall over.
+// Hanging chains, and the weights at which a ribbon on edge and a column buckle.
 #pragma once
 
 #include <span>
@@ -17,7 +17,7 @@ namespace foldproof::oracles {
 Estimate tipping_load_by_series();
 Estimate tipping_load_by_shooting();
 
-/// phi of the ribbon at that load, over its free end's.
+/// phi of the ribbon at that load, over its value at the free end.
 double tipping_twist(double t);
 
 /// A column that is clamped at its foot falls under its own weight at q L^3/(EI) = this, q its
@@ -47,8 +47,8 @@ struct CatenaryPoint {
 };
 
 struct Catenary {
-  std::vector<CatenaryPoint> points;  // at the arc lengths that were asked for
-  Estimate pull_across, pull_up;      // of the first end on its point, over the weight; up: < 0
+  std::vector<CatenaryPoint> points;  // at the requested arc lengths
+  Estimate pull_across, pull_up;      // by the first end on its support, over the weight; up: < 0
   double uncertainty = 0;             // of the points
 };
 

@@ -10,9 +10,8 @@
 #include "verification/oracles/definitions.h"
 #include "verification/oracles/ode.h"
 
-// A whole sheet as an ordinary differential equation, M x'' = F(t, x, x') with the forces of
-// definitions.h in double precision, for a general ODE solver. Everything is plain data: particles
-// are numbered from 0.
+// A whole sheet as an ordinary differential equation, M x'' = F(t, x, x'), with the forces of
+// definitions.h in double precision, for a general ODE solver. Particles are numbered from 0.
 
 namespace foldproof::oracles {
 
@@ -42,7 +41,7 @@ struct ClothMaterial {
   DampingFactor damping_factor = DampingFactor::edge_length;
 };
 
-/// A given motion: position [m] and velocity [m/s] at any time [s], the second being the
+/// A prescribed motion: position [m] and velocity [m/s] at any time [s], the second being the
 /// derivative of the first. A lambda written for it must return a Vector3; an Eigen expression
 /// would refer to dead operands.
 struct Motion {
@@ -80,9 +79,9 @@ HingeDefinition hinge_at_rest(const std::array<int, 4>& corners, const PerPartic
                               double rest_angle);
 
 /// The right-hand side for y = (positions of the free particles in ascending order, then their
-/// velocities); 6 numbers a free particle. It keeps a copy of the definition and may be called from
-/// several threads. Particles out of range, quantities not positive, no free particle: InputError
-/// naming the entry.
+/// velocities); 6 numbers per free particle. It keeps a copy of the definition; several threads may
+/// call it. InputError, naming the entry: particles out of range, quantities not positive, no free
+/// particle.
 RightHandSide cloth_rhs(const ClothDefinition& cloth);
 
 /// y of a state: prescribed particles are left out.
@@ -93,10 +92,10 @@ std::vector<double> free_coordinates(const ClothDefinition& cloth, const ClothSt
 ClothState cloth_state(const ClothDefinition& cloth, double t, std::span<const double> y);
 
 /// Kinetic, spring, bending and gravity energy of all particles [J]. With elastic_geometry at rest,
-/// without damping, external force or moving particles it is constant in time until a hinge folds
-/// through theta = pi. There theta jumps to -pi and sin(theta/2) changes sign: the bending energy
-/// jumps by 2 pi ke c sin(theta0/2), c being the factor at rest, and the right-hand side is not
-/// continuous. No order study may pass through it.
+/// without damping, external force or moving particles, it is constant until a hinge folds through
+/// theta = pi. There theta jumps to -pi and sin(theta/2) changes sign. The bending energy jumps by
+/// 2 pi ke c sin(theta0/2), c being the factor at rest, and the right-hand side is discontinuous.
+/// No order study may pass through such a fold.
 double mechanical_energy(const ClothDefinition& cloth, const ClothState& state);
 
 }  // namespace foldproof::oracles

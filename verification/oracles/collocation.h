@@ -1,4 +1,4 @@
-// Polynomials by their values at Chebyshev's nodes: the space in which strips are sought.
+// Polynomials by their values at Chebyshev's nodes: the trial space for strips.
 #pragma once
 
 #include <Eigen/Core>

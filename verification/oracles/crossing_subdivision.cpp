@@ -7,10 +7,10 @@ namespace foldproof::oracles {
 
 namespace {
 
-/// Corners, in order, of a flat convex polygon in which the origin is just when the features meet.
+/// Corners, in order, of a flat convex polygon that holds the origin iff the features meet.
 using Corners = std::vector<Exact>;
 
-/// The polygon at the start and at the end of a time.
+/// The polygon at the start and at the end of a time interval.
 struct Stretch {
   Corners from, to;
 };
@@ -46,8 +46,8 @@ bool parted_along(const Stretch& s, const Exact& u) {
          (all_beyond(s.from, -u) && all_beyond(s.to, -u));
 }
 
-/// Directions that may part the origin from the polygon: across it, away from its corners, and
-/// across its sides.
+/// Directions that may separate the origin from the polygon: normal to it, away from its corners,
+/// and normal to its sides.
 std::vector<Exact> directions(const Corners& middle) {
   const Exact n = normal_of(middle);
   std::vector<Exact> all{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, n};
@@ -66,8 +66,8 @@ bool is_parted(const Stretch& s) {
   return false;
 }
 
-/// Does (d_i x d_{i+1}) . u, quadratic in time, keep the sign `side`? Its three Bernstein
-/// coefficients say so.
+/// Does (d_i x d_{i+1}) . u, quadratic in time, keep the sign `side`? By its three Bernstein
+/// coefficients.
 bool keeps_turning(const Stretch& s, std::size_t i, const Exact& u, int side) {
   const std::size_t k = (i + 1) % s.from.size();
   const auto turn = [&](const Exact& p, const Exact& q) { return dot(cross(p, q), u); };

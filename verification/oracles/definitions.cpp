@@ -12,8 +12,8 @@ using Corners = std::array<Vector3, 4>;
 template <int N>
 using Gradient = Dual<Digits50, N>;
 
-/// How far sin(theta/2) as printed may be off in 50 digits: 1 - n1.n2 carries a few 1e-50, its
-/// root at most 1e-24.
+/// Error of sin(theta/2) as printed, in 50 digits: 1 - n1.n2 carries a few 1e-50, its root at most
+/// 1e-24.
 constexpr double printed_half_angle_error = 1e-24;
 
 template <class Scalar>
@@ -55,7 +55,7 @@ VectorsEstimate<static_cast<int>(N)> rounded(const std::array<Triple<Digits50>, 
   return result;
 }
 
-/// The derivatives of f, variable 3 i + k being coordinate k of vector i.
+/// The derivatives of f; variable 3 i + k is coordinate k of vector i.
 template <std::size_t Count, int N>
 VectorsEstimate<static_cast<int>(Count)> rounded_gradient(const Gradient<N>& f) {
   static_assert(N == 3 * Count);
@@ -103,7 +103,7 @@ SpringLaw<Scalar> check_finite(const SpringInput& spring) {
   return {Scalar(law.young), Scalar(law.damping), Scalar(law.area), Scalar(law.rest_length)};
 }
 
-/// The largest force [N] on a corner where the deflection is 1.
+/// The largest force [N] on a corner for a deflection of 1.
 double force_at_unit_deflection(const Quad<Digits50>& x, double ke, const Digits50& factor) {
   Digits50 largest = 0;
   for (const Triple<Digits50>& u : bending_mode(x))

@@ -192,10 +192,9 @@ struct VectorsEstimate {
   double uncertainty = 0;
 };
 
-// 50 digits inside, doubles outside; the inputs count as exact and the uncertainty is one
-// rounding to double, to which sin(theta/2) as printed, losing half of the digits, adds 1e-24. A
-// hinge with a zero-area triangle, a zero-length spring, an input that is not finite: InputError
-// naming the quantity.
+// 50 digits inside, doubles outside. The inputs count as exact; the uncertainty is one rounding to
+// double, plus 1e-24 where sin(theta/2) as printed loses half of the digits. InputError, naming the
+// quantity: a hinge with a zero-area triangle, a zero-length spring, an input that is not finite.
 
 /// theta [rad] by atan2.
 Estimate hinge_angle_50(const std::array<Vector3, 4>& x);
@@ -206,8 +205,8 @@ Estimate sin_half_angle_50(const std::array<Vector3, 4>& x);
 /// u [1/m] as printed.
 VectorsEstimate<4> bending_mode_50(const std::array<Vector3, 4>& x);
 
-/// Elastic and damping forces on the four corners [N], and the energy [J]. The energy takes its
-/// factor at rest, whatever elastic_geometry says: at the current geometry there is none.
+/// Elastic and damping forces on the four corners [N], and the energy [J]. The energy uses the
+/// factor at rest for either elastic_geometry: at the current geometry no energy exists.
 VectorsEstimate<4> bending_elastic_50(const HingeInput& hinge);
 VectorsEstimate<4> bending_damping_50(const HingeInput& hinge);
 Estimate bending_energy_50(const HingeInput& hinge);

@@ -45,12 +45,12 @@ SingularParts singular_parts(const Eigen::MatrixXd& matrix) {
 Eigen::Quaterniond rotation_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
   const Eigen::Vector3d a = from.normalized(), b = to.normalized();
   const double half = std::sqrt((1 + a.dot(b)) / 2);  // cosine of half the angle
-  if (!(half > 1e-8)) {                               // opposite: about any axis across
+  if (!(half > 1e-8)) {                               // opposite: any perpendicular axis
     const Eigen::Vector3d axis = a.unitOrthogonal();
     return {0, axis.x(), axis.y(), axis.z()};
   }
   const Eigen::Vector3d v = a.cross(b) / (2 * half);
-  // a small half is known to few digits
+  // a small cosine is known to few digits
   return Eigen::Quaterniond(half, v.x(), v.y(), v.z()).normalized();
 }
 

@@ -10,12 +10,12 @@ struct Band {
   double nearest, reach, deepest;
 };
 
-/// f(phi) = eps + (tau - eps) u^p with the exponent found from f'(tau) = 1. Right for -t^ <=
-/// phi <= tau [m].
+/// f(phi) = eps + (tau - eps) u^p with the exponent found from f'(tau) = 1. Valid for -t^ <= phi <=
+/// tau [m].
 Estimate power_map(const Band& band, double phi);
 
-/// The map whose slope is m from -t^ on and rises from m to 1 over the last w = (tau - eps)/2, m
-/// such that f climbs from eps to tau: found by integrating the slope from -t^. Right for -t^ <=
+/// The map whose slope is m from -t^ on and rises from m to 1 over the last w = (tau - eps)/2,
+/// where m makes f climb from eps to tau; found by integrating the slope from -t^. Valid for -t^ <=
 /// phi <= tau [m].
 Estimate blend_map(const Band& band, double phi);
 

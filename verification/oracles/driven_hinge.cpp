@@ -12,8 +12,8 @@ PerParticle3 as_columns(const std::array<Vector3, 4>& corners) {
   return columns;
 }
 
-/// Area of a triangle by Heron's formula from its sides [m^2]: another road than the hinge's
-/// cross products.
+/// Area of a triangle by Heron's formula from its sides [m^2]: independent of the hinge's cross
+/// products.
 double triangle_area(const Vector3& p, const Vector3& q, const Vector3& r) {
   const double a = (q - p).norm(), b = (r - q).norm(), c = (p - r).norm(), half = (a + b + c) / 2;
   return std::sqrt(half * (half - a) * (half - b) * (half - c));

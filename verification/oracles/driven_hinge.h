@@ -9,12 +9,11 @@
 
 namespace foldproof::oracles {
 
-/// The smallest piece of cloth on which an order study is meaningful: one hinge with springs on
-/// its five edges, nonlinear, damped, and not autonomous once a corner moves as prescribed or a
-/// force depends on time. Corners x1..x4 are particles 0..3; any of them may be prescribed, the
-/// others are free.
+/// The smallest piece of cloth on which an order study is meaningful: one hinge with springs on its
+/// five edges, nonlinear and damped. It is not autonomous once a corner is prescribed or a force
+/// depends on time. Corners x1..x4 are particles 0..3; any may be prescribed, the others are free.
 struct DrivenHinge {
-  // start x [m], v [m/s]; rest corners; ke, kd, theta0 and where their factors are taken
+  // start x [m], v [m/s]; rest corners; ke, kd, theta0 and where their factors are evaluated
   HingeInput hinge;
   // rho, a third of each triangle's rest mass goes to each of its corners [kg/m^2], > 0
   double density = 0;

@@ -66,7 +66,7 @@ struct Equations {
   }
 };
 
-/// Newton's method at one weight; steps no longer than `longest`, so as to keep the branch.
+/// Newton's method at one weight; steps no longer than `longest`, to stay on the branch.
 void find_equilibrium(const Equations& equations, double gamma, Eigen::VectorXd& unknowns) {
   constexpr double longest = 0.4;  // rad
   constexpr int most_steps = 60;
@@ -85,7 +85,7 @@ void find_equilibrium(const Equations& equations, double gamma, Eigen::VectorXd&
                            std::to_string(gamma));
 }
 
-/// From no weight to the whole: 10, then factors of at most 2.
+/// Weights from zero to the full one: 10, then factors of at most 2.
 Eigen::VectorXd equilibrium(const HeavyStrip& strip, const Collocation& nodes) {
   const Equations equations{strip, nodes};
   const double last_slope = strip.last ? strip.last->slope : strip.first_slope;
@@ -156,7 +156,7 @@ Eigen::Vector3d miss_of(const StripEnd& end, const ReferenceSolution& shot) {
   return {end.hold == EndHold::clamped ? y[0] - end.slope : y[1], y[2] - end.across, y[3] - end.up};
 }
 
-/// Shots with each number of the aim a little larger.
+/// Shots with each unknown a little larger.
 std::array<ReferenceSolution, 3> beside(const HeavyStrip& strip, const Aim& aim, double change,
                                         std::span<const double> s) {
   std::array<ReferenceSolution, 3> shots;
@@ -220,7 +220,7 @@ StripShape strip_by_shooting(const HeavyStrip& strip, std::span<const double> ar
   StripShape shape{{}, 0};
   for (std::size_t i = 0; i + 1 < s.size(); ++i)
     shape.points.push_back({hit.values[i][0], hit.values[i][2], hit.values[i][3]});
-  // an error of the miss moves the points as far as the aim that makes up for it does
+  // an error of the miss moves the points as much as the aim that corrects it does
   const double off = miss_of(*strip.last, hit).cwiseAbs().maxCoeff() + hit.uncertainty.back();
   shape.uncertainty = hit.uncertainty.back();
   shape.first_curvature = aim[0];

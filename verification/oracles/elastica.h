@@ -6,11 +6,11 @@
 
 namespace foldproof::oracles {
 
-/// How the last end is held: slope and place, or place alone.
+/// Support of the last end: slope and position held, or position alone.
 enum class EndHold { clamped, pinned };
 
-/// A held end: its slope, and its place from the first end. The slope of a pinned end is a first
-/// guess, which chooses the branch.
+/// A held end: its slope, and its position relative to the first end. The slope of a pinned end is
+/// an initial guess, which selects the branch.
 struct StripEnd {
   double slope;       // of the direction along the strip, upward positive; whole turns count [rad]
   double across, up;  // over L [1]
@@ -20,14 +20,14 @@ struct StripEnd {
 /// An inextensible strip of length L, bent in a vertical plane by its weight and its ends (the
 /// heavy elastica). With s the arc length over L and theta the slope above the horizontal,
 ///   theta'' = F_x sin(theta) - (F_y - gamma (1 - s)) cos(theta),   theta(0) = first_slope,
-/// where (F_x, F_y) B/L^2 is what holds the last end. That end is clamped, pinned (theta'(1) = 0),
-/// or free: then F = 0 and theta'(1) = 0.
+/// where (F_x, F_y) B/L^2 is the force that holds the last end. That end is clamped, pinned
+/// (theta'(1) = 0), or free: then F = 0 and theta'(1) = 0.
 struct HeavyStrip {
   double gamma;                  // rho_A g L^3/B >= 0 [1]
   double first_slope;            // rad
   std::optional<StripEnd> last;  // none: free
-  // Of several equilibria the one is wanted that grows, as gamma does from 0, out of the one
-  // nearest to slopes that change evenly from end to end, plus bulge sin(2 pi s) [rad].
+  // Selects one of several equilibria: the branch that starts, at gamma = 0, nearest to slopes that
+  // change evenly from end to end, plus bulge sin(2 pi s) [rad].
   double bulge = 0;
 };
 
@@ -36,11 +36,11 @@ struct StripPoint {
   double across, up;  // from the first end over L [1]
 };
 
-/// Points of a strip at the arc lengths asked for.
+/// Points of a strip at the requested arc lengths.
 struct StripShape {
   std::vector<StripPoint> points;
   double uncertainty;  // of any of their numbers
-  // curvature at the first end [1/L], and what holds the last [B/L^2]
+  // curvature at the first end [1/L], and the force that holds the last [B/L^2]
   double first_curvature = 0, force_across = 0, force_up = 0;
 };
 
@@ -51,9 +51,9 @@ struct StripShape {
 /// there is no equilibrium.
 StripShape strip_by_collocation(const HeavyStrip& strip, std::span<const double> arc_lengths);
 
-/// A strip held at both ends, by shooting from the first with GSL's ODE solver: curvature and force
-/// there are found by Newton's method. They start from what collocation found, which chooses the
-/// branch and no more. arc_lengths ascend. InputError for a free end.
+/// A strip held at both ends, by shooting from the first with GSL's ODE solver; Newton's method
+/// finds curvature and force there. It starts from the collocation result, which only selects the
+/// branch. arc_lengths ascend. InputError for a free end.
 StripShape strip_by_shooting(const HeavyStrip& strip, std::span<const double> arc_lengths);
 
 }  // namespace foldproof::oracles

@@ -69,7 +69,7 @@ bool turns_one_way(const Polygon<Scalar>& polygon, Scalar Triple<Scalar>::*axis,
   return true;
 }
 
-/// sign: of a scalar, at the time that is asked about.
+/// sign: of a scalar, at the time in question.
 template <class Scalar, class Sign>
 bool holds_origin(const Polygon<Scalar>& polygon, const Sign& sign) {
   if (sign(polygon.height) != 0) return false;
@@ -105,8 +105,8 @@ bool ever_holds_origin(const Polygon<Polynomial>& polygon) {
   return false;
 }
 
-/// Are all d_i on one side of a plane across an axis, at the start and at the end,
-/// and so throughout?
+/// Are all d_i on one side of a plane normal to an axis, at the start and at the end, and so
+/// throughout?
 bool separated_by_an_axis(const std::vector<Exact>& at_start, const std::vector<Exact>& at_end) {
   for (const auto axis : {&Exact::x, &Exact::y, &Exact::z})
     for (const int side : {-1, 1}) {
@@ -146,7 +146,7 @@ ExactMotion exact_motion(const FourPoints& start, const FourPoints& displacement
   return {exact_points(start, k), exact_points(displacement, k)};
 }
 
-// x = start + t end way; end = whole / 2^halvings
+// x = start + t end displacement; end = whole / 2^halvings
 ExactMotion until(const ExactMotion& motion, double end) {
   const int exponent = common_exponent({Vector3(end, 0, 0)});
   const Whole numerator = whole(end, exponent), denominator = Whole(1) << unsigned(-exponent);

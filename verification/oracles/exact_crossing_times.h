@@ -25,7 +25,7 @@ enum class Features { vertex_and_triangle, edge_and_edge };
 // columns: the vertex and the corners; or one edge's ends, the other's
 using FourPoints = Eigen::Matrix<double, 3, 4>;
 
-/// Four points at start + t way, t in [0, 1], in integer multiples of some unit of length.
+/// Four points at start + t displacement, t in [0, 1], in integer multiples of some unit of length.
 struct ExactMotion {
   Quad<Whole> start, displacement;
 };

@@ -24,19 +24,18 @@ bool boxes_meet(const Box& a, const Box& b) {
   return (a.low.array() <= b.high.array()).all() && (b.low.array() <= a.high.array()).all();
 }
 
-/// An edge from p to q, and a triangle; if they share a particle, then it is p and the
-/// triangle's first corner.
+/// An edge from p to q, and a triangle; a particle in common is p and the triangle's first corner.
 struct Pair {
   Vector3 p, q;  // m
   Corners3 t;    // m
   bool is_shared;
 };
 
-// ---- what doubles can say for sure
+// ---- decisions that doubles can make with certainty
 
-/// Sign of the area of a, b, c seen along an axis, or 0 if doubles cannot tell: Shewchuk (1997),
+/// Sign of the area of a, b, c seen along an axis, or 0 if double is not enough. Shewchuk (1997):
 /// (3 + 16 e) e times the same sum of absolute values, e half the spacing of doubles at 1; the
-/// least normal number is there for underflow.
+/// least normal number covers underflow.
 int sure_turn(const Vector3& a, const Vector3& b, const Vector3& c, int axis) {
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;
   const double left = (b[u] - a[u]) * (c[v] - a[v]), right = (b[v] - a[v]) * (c[u] - a[u]);
@@ -47,8 +46,8 @@ int sure_turn(const Vector3& a, const Vector3& b, const Vector3& c, int axis) {
   return area > bound ? 1 : area < -bound ? -1 : 0;
 }
 
-/// Seen along the axis, is the edge surely on the outer side of one of the triangle's? A shared
-/// corner may lie on it.
+/// Seen along the axis, is the edge surely on the outer side of one of the triangle's sides? A
+/// common corner may lie on it.
 bool is_beyond_a_side(const Pair& pair, int axis) {
   const Corners3& t = pair.t;
   const int inner = sure_turn(t[0], t[1], t[2], axis);
@@ -76,7 +75,7 @@ bool are_surely_apart(const Pair& pair) {
   return false;
 }
 
-// ---- decided
+// ---- exact decisions
 
 FourPoints four(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) {
   FourPoints x;
@@ -111,7 +110,7 @@ bool strangers_meet(const Pair& pair) {
   return *least >= 0 || *most <= 0;
 }
 
-/// With a corner in common: have they more than that?
+/// With a corner in common: do they have more in common?
 bool neighbours_overlap(const Pair& pair) {
   const auto& [p, q, t, is_shared] = pair;
   if (orientation(t[0], t[1], t[2], q) != 0) return false;
@@ -123,7 +122,7 @@ bool is_counted(const Pair& pair) {
   return pair.is_shared ? neighbours_overlap(pair) : strangers_meet(pair);
 }
 
-// ---- who is near whom
+// ---- search for near pairs
 
 std::vector<Ends> edges_of(const std::vector<Corners>& triangles) {
   std::vector<Ends> edges;
@@ -140,7 +139,7 @@ Box box_of(const PerParticle3& x, const Corners& t) {
   return {a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
 }
 
-/// Boxes by where they begin along an axis, and the farthest end of each and those before it.
+/// Boxes sorted by their start along an axis, and the farthest end of each and the ones before it.
 class Sweep {
  public:
   Sweep(std::vector<Box> boxes, int axis)
@@ -180,7 +179,7 @@ Sweep sweep_over(const PerParticle3& x, const std::vector<Corners>& triangles) {
   return {std::move(boxes), longest};
 }
 
-/// The pair, turned so that what is shared comes first; false if the edge is the triangle's own.
+/// The pair with its common particle first; false if the edge is the triangle's own.
 bool make_pair(const PerParticle3& x, Ends edge, Corners t, Pair& pair) {
   const auto belongs = [&](int particle) {
     return std::find(t.begin(), t.end(), particle) != t.end();

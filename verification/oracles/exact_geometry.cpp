@@ -46,9 +46,9 @@ bool holds(const Corners3& t, const Vector3& p, int axis) {
   return !(left && right);
 }
 
-/// Have the closed segments p q and a b a point in common? All lie in one plane; at least one of
-/// p, q, a, b is off the line of the other two, or nothing but an end can be common, which
-/// `holds` has seen.
+/// Do the closed segments p q and a b have a point in common? All lie in one plane. At least one of
+/// p, q, a, b is off the line of the other two, or only an end can be common, which `holds` has
+/// tested.
 bool segments_cross(const Vector3& p, const Vector3& q, const Vector3& a, const Vector3& b,
                     int axis) {
   const int pa = turn(p, q, a, axis), pb = turn(p, q, b, axis);
@@ -67,8 +67,8 @@ bool coplanar_segment_meets(const Vector3& p, const Vector3& q, const Corners3& 
   return false;
 }
 
-/// How a line from p to q passes a triangle whose plane it crosses: the signs of its three turns
-/// about the edges.
+/// How a line from p to q passes a triangle whose plane it crosses: the signs of its three volumes
+/// with the edges.
 struct Passage {
   bool misses, touches_edge;
 };
@@ -111,8 +111,8 @@ std::vector<Bounds> all_bounds(const TriangleSoup& soup) {
   return bounds;
 }
 
-/// A point far outside the surface, each time another, so placed that the box of the segment
-/// from p is slim.
+/// A point far outside the surface, a new one each time, placed so that the box of the segment from
+/// p is slim.
 Vector3 far_point(const TriangleSoup& surface, const Vector3& p, std::mt19937_64& bits) {
   const Vector3 high = surface.x.rowwise().maxCoeff(), low = surface.x.rowwise().minCoeff();
   const double size = (high - low).maxCoeff();
@@ -153,7 +153,7 @@ Side side_within(const TriangleSoup& surface, const std::vector<Bounds>& bounds,
   throw std::runtime_error("no segment from the point misses all edges of the surface");
 }
 
-/// Is no point of the segment a b within r of the origin, its ends apart?
+/// Are all points of the segment a b, apart from its ends, farther than r from the origin?
 bool edge_clears(const Exact& a, const Exact& b, const Whole& squared_radius) {
   const Exact along = b - a;
   const Whole length2 = dot(along, along), at = -dot(a, along);
@@ -161,7 +161,7 @@ bool edge_clears(const Exact& a, const Exact& b, const Whole& squared_radius) {
   return dot(a, a) * length2 - at * at > squared_radius * length2;
 }
 
-/// Is no point within the triangle within r of the origin, its edges apart?
+/// Are all points of the triangle, apart from its edges, farther than r from the origin?
 bool face_clears(const std::array<Exact, 3>& t, const Whole& squared_radius) {
   const Exact n = cross(t[1] - t[0], t[2] - t[0]);
   // the origin's foot is outside an edge: the nearest point is on the border
@@ -197,9 +197,9 @@ TriangleSoup box_between(const Vector3& low, const Vector3& high) {
   return box;
 }
 
-// The determinant in double is right in sign where it exceeds the bound of Shewchuk (1997), (7 + 56
-// e) e times the same sum of absolute values, e half the spacing of doubles at 1; the least normal
-// number is there for underflow.
+// The determinant in double has the right sign beyond the bound of Shewchuk (1997), (7 + 56 e) e
+// times the same sum of absolute values, e half the spacing of doubles at 1. The least normal
+// number covers underflow.
 int orientation(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) {
   const Vector3 p = b - a, q = c - a, r = d - a;
   const double xy = p.x() * q.y(), yx = p.y() * q.x(), yz = p.y() * q.z();

@@ -19,7 +19,7 @@ struct TriangleSoup {
 
 Corners3 corners(const TriangleSoup& soup, std::size_t triangle);
 
-/// The surface of a box along the axes, two triangles a side, its corners exactly of these
+/// The surface of an axis-aligned box, two triangles a side, whose corners have exactly these
 /// coordinates [m].
 TriangleSoup box_between(const Vector3& low, const Vector3& high);
 
@@ -32,15 +32,15 @@ bool triangles_meet(const Corners3& s, const Corners3& t);
 enum class Side { inside, on_surface, outside };
 
 /// For a closed surface, by counting how often a segment to a distant point crosses it; if the
-/// segment touches an edge or a corner, another is tried. Orientation does not matter. Throws
+/// segment touches an edge or a corner, another one is tried. Orientation does not matter. Throws
 /// std::runtime_error if none of a hundred segments is clean.
 Side side_of(const TriangleSoup& surface, const Vector3& p);
 
 /// True if every point of the triangle is farther from `centre` than `radius` [m].
 bool clears_ball(const Corners3& t, const Vector3& centre, double radius);
 
-/// Triangles of the cloth that have a point in common with the closed body, surface or inside:
-/// those that meet a triangle of the surface, or have a corner inside. Ascending.
+/// Triangles of the cloth that have a point in common with the closed body, surface or interior:
+/// they meet a triangle of the surface, or have a corner inside. Ascending.
 std::vector<int> triangles_in_body(const TriangleSoup& cloth, const TriangleSoup& body);
 std::vector<int> triangles_in_ball(const TriangleSoup& cloth, const Vector3& centre, double radius);
 

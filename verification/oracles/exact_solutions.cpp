@@ -34,7 +34,7 @@ Fundamental fundamental(const Digits50& signed_square, const Digits50& t) {
   return {cosh(rate * t), sinh(rate * t) / rate};
 }
 
-/// The letters in which the step matrices are written: a = h c/2, b = h^2 k/2 [1].
+/// The symbols of the step matrices: a = h c/2, b = h^2 k/2 [1].
 struct StepLetters {
   Digits50 a, b, h;
 };

@@ -7,8 +7,8 @@
 namespace foldproof::oracles {
 
 /// The least distance between the closed features [m], in 50 digits: between corners, from corners
-/// to feet within edges and within the triangle, between feet within both edges. Degenerate ones
-/// have fewer feet.
+/// to feet within edges and within the triangle, between feet within both edges. Degenerate
+/// features have fewer feet.
 Estimate feature_distance(Features features, const FourPoints& x);
 
 }  // namespace foldproof::oracles

@@ -40,7 +40,7 @@ double highest_of(const std::vector<StripPoint>& points) {
 Eigen::VectorXd free_fold_at_nodes(const Collocation& nodes) {
   const Eigen::Index n = nodes.s.size() - 1;
   const Eigen::MatrixXd second = nodes.derivative * nodes.derivative;
-  // drawn by hand; other starts may end at strips that curl once more
+  // a hand-drawn start; others may converge to strips that curl once more
   Eigen::VectorXd unknowns(n + 3);
   unknowns << pi * nodes.s.array() + 1.6 * (pi * nodes.s.array()).sin(), 3.5, 4.5;
   for (int turn = 0; turn < 30; ++turn) {
@@ -55,7 +55,7 @@ Eigen::VectorXd free_fold_at_nodes(const Collocation& nodes) {
     change.topLeftCorner(n + 1, n + 1).diagonal() += l * l * push.cwiseProduct(sine);
     change.col(n + 1).head(n + 1) = -l * l * cosine;
     change.col(n + 2).head(n + 1) = -(2 * l * V - 3 * l * l * nodes.s.array()) * cosine.array();
-    // the ends: slopes in place of the equation there, then curvatures
+    // the ends: slopes instead of the equation there, then curvatures
     for (const Eigen::Index end : {Eigen::Index(0), n}) {
       change.row(end).setZero();
       change(end, end) = 1;
@@ -163,8 +163,8 @@ Fold fold_on_floor(const HeavyStrip& strip, double least, double most, const Str
   for (int i = 0; i <= 2000; ++i) even.push_back(i / 2000.0);
   const double share = 1 - fold.lift_off.value;
   const Estimate top = highest(solver(lifted_part(strip, fold.lift_off.value), even));
-  // a lift-off that is off moves the top by no more than a few times as much; the parabola errs by
-  // the fourth power of the points' distance
+  // an error of the lift-off moves the top by at most a few times as much; the parabola errs by the
+  // fourth power of the points' distance
   fold.lift_off.uncertainty += top.uncertainty;
   fold.height = {share * top.value, top.uncertainty + 4 * fold.lift_off.uncertainty + 1e-12};
   return fold;

@@ -18,7 +18,7 @@ struct ForecastAnswer {
   Vector3 v;       // corrected if phi_new < 0 [m/s]
 };
 
-/// All numbers to their rounding.
+/// All numbers are accurate to their rounding.
 ForecastAnswer forecast_answer(const ForecastInput& input);
 
 }  // namespace foldproof::oracles

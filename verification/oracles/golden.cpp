@@ -15,7 +15,7 @@ namespace foldproof {
 
 namespace {
 
-/// Numbers that do not depend on the standard library's distributions.
+/// Random numbers that do not depend on the standard library's distributions.
 class Draw {
  public:
   explicit Draw(unsigned seed) : engine_(seed) {}
@@ -37,7 +37,7 @@ class Draw {
   std::mt19937_64 engine_;
 };
 
-/// A row under way: each value next to the name of its column.
+/// A row in progress: each value with the name of its column.
 class RowMaker {
  public:
   explicit RowMaker(GoldenTable& table) : table_(table), is_first_(table.rows.empty()) {
@@ -80,7 +80,7 @@ void put_corners(RowMaker& row, const std::string& name, const std::string& unit
   }
 }
 
-/// A hinge of edges of some centimetres: x1 and x2 on either side of the edge from x3 to x4,
+/// A hinge with edges of a few centimetres: x1 and x2 on either side of the edge from x3 to x4,
 /// folded by any angle.
 Corners hinge_corners(Draw& draw) {
   const double angle = draw.between(-2.9, 2.9), length = draw.between(0.01, 0.05);
@@ -161,7 +161,7 @@ void integrator_row(Draw& draw, RowMaker& row) {
   row.output("v_exact", "m/s", truth.v.value);
 }
 
-/// A particle that may come in or stay out, about as often.
+/// A particle that enters the object or stays outside, about equally often.
 void contact_row(Draw& draw, RowMaker& row, bool has_friction) {
   oracles::ForecastInput at;
   at.phi = draw.between(-0.01, 0.02);

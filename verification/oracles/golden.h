@@ -21,8 +21,8 @@ struct GoldenTable {
 /// bending, springs, integrator, forecast, friction, projection, sticking.
 std::vector<std::string> golden_names();
 
-/// `count` >= 1 rows; the same seed gives the same rows. All computed with 50 digits and rounded
-/// once. Throws InputError that lists the names.
+/// `count` >= 1 rows; the same seed gives the same rows. Every output is computed with 50 digits
+/// and rounded once. For an unknown name, throws InputError that lists the names.
 GoldenTable golden_values(const std::string& name, int count, unsigned seed);
 
 }  // namespace foldproof

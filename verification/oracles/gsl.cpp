@@ -20,7 +20,7 @@ namespace foldproof::oracles {
 
 namespace {
 
-/// A cap on the steps of one integration: an oracle that needs more was asked the wrong question.
+/// A cap on the steps of one integration: an oracle that needs more has an unsuitable problem.
 constexpr unsigned long most_steps = 20'000'000;
 
 /// Likewise for one root: bisection alone would need 64.
@@ -34,8 +34,8 @@ bool all_finite(std::span<const double> y) {
   return std::all_of(y.begin(), y.end(), [](double component) { return std::isfinite(component); });
 }
 
-/// A right-hand side as GSL calls it, and what went wrong in it: exceptions must not
-/// pass through C.
+/// A right-hand side as GSL calls it, and the error raised in it: exceptions must not pass through
+/// C.
 struct GuardedRightHandSide {
   const RightHandSide& rhs;
   std::size_t dimension;
@@ -60,7 +60,7 @@ struct FreeDriver {
   void operator()(gsl_odeiv2_driver* driver) const { gsl_odeiv2_driver_free(driver); }
 };
 
-/// One initial value problem and where its solution is wanted.
+/// One initial value problem and the times at which its solution is wanted.
 struct Problem {
   const RightHandSide& rhs;
   std::span<const double> y0;
@@ -106,7 +106,7 @@ double largest_difference(const std::vector<double>& p, const std::vector<double
   return largest;
 }
 
-/// A function of one number as GSL calls it, and what went wrong in it.
+/// A function of one number as GSL calls it, and the error raised in it.
 struct GuardedFunction {
   const std::function<double(double)>& f;
   std::exception_ptr thrown = nullptr;

@@ -9,12 +9,12 @@
 
 // Shooting from the tip. With u = 1 - s and phi = pi/2 - theta the strip obeys
 //   phi'' = gamma u sin(phi),   phi'(0) = 0,   phi(1) = pi/2,
-// and phi(0) = b is to be found. For large gamma b is as small as exp(-2/3 sqrt(gamma)), so
-// the unknown is ln b, and what is integrated are l = ln(phi) and r = phi'/phi, which stay
-// of moderate size:
+// and phi(0) = b is unknown. For large gamma b is as small as exp(-2/3 sqrt(gamma)), so the unknown
+// is ln b; l = ln(phi) and r = phi'/phi are integrated, as they stay of moderate size:
 //   l' = r,   r' = gamma u sin(phi)/phi - r^2,   H' = cos(phi),   W' = sin(phi).
-// Beyond phi = pi/2, which the solution only reaches at the clamp, sin(phi) is held at 1: phi(1)
-// then rises monotonically with b, and the strips with loops, which are other solutions, drop out.
+// Beyond phi = pi/2, which the solution only reaches at the clamp, sin(phi) is held at 1. Then
+// phi(1) rises monotonically with b, and the strips with loops, which are other solutions, drop
+// out.
 
 namespace foldproof::oracles {
 

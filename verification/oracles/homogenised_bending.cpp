@@ -45,8 +45,8 @@ Eigen::Vector3d unit_heights(const Eigen::Vector2d& p) {
   return 0.5 * Eigen::Vector3d(p.x() * p.x(), p.y() * p.y(), p.x() * p.y());
 }
 
-/// (n.n) of the direction as a row that takes k to the curvature along it, and the k of
-/// a unit cylinder.
+/// (n.n) of the direction: as a row that maps k to the curvature along it, and as the k of a unit
+/// cylinder.
 Eigen::Vector3d curvature_along(double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
   return {c * c, s * s, c * s};
@@ -58,7 +58,7 @@ Eigen::Vector3d unit_cylinder(double angle) {
 
 // --- periodic meshes ---
 
-/// A directed edge up to whole periods: sites at its ends and the periods between them.
+/// A directed edge modulo periods: sites at its ends and the periods between them.
 using EdgeKey = std::tuple<int, int, int, int>;
 
 /// A triangle seen from one of its edges: from, to, and the third corner.
@@ -85,7 +85,7 @@ Eigen::Vector2d place(const PeriodicMesh& mesh, const PeriodicCorner& corner) {
          corner.along_b * mesh.period_b;
 }
 
-/// Whether an edge may have one triangle: a free edge, which has no hinge.
+/// Whether an edge may have only one triangle: a free edge, which has no hinge.
 enum class Borders { none, free };
 
 /// The quadratic form of a cell's energy in units of ke/2, in k and the displacements of its sites.
@@ -213,7 +213,7 @@ Eigen::Matrix3d forced_rigidity(const PeriodicMesh& mesh) {
 
 Eigen::Matrix3d relaxed_rigidity(const PeriodicMesh& mesh) {
   const Eigen::MatrixXd energy = cell_energy(mesh);
-  // the first site stays: moving all alike changes nothing
+  // the first site stays: a common shift of all sites changes nothing
   const Eigen::Index others = energy.rows() - 4;
   Eigen::Matrix3d R = energy.topLeftCorner<3, 3>();
   if (others == 0) return R;
@@ -234,11 +234,11 @@ double strip_rigidity(const Eigen::Matrix3d& R, double angle) {
 RibbonRigidity equilateral_ribbon(double edge, int rows) {
   if (rows < 2) throw InputError("oracle homogenised_bending: a ribbon needs two rows");
   const double height = edge * std::numbers::sqrt3 / 2;
-  // never reached: as far away as keeps the ribbon's edges free
+  // never reached: far enough away to keep the ribbon's edges free
   PeriodicMesh mesh{Eigen::Vector2d(edge, 0), Eigen::Vector2d(0, 2 * rows * height), {}, {}};
   for (int j = 0; j <= rows; ++j) mesh.sites.emplace_back(j % 2 == 0 ? 0 : edge / 2, j * height);
   for (int j = 0; j < rows; ++j) {
-    // an odd row lies half an edge ahead of an even one
+    // an odd row is half an edge ahead of an even one
     const int ahead = j % 2 == 0 ? 0 : 1;
     const PeriodicCorner low{j, 0, 0}, next{j, 1, 0}, high{j + 1, ahead, 0},
         before{j + 1, ahead - 1, 0};
@@ -246,13 +246,13 @@ RibbonRigidity equilateral_ribbon(double edge, int rows) {
     mesh.triangles.push_back({low, high, before});
   }
   const Eigen::MatrixXd energy = whole_cell_energy(mesh, Borders::free) / edge;
-  // rows 0 and 1 stay: a shift and a tilt change nothing; curvature across is one of the others'
+  // rows 0 and 1 stay: a shift and a tilt change nothing; curvature across is free
   const Eigen::Index others = rows - 1;
   const Eigen::MatrixXd mixed = energy.bottomLeftCorner(others, 3);
   const Eigen::Matrix3d R =
       energy.topLeftCorner<3, 3>() -
       mixed.transpose() * solve_symmetric(energy.bottomRightCorner(others, others), mixed);
-  return {R(0, 0), 4 * R(2, 2)};  // k has twice the twist
+  return {R(0, 0), 4 * R(2, 2)};  // k contains twice the twist
 }
 
 RigidityRange cylinder_range(const Eigen::Matrix3d& R) {
@@ -274,7 +274,7 @@ double forced_cylinder_rigidity(const PlaneSheet& sheet, double angle) {
 double relaxed_cylinder_rigidity(const PlaneSheet& sheet, double angle) {
   Eigen::VectorXd w = cylinder_heights(sheet, angle);
   const Eigen::SparseMatrix<double> matrix = energy_matrix(sheet);
-  std::vector<Eigen::Triplet<double>> picks;  // from the free points' numbers to all
+  std::vector<Eigen::Triplet<double>> picks;  // maps the free points' numbers to all points'
   for (Eigen::Index i = 0; i < w.size(); ++i)
     if (!sheet.held[size_t(i)]) picks.emplace_back(i, picks.size(), 1.0);
   Eigen::SparseMatrix<double> pick(w.size(), Eigen::Index(picks.size()));

@@ -4,15 +4,15 @@
 #include <array>
 #include <vector>
 
-// Bending stiffness of a flat mesh of hinges at small curvature, from the definition of a
-// hinge alone. With
+// Bending stiffness of a flat mesh of hinges at small curvature, from the definition of one hinge.
+// With
 //   w = (K11 x^2 + 2 K12 x y + K22 y^2)/2,   k = (K11, K22, 2 K12) [1/m],
-// each hinge turns by theta = q.k and stores ke c theta^2/4, c = |E|^2/(|N1| + |N2|); the
-// sum over a cell is
+// each hinge turns by theta = q.k and stores ke c theta^2/4, c = |E|^2/(|N1| + |N2|); the sum over
+// a cell is
 //   energy per area = ke/2 k.R k,   R in units of ke [1].
-// A periodic mesh has a cell; if the cell has several vertices, these may leave the curved
-// surface by a periodic displacement: "forced" is R without it, "relaxed" with the displacement
-// of least energy.
+// A periodic mesh has a cell; if the cell has several vertices, these may leave the curved surface
+// by a periodic displacement. "forced" is R without that displacement, "relaxed" with the one of
+// least energy.
 
 namespace foldproof::oracles {
 
@@ -32,7 +32,7 @@ struct PeriodicMesh {
 /// Whether the square in column i and row j of a block is split along its rising diagonal.
 using Rises = bool (*)(int i, int j);
 
-/// Rectangles of width x height [m], a block of columns x rows of them repeated; each split in two.
+/// A repeated block of columns x rows rectangles of width x height [m]; each is split in two.
 struct SplitBlock {
   double width = 1, height = 1;
   int columns = 1, rows = 1;
@@ -52,15 +52,14 @@ double cylinder_rigidity(const Eigen::Matrix3d& R, double angle);
 /// B/ke of a narrow strip along that direction, whose long edges are free to curve [1].
 double strip_rigidity(const Eigen::Matrix3d& R, double angle);
 
-/// A ribbon: periodic along a, with two free edges.
+/// A ribbon: periodic along its length, with two free edges.
 struct RibbonRigidity {
   double bending;   // EI over ke, of its whole width, which is free to curve [m]
   double twisting;  // GJ over ke, of its whole width [m]
 };
 
-/// Of equilateral triangles with rows of edges along the ribbon, `rows` of triangles wide: a
-/// free edge has no hinge. The rows of vertices move out of the curved surface until the
-/// energy is least.
+/// Of equilateral triangles with rows of edges along the ribbon, `rows` of triangles wide: a free
+/// edge has no hinge. The rows of vertices leave the curved surface to minimise the energy.
 RibbonRigidity equilateral_ribbon(double edge, int rows);
 
 /// Least and greatest cylinder_rigidity over all directions, to 2e-6 of the greatest.
@@ -77,9 +76,9 @@ struct PlaneSheet {
   std::vector<char> held;                  // one per point: whether it stays on the curved surface
 };
 
-/// D/ke of the counted hinges at small curvature along `angle` [rad], each standing for a third of
-/// its two triangles' areas [1]. Forced: all points on the cylinder. Relaxed: those not held move
-/// out of it until the energy of all hinges is least (a sparse direct solve).
+/// D/ke of the counted hinges at small curvature along `angle` [rad], each with a third of its two
+/// triangles' areas [1]. Forced: all points on the cylinder. Relaxed: points that are not held
+/// leave it to minimise the energy of all hinges (a sparse direct solve).
 double forced_cylinder_rigidity(const PlaneSheet& sheet, double angle);
 double relaxed_cylinder_rigidity(const PlaneSheet& sheet, double angle);
 

@@ -12,7 +12,7 @@ using RightHandSide =
 
 /// A solution at given times, and its uncertainty.
 struct ReferenceSolution {
-  std::vector<double> times;                // as asked for
+  std::vector<double> times;                // as requested
   std::vector<std::vector<double>> values;  // one y per time
   std::vector<double> uncertainty;          // per time, of the worst component, in the unit of y
 };

@@ -13,16 +13,16 @@
 
 namespace foldproof::oracles {
 
-/// Fifty decimal digits: a formula that loses half of them to cancellation still leaves a correctly
-/// rounded double. This header is the project's only door to Boost.
+/// Fifty decimal digits: a formula that loses half of them to cancellation still gives a correctly
+/// rounded double. Only this header includes Boost.
 using Digits50 = boost::multiprecision::cpp_bin_float_50;
 
 /// Whole numbers of any length. A double is a whole number times a power of two, so that sums and
 /// products of doubles over a common power are exact.
 using Whole = boost::multiprecision::cpp_int;
 
-/// The error of rounding a number near value to double: half a unit in the last place, and the
-/// smallest normal number in its stead at zero.
+/// The error of rounding a number near value to double: half a unit in the last place; at zero, the
+/// smallest normal number.
 inline double one_rounding(double value) {
   return 0.5 * std::numeric_limits<double>::epsilon() * std::abs(value) +
          std::numeric_limits<double>::min();

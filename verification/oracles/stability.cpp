@@ -60,7 +60,7 @@ std::vector<Complex> system_rates(const Eigen::MatrixXd& K, const Eigen::MatrixX
   require(K.allFinite() && C.allFinite(), "K and C must be finite");
   require(K.cols() == n && C.rows() == n && C.cols() == n,
           "K and C must be square and of one size");
-  // (omega0 q, v)' = (omega0 v, -K q - C v): scaled, so that both halves are of one size
+  // (omega0 q, v)' = (omega0 v, -K q - C v): scaled so that both halves have similar magnitude
   const double omega0 = std::sqrt(K.norm());
   Eigen::MatrixXd matrix(2 * n, 2 * n);
   matrix << Eigen::MatrixXd::Zero(n, n), omega0 * Eigen::MatrixXd::Identity(n, n), -K / omega0, -C;
@@ -68,8 +68,8 @@ std::vector<Complex> system_rates(const Eigen::MatrixXd& K, const Eigen::MatrixX
   return {values.begin(), values.end()};
 }
 
-// No stability region of these four reaches further than |z| = 3.4 from 0; the search goes out
-// in thousandths.
+// No stability region of these four extends beyond |z| = 3.4 from 0; the search goes out in
+// thousandths.
 Estimate largest_runge_kutta_step(int order, const std::vector<Complex>& rates) {
   require(order >= 1 && order <= 4, "order must be 1, 2, 3 or 4");
   double fastest = 0;

@@ -17,20 +17,20 @@ std::vector<std::complex<double>> oscillator_rates(double omega, double zeta);
 /// mass-weighted coordinates.
 std::vector<std::complex<double>> system_rates(const Eigen::MatrixXd& K, const Eigen::MatrixXd& C);
 
-/// The step h [s] at which an explicit Runge-Kutta method of as many stages as its order (1 to 4)
-/// leaves stability: |R(h lambda)| <= 1 for all rates up to there, R(z) = sum_{k <= order} z^k/k!
-/// (Hairer, Wanner, Solving ODEs II, section IV.2). 0 if it is unstable however small the step.
-/// Rates have real parts <= 0.
+/// The step h [s] at which an explicit Runge-Kutta method with as many stages as its order (1 to 4)
+/// becomes unstable: |R(h lambda)| <= 1 for all rates below it, R(z) = sum_{k <= order} z^k/k!
+/// (Hairer, Wanner, Solving ODEs II, section IV.2). 0 if it is unstable for any step. Rates have
+/// real parts <= 0.
 Estimate largest_runge_kutta_step(int order, const std::vector<std::complex<double>>& rates);
 
-/// The step h [s] at which schemes A and B leave stability on q'' = -K q - C q': 2/sqrt of the
-/// largest eigenvalue of K, whatever C. There the eigenvalue of the step is -1, for with q' = -q,
-/// v' = -v the trapezoidal line v' - v = -h/2 (K (q + q') + C (v + v')) says v = 0 and the move -2
-/// q = -h^2/2 K q.
+/// The step h [s] at which schemes A and B become unstable on q'' = -K q - C q': 2/sqrt of the
+/// largest eigenvalue of K, for any C. There the eigenvalue of the step is -1. With q' = -q, v' =
+/// -v the trapezoidal line v' - v = -h/2 (K (q + q') + C (v + v')) gives v = 0 and the move -2 q =
+/// -h^2/2 K q.
 Estimate largest_leapfrog_step(const Eigen::MatrixXd& K);
 
-/// The same for scheme C: the eigenvalue is -1 where 4 + 2 h C - h^2 K becomes singular, for there
-/// v = 0 and the move -2 q = h (1 + h/2 C)^{-1} (-h/2 K q).
+/// The same for scheme C: the eigenvalue is -1 where 4 + 2 h C - h^2 K becomes singular, as there v
+/// = 0 and the move -2 q = h (1 + h/2 C)^{-1} (-h/2 K q).
 Estimate largest_variable_newmark_step(const Eigen::MatrixXd& K, const Eigen::MatrixXd& C);
 
 /// The constant step ratio r above which BDF2 amplifies differences of solutions of y' = 0: they

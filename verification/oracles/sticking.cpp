@@ -18,7 +18,7 @@ Point variables(const Vector3& p, int first) {
 
 Number constant(double value) { return Number(Digits50(value)); }
 
-/// Where the place is in the frame of the triangle (a, b, c).
+/// Position in the frame of the triangle (a, b, c), from the coordinates `place`.
 Point placed(const Point& a, const Point& b, const Point& c, const Vector3& place) {
   const Point n = unit(cross(b - a, c - a));
   return a + constant(place[0]) * (b - a) + constant(place[1]) * (c - a) + constant(place[2]) * n;

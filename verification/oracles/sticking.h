@@ -1,6 +1,6 @@
-// Sticking as it is defined, in 50 digits with automatic differentiation: where a target is, how it
-// moves with the corners of its triangles, and the spring's force as minus the gradient of its
-// energy (BMF03 section 6).
+// Sticking as defined, in 50 digits with automatic differentiation: the target, its motion with the
+// corners of its triangles, and the spring's force as minus the gradient of its energy (BMF03
+// section 6).
 #pragma once
 
 #include <Eigen/Core>
@@ -21,13 +21,13 @@ struct StuckParticle {
 
 struct StickingAnswer {
   Vector3 target;              // the mean of a + w_b (b - a) + w_c (c - a) + height n [m]
-  Eigen::MatrixXd derivative;  // of the target by the corners, one after the other: 3 x 9 or 3 x 18
+  Eigen::MatrixXd derivative;  // of the target by the corners, in order: 3 x 9 or 3 x 18
   double stiffness;            // k(d) [N/m]
   double energy;               // k0 (d^2/2 - d^4/(2 far^2) + d^6/(6 far^4)) [J]
   Eigen::VectorXd force;       // minus its gradient by particle and corners: 12 or 21 [N]
 };
 
-/// All numbers to their rounding.
+/// All numbers are accurate to their rounding.
 StickingAnswer sticking_answer(const StuckParticle& stuck);
 
 }  // namespace foldproof::oracles

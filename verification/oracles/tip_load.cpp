@@ -16,14 +16,14 @@ void require_moderate(double alpha) {
   if (!(alpha > 0 && alpha <= 100)) throw InputError("oracle tip_load: alpha must be in (0, 100]");
 }
 
-/// The integrals of one slope of the tip.
+/// The integrals for one slope of the tip.
 struct Elliptic {
   long double first, second;  // K(k) - F(phi, k), E(k) - E(phi, k)
 };
 
 /// The slope of the tip is pi/2 - 2 eta, eta <= pi/4. Then k = cos(eta), and 1 - k^2 = sin(eta)^2.
-/// In extended precision: the library's integrals are good to a thousand roundings only. There the
-/// double that is nearest to pi/4 is below it, so 1/(k sqrt 2) < 1.
+/// In extended precision, because the library's integrals are only accurate to a thousand
+/// roundings. The double nearest to pi/4 is below it, so 1/(k sqrt 2) < 1.
 Elliptic elliptic(double eta) {
   const long double k = std::cos((long double)eta);
   const long double phi = std::asin(1 / (k * std::numbers::sqrt2_v<long double>));

@@ -1,4 +1,4 @@
-// Distance from a point to triangles from its definition, without tree or regions.
+// Distance from a point to triangles by definition, without a tree or regions.
 #pragma once
 
 #include <array>

@@ -5,9 +5,9 @@
 
 namespace foldproof::oracles {
 
-/// A vector in space over any scalar: double, 50 digits, or an automatically differentiated
-/// number. Deliberately plain: linear algebra libraries need traits of a scalar, this needs
-/// only + - * / and sqrt.
+/// A vector in space over any scalar: double, 50 digits, or an automatically differentiated number.
+/// Deliberately plain: linear algebra libraries need traits of a scalar, this needs only + - * /
+/// and sqrt.
 template <class Scalar>
 struct Triple {
   Scalar x{}, y{}, z{};

@@ -50,8 +50,8 @@ int sign_changes(const std::vector<Polynomial>& sequence, const Dyadic& t) {
   return changes;
 }
 
-/// A number between that is no root: one of the fractions 1/2, 1/4, 3/4, 1/8, ... of the way, a few
-/// of which are roots.
+/// A number between the two that is not a root: one of the fractions 1/2, 1/4, 3/4, 1/8, ... of the
+/// interval, only a few of them being roots.
 Dyadic between(const Polynomial& p, const Dyadic& low, const Dyadic& high) {
   for (int halvings = 1;; ++halvings) {
     const int common = std::max(low.halvings, high.halvings);
@@ -77,8 +77,8 @@ void isolate(const std::vector<Polynomial>& sturm, const Dyadic& low, const Dyad
   isolate(sturm, middle, high, roots);
 }
 
-/// p over t and over 1 - t as often as these divide it: the same roots between 0 and 1,
-/// none at either.
+/// p divided by t and by 1 - t as often as possible: the same roots between 0 and 1, none at
+/// either.
 Polynomial without_ends(Polynomial p) {
   while (sign_at(p, {0, 0}) == 0) p.c.erase(p.c.begin());
   while (sign_at(p, {1, 0}) == 0) {  // p = (1 - t) q: q_0 = p_0, q_k = p_k + q_{k-1}
@@ -134,7 +134,7 @@ std::vector<Root> roots_within(const Polynomial& p) {
 
 int sign_at(const Polynomial& q, const Root& root) {
   if (q.is_zero()) return 0;
-  if (const int sign = q.degree() <= 3 ? definite_sign(q) : 0) return sign;  // soon said
+  if (const int sign = q.degree() <= 3 ? definite_sign(q) : 0) return sign;  // the quick answer
   const std::vector<Polynomial> sequence = signed_remainders(root.of, q);
   return sign_changes(sequence, root.low) - sign_changes(sequence, root.high);
 }

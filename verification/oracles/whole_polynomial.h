@@ -31,7 +31,7 @@ struct Dyadic {
 
 int sign_at(const Polynomial& p, const Dyadic& t);
 
-/// Of a polynomial: the one root strictly between two numbers that are none.
+/// The only root of `of` strictly between low and high, which are not roots.
 struct Root {
   Polynomial of;
   Dyadic low, high;
@@ -40,13 +40,13 @@ struct Root {
 /// The roots strictly between 0 and 1, ascending, each once. p is not zero.
 std::vector<Root> roots_within(const Polynomial& p);
 
-/// By Sturm and Tarski: how often the signed remainders of p and p'q change sign at `low`, less how
-/// often at `high`, is the sum of the signs of q at the roots of p between (Basu, Pollack and Roy
-/// 2006, theorem 2.61). Here there is one.
+/// By Sturm and Tarski: the sum of the signs of q at the roots of p between `low` and `high` is the
+/// drop in sign changes of the signed remainders of p and p'q from `low` to `high` (Basu, Pollack
+/// and Roy 2006, theorem 2.61). Here there is one root.
 int sign_at(const Polynomial& q, const Root& root);
 
-/// +1 or -1 if that is plainly the sign on all of [0, 1], else 0: says the hull of the Bernstein
-/// coefficients. Degree at most 3.
+/// +1 or -1 if the hull of the Bernstein coefficients shows that sign on all of [0, 1], else 0.
+/// Degree at most 3.
 int definite_sign(const Polynomial& p);
 
 }  // namespace foldproof::oracles

@@ -6,7 +6,7 @@ namespace foldproof {
 
 namespace {
 
-/// The far corners joined by a spring of rest length |x1 - x2| at rest.
+/// A spring of rest length |x1 - x2| at rest joins the far corners.
 std::array<Vector3, 4> spring_across(const Corners& x, const Corners& rest) {
   const Vector3 d = x[1] - x[0];
   const double strain = d.norm() / (rest[1] - rest[0]).norm() - 1;
@@ -52,7 +52,7 @@ std::array<Vector3, 4> quadratic(const Corners& x, const Corners& rest) {
 }  // namespace
 
 // theta from sin = (n1 x n2).e and cos = n1.n2: d(theta) = cos d(sin) - sin d(cos), with the
-// shortcut dn = dN/|N|, de = dE/|E|, in which the lengths stand still.
+// shortcut dn = dN/|N|, de = dE/|E|, which keeps the lengths constant.
 std::array<Vector3, 4> shortcut_gradient(const Corners& x, EdgeLength edge_length) {
   const Vector3 N1 = (x[0] - x[2]).cross(x[0] - x[3]), N2 = (x[1] - x[3]).cross(x[1] - x[2]);
   const Vector3 E = x[3] - x[2], n1 = N1.normalized(), n2 = N2.normalized(), e = E.normalized();
@@ -83,7 +83,7 @@ std::array<Vector3, 4> discrete_shells_force(const Corners& x, const Corners& re
   const Vector3 edge = rest[3] - rest[2];
   const double area =
       (edge.cross(rest[0] - rest[2]).norm() + edge.cross(rest[1] - rest[2]).norm()) / 2;
-  // with the normals' lengths alone taken as constant, the shortcut loses nothing
+  // with only the normals' lengths taken as constant, the shortcut is exact
   std::array<Vector3, 4> force = shortcut_gradient(x, EdgeLength::differentiated);
   for (Vector3& f : force) f *= -6 * edge.squaredNorm() / area * (theta - rest_angle);
   return force;

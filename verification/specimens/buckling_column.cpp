@@ -28,7 +28,7 @@ constexpr double nearly_straight = 1e-4;
 
 using Places = Eigen::Matrix2Xd;
 
-/// Forces on all particles, their derivative with the push across springs left out, and the energy.
+/// Forces on all particles, their derivative without the push across springs, and the energy.
 struct ColumnForces {
   Places force;
   Eigen::MatrixXd derivative;
@@ -72,11 +72,11 @@ struct ColumnState {
   Places x, v;
 };
 
-/// Where the last two particles are shifted to at time t, and how fast: smoothly, within 0.05 s.
+/// Shift of the last two particles at time t, and its rate: smooth, over 0.05 s.
 struct Shift {
   double place, velocity;
 };
-constexpr double duration = 0.05, shortening = 0.2;  // s, of the length
+constexpr double duration = 0.05, shortening = 0.2;  // s, fraction of the length
 
 Shift shift_at(const BucklingColumn& column, double t) {
   const double way = -shortening * column.spacing * (column.particles - 1);
@@ -84,7 +84,7 @@ Shift shift_at(const BucklingColumn& column, double t) {
   return {way * part * part * (3 - 2 * part), way * 6 * part * (1 - part) / duration};
 }
 
-/// M (w - V) = s (F + K (X + s w - x)) with the ends' velocities known; X + s w is the next state.
+/// M (w - V) = s (F + K (X + s w - x)) with known end velocities; X + s w is the next state.
 ColumnState step_to(const BucklingColumn& column, const ColumnState& now, const ColumnState& stage,
                     double s, const Shift& end) {
   const int n = column.particles;
@@ -166,7 +166,7 @@ Shortening shorten(const BucklingColumn& column, ColumnMethod method, double h, 
     const ColumnState next =
         step_to(column, now, stage, is_two_step ? 2 * h / 3 : h, shift_at(column, k * h));
     before = std::exchange(now, next);
-    if (k * h < duration || after_stop++ < 2) continue;  // a step of two states ends two later
+    if (k * h < duration || after_stop++ < 2) continue;  // a two-step method ends two steps later
     const Places v = now.v.middleCols(2, column.particles - 4);
     const double energy = forces_at(column, now.x).energy + column.mass * v.squaredNorm() / 2;
     if (after_stop == 3) result.at_the_stop = energy;
@@ -178,7 +178,7 @@ Shortening shorten(const BucklingColumn& column, ColumnMethod method, double h, 
 }
 
 double stiffness_across(const BucklingColumn& column, double strain) {
-  // particles two apart push along x: across it, a push -f at the distance d is a stiffness f/d
+  // springs push along x: across it, a push -f at the distance d is a stiffness f/d
   const int n = column.particles;
   const double distance = column.spring.length * (1 - strain);
   const double across = column.spring.force(distance) / distance;

@@ -8,11 +8,11 @@
 
 namespace foldproof {
 
-//   A spring between particles two apart stands for a piece of cloth of length L that bends into an
-//   arc when they come nearer: with kappa its curvature and a = kappa L/2,
+//   A spring between particles two apart models a piece of cloth of length L that bends into an arc
+//   when they approach: with kappa its curvature and a = kappa L/2,
 //     |d| = L sin(a)/a,   energy = k_b L kappa^2/2,   force = k_b kappa^2/(cos(a) - sin(a)/a) < 0.
-//   At a = 0 that force is -12 k_b/L^2: a barrier. A line c_b (|d| - L) leads there instead:
-//   the weaker of the two acts. There is no force beyond L.
+//   At a = 0 that force is -12 k_b/L^2: a barrier. Near it a line c_b (|d| - L) acts instead:
+//   the weaker of the two counts. There is no force beyond L.
 struct BucklingSpring {
   double length;   // L [m]
   double bending;  // k_b [N m^2]
@@ -26,15 +26,15 @@ struct BucklingSpring {
   double stiffness(double distance) const;   // [N/m], its derivative
 };
 
-/// With the meeting found by bisection. length [m], bending [N m^2], slope [N/m].
+/// The meeting distance is found by bisection. length [m], bending [N m^2], slope [N/m].
 BucklingSpring make_buckling_spring(double length, double bending, double slope);
 
-/// Which implicit method takes the steps of a column, each with one linear solve in which the
-/// springs' push counts for nothing across them.
+/// Implicit method for the steps of a column; each step is one linear solve that neglects the
+/// springs' push across their axis.
 enum class ColumnMethod { backward_euler, bdf2 };
 
-/// A column of particles in a plane. Neighbours are joined by springs that pull only; particles two
-/// apart by buckling springs. The two at each end are held.
+/// A column of particles in a plane. Neighbours are joined by springs that only pull, particles two
+/// apart by buckling springs. The two particles at each end are held.
 struct BucklingColumn {
   int particles = 17;
   double spacing = 0.01;  // m
@@ -53,8 +53,8 @@ struct Shortening {
 };
 Shortening shorten(const BucklingColumn& column, ColumnMethod method, double h, int steps);
 
-/// The least stiffness across a straight column that is shortened evenly by this strain [N/m]:
-/// negative once it gives way.
+/// The least stiffness across a straight column, evenly shortened by this strain [N/m]: negative
+/// once it buckles.
 double stiffness_across(const BucklingColumn& column, double strain);
 
 }  // namespace foldproof

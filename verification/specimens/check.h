@@ -19,7 +19,7 @@ namespace foldproof {
 /// A table for statements that are true or false, one per row.
 Table no_statements();
 
-/// How many statements are false; NaN without any.
+/// Number of false statements; NaN for an empty table.
 double count_false(const Table& statements);
 
 /// A property that each scheme must have; `run` may ignore the subject.
@@ -33,17 +33,17 @@ struct SchemeCheck {
   OfSubject run;
 };
 
-/// Adds one check for each of the paper's schemes A, B and C, its name ended by a dot and the
-/// scheme's.
+/// Adds one check for each of the paper's schemes A, B and C; its name ends in a dot and the
+/// scheme's name.
 void add_for_each_scheme(std::vector<Check>& list, const std::vector<SchemeCheck>& patterns);
 
 /// The message of the InputError that `act` throws; empty if it throws none.
 std::string rejection_message(const std::function<void()>& act);
 
-/// How many of these parts the text lacks.
+/// Number of these parts that the text lacks.
 int count_missing(const std::string& text, const std::vector<std::string>& parts);
 
-/// True if `act` throws an InputError whose message holds the words.
+/// True if `act` throws an InputError whose message contains the words.
 bool is_rejected(const std::function<void()>& act, const std::string& words);
 
 }  // namespace foldproof

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double step = 0.013;  // s
 
-/// Where the body's point that is at p at the time t is after `h` [s].
+/// Position, after `h` [s], of the body's point that is at p at time t.
 Vector3 carry(const Motion& motion, const Vector3& p, double t, double h) {
   const Vector3 arm = p - motion.center - motion.velocity * t;
   return motion.center + rotate(arm, motion.angular_velocity * h) + motion.velocity * (t + h);
@@ -59,7 +59,7 @@ void scatter(Contact& contact, Eigen::Index i, Random& random) {
   const KnownPoint far = contact.known(p, contact.span);
   p += (random.uniform(-0.04, 0.04) - far.phi) * far.normal;
   Vector3 v = random.vectors(1, 3);
-  if (i % 20 < 2) {  // no sliding, or none at all
+  if (i % 20 < 2) {  // no sliding, or no motion at all
     const KnownPoint here = contact.known(p, contact.span);
     v = here.velocity;
     if (i % 20 == 0) v -= random.uniform(1, 5) * here.normal;

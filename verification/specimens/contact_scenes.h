@@ -15,7 +15,7 @@ namespace foldproof {
 struct KnownPoint {
   double phi;        // at the span's start [m]
   Vector3 normal;    // outward, at the span's start
-  Vector3 velocity;  // mean over the span, at the span's time if it is one [m/s]
+  Vector3 velocity;  // mean over the span, or at its only time [m/s]
 };
 
 /// One moving object, and particles on both sides of its surface that move at random.
@@ -52,7 +52,7 @@ PerParticle3 corrected_by_objects(const Subject& subject, const Scene& scene, co
 /// Free particles, at rest in a plane sheet of n x n; nothing holds them together.
 Scene loose_particles(int n);
 
-/// The object at rest at the pose, ready to be put in a scene.
+/// The object at rest in this pose, ready for a scene.
 SceneObject object_at(const std::string& name, const Solid& solid, const Pose& pose);
 
 /// The object with a motion and a coefficient of friction.

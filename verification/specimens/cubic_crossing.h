@@ -6,10 +6,10 @@
 
 namespace foldproof {
 
-/// Do the four points, which move straight from x to x + displacement (3 x 4 [m]), meet? At each
-/// real root in [0, 1] of the cubic for which they are in one plane, and at the end, the features
-/// are asked whether they are nearer than `tolerance` [m]. A motion in one plane throughout has no
-/// cubic, and is asked at its end alone.
+/// Do the four points meet while they move straight from x to x + displacement (3 x 4 [m])? At each
+/// real root in [0, 1] of the coplanarity cubic, and at the end, the features are tested for a
+/// distance below `tolerance` [m]. A motion within one plane has no cubic; it is tested at its end
+/// only.
 bool cubic_crossing(PairKind kind, const Corners4& x, const Corners4& displacement,
                     double tolerance);
 

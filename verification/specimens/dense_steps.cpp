@@ -26,7 +26,7 @@ Eigen::VectorXd DenseCloth::forces(const PerParticle3& x, const PerParticle3& v)
   return Eigen::VectorXd(force.reshaped())(free_);
 }
 
-/// The derivative of all forces by positions at fixed velocities, of free coordinates.
+/// Derivative of all forces by positions at fixed velocities, for the free coordinates.
 Eigen::MatrixXd DenseCloth::stiffness(const State& s, const PerParticle3& v) const {
   constexpr double shift = 1e-7;  // m
   const Eigen::Index n = Eigen::Index(free_.size());

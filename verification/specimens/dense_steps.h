@@ -9,11 +9,11 @@
 
 namespace foldproof {
 
-/// Of the derivative of damping forces by positions: all of it; without the term that breaks its
-/// symmetry (Baraff and Witkin 1998); nothing.
+/// Parts used of the damping forces' derivative by positions: all; without the term that breaks its
+/// symmetry (Baraff and Witkin 1998); none.
 enum class DampingDerivative { whole, symmetric_part, none };
 
-/// A scene whose held particles stay where they are; forces are the subject's.
+/// A scene whose held particles stay in place; forces are the subject's.
 class DenseCloth {
  public:
   DenseCloth(const Subject& subject, const Scene& scene);
@@ -24,8 +24,8 @@ class DenseCloth {
   /// cloth, and one h for all steps. Throws std::runtime_error if it does not get there.
   State average_acceleration(const State& s, double h);
 
-  /// One linear solve with the forces linearised about s, the springs' derivative as
-  /// given: needs springs only.
+  /// One linear solve with the forces linearised about s, using `part` of the damping derivative:
+  /// needs springs only.
   ///   (M - h D - h^2 K) (w - v) = h (F + h K v),   x' = x + h w
   State one_solve(const State& s, double h, DampingDerivative part) const;
 

@@ -1,5 +1,5 @@
-// Differences between two states, sizes of states; sums of forces and torques, and rigid
-// motion, for which both vanish.
+// Differences between two states, sizes of states; sums of forces and torques, and rigid motion,
+// for which forces vanish.
 #pragma once
 
 #include <string>

@@ -30,7 +30,7 @@ void add(const State& s, Numbers& all) {
                            b.place[1], b.place[2]});
 }
 
-/// All of a row but clock time.
+/// All of a row except clock time.
 void add(const Diagnostics& row, Numbers& all) {
   for_each_value(row, [&](auto number) { all.push_back(double(number)); });
 }
@@ -48,7 +48,7 @@ void add(const RunResult& result, Numbers& all) {
                {result.stop->time, double(result.stop->step), double(result.stop->particle)});
 }
 
-/// All of a checkpoint but clock time.
+/// All of a checkpoint except clock time.
 void add(const Checkpoint& checkpoint, Numbers& all) {
   for (const State& s : checkpoint.past) add(s, all);
   add(checkpoint.work, all);
@@ -102,8 +102,8 @@ double bits_that_differ(const Numbers& a, const Numbers& b) {
 
 namespace {
 
-/// Damped springs and hinges in automatic steps, led particles among them that start and stop on
-/// the way, one of them a rounding after a frame.
+/// Damped springs and hinges in automatic steps. Some particles are prescribed and start and stop
+/// during the run, one of them a rounding after a frame.
 Scene stopping_and_starting() {
   Scene scene = partly_prescribed_sheet();
   scene.schedule = {0.057, 0.0081, {0.0017, 0.5, 0.1}, 100000};
@@ -114,7 +114,7 @@ Scene stopping_and_starting() {
   return scene;
 }
 
-/// Cloth that sticks to a palm that is there for a while, and to itself.
+/// Cloth that sticks to a palm, present for part of the run, and to itself.
 Scene stuck_for_a_while() {
   Scene scene = free_sheet();
   StickyPatch hand = swinging_palm(scene);
@@ -136,7 +136,7 @@ Scene layers_that_meet() {
   return scene;
 }
 
-/// Cloth that is thrown apart by steps that are too long.
+/// Cloth that diverges because its steps are too long.
 Scene flying_apart() {
   Scene scene = undamped_sheet();
   const double h = 1.6 * elastic_limit(build_system(scene), start_state(scene));

@@ -1,4 +1,4 @@
-// Runs with all that they hand out, to be compared bit by bit.
+// Runs with all their output, to be compared bit by bit.
 #pragma once
 
 #include <string>
@@ -9,12 +9,12 @@
 
 namespace foldproof {
 
-/// A run with all that was handed out.
+/// A run with all its output.
 struct Followed {
   std::vector<State> frames;
   std::vector<Diagnostics> rows;
   std::vector<Checkpoint> checkpoints;
-  std::vector<std::size_t> rows_at;  // of each checkpoint: rows that came before it
+  std::vector<std::size_t> rows_at;  // of each checkpoint: number of rows before it
   RunResult result;
 };
 
@@ -40,14 +40,14 @@ struct NamedRun {
   bool stops = false;  // before its end
 };
 
-/// The run of its scene by the system and the integrator.
+/// The run of its scene with this system and integrator.
 Followed followed_run(const NamedRun& of, const System& system, const Integrator& integrator);
 
-/// All numbers of the run; none if it is not what it is meant to be.
+/// All numbers of the run; none if the run is invalid.
 Numbers numbers_of(const NamedRun& of, const Followed& run);
 
-/// Small runs in which all parts of the method have a share: events, sticking, layers in contact
-/// with strain limits, divergence; with schemes that remember and schemes that do not.
+/// Small runs that use all parts of the method: events, sticking, layers in contact with strain
+/// limits, divergence; with one-step and multi-step schemes.
 std::vector<NamedRun> runs_of_all_parts();
 
 }  // namespace foldproof

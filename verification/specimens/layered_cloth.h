@@ -17,13 +17,12 @@ struct LayeredSheets {
   unsigned seed = 1;
 };
 
-/// Sheets of 5 x 6 jittered cells of 2 cm, 42 particles each, one above the other; nothing but
-/// self-collision is named.
+/// Sheets of 5 x 6 jittered cells of 2 cm, 42 particles each, one above the other; the scene has
+/// self-collision and no other force or filter.
 Scene layered_scene(const LayeredSheets& wanted);
 
-/// The start velocities as corrected by the subject's self-collision over a step of `step` [s]
-/// from time 0: a velocity that moves the cloth or, with `moves` = false, one that ends a
-/// step. 3 x N [m/s].
+/// The start velocities as corrected by the subject's self-collision over a step of `step` [s] from
+/// time 0. `moves`: the velocity moves the cloth; otherwise it ends a step. 3 x N [m/s].
 struct StepRequest {
   double step;
   bool moves;
@@ -31,7 +30,7 @@ struct StepRequest {
 PerParticle3 corrected_by_self_collision(const Subject& subject, const Scene& scene,
                                          const StepRequest& request);
 
-/// All pairs of a vertex and a triangle and of two edges without a common particle, each once.
+/// All pairs of a vertex and a triangle, or of two edges, with no particle in common, each once.
 std::vector<FeaturePair> all_pairs(const TriangleMesh& mesh);
 
 /// sum m v [kg m/s], sum m x x v about the mean [kg m^2/s] and sum m v^2/2 [J] of

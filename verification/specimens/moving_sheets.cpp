@@ -16,8 +16,8 @@ Sheet irregular_sheet() {
 
 Sheet jittered_sheet() { return {SheetPattern::jittered, 0.6, 0, 5, 4, 0.27, shifted_seed(17)}; }
 
-/// Displaces and sets in motion at random: a tenth of an edge in the plane, a third of one across
-/// it, and less where triangles are thin: they are neither to be turned over nor folded back.
+/// Random displacements and velocities: a tenth of an edge in the plane, a third of one across it,
+/// and less where triangles are thin, so that none turns over or folds back.
 void crumple(Scene& scene, unsigned seed) {
   Random random(seed);
   const Eigen::Index count = scene.x.cols();

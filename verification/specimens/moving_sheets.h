@@ -5,8 +5,8 @@
 
 namespace foldproof {
 
-/// A free crumpled sheet of irregular triangles that moves at random: stretched and folded, with
-/// rest angles of its own. Springs and bending, both damped; no gravity. Elastic limit about 6 ms.
+/// A free crumpled sheet of irregular triangles with random velocities: stretched and folded, with
+/// its own rest angles. Springs and bending, both damped; no gravity. Elastic limit about 6 ms.
 Scene free_sheet();
 
 /// The same without any damping.

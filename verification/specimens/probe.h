@@ -24,8 +24,8 @@ class Probe {
   std::unique_ptr<PreparedScene> prepared_;
 };
 
-/// The matrix of a linear map of 3 x N arrays, column by column: 3N x 3N, ordered by particle, as
-/// all of these.
+/// The matrix of a linear map of 3 x N arrays, column by column: 3N x 3N, ordered by particle, like
+/// all matrices here.
 Eigen::MatrixXd matrix_of(Eigen::Index particles,
                           const std::function<PerParticle3(const PerParticle3&)>& map);
 Eigen::MatrixXd matrix_of(const ForceDifferential& differential, Eigen::Index particles);
@@ -36,13 +36,13 @@ Eigen::MatrixXd damping_matrix(const Probe& probe, const State& s);
 /// The reference's derivative of all forces by the positions, at fixed velocities [N/m].
 Eigen::MatrixXd force_derivative(const Scene& scene, const State& s);
 
-/// The derivative of forces by central differences of `step` [m], and of the subject's at fixed
-/// velocities with `step` and `step`/2, extrapolated [N/m].
+/// The derivative of forces by central differences of `step` [m]; and of the subject's forces at
+/// fixed velocities, extrapolated from `step` and `step`/2 [N/m].
 Eigen::MatrixXd central_differences(const std::function<PerParticle3(const State&)>& force,
                                     const State& s, double step);
 Eigen::MatrixXd differences_of_forces(const Probe& probe, const State& s, double step);
 
-/// The largest entry of a matrix without sign; NaN if any is.
+/// The largest absolute entry of a matrix; NaN if any is.
 double largest_entry(const Eigen::MatrixXd& matrix);
 
 }  // namespace foldproof

@@ -8,7 +8,7 @@ namespace foldproof {
 
 namespace {
 
-/// The solid as an object that stands, turns and moves.
+/// The solid as an object that is placed, turned and in motion.
 Object moving(const std::string& name, const Solid& solid) {
   const Pose place{Eigen::Quaterniond(Eigen::AngleAxisd(0.83, Vector3(0.36, -0.48, 0.8))),
                    {0.11, -0.07, 0.23}};

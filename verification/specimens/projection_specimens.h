@@ -20,13 +20,13 @@ struct ProjectionCase {
 /// from 0.13 m inside to 0.08 m outside.
 std::vector<ProjectionCase> solids_with_points();
 
-/// Two balls apart: with points around both of them.
+/// Two separate balls, with points around both.
 ProjectionCase two_balls();
 
 /// Two balls that overlap, with points around the lens that is inside both.
 ProjectionCase overlapping_balls();
 
-/// eps .004, tau .03, t^ .1 [m]; arrived within 1e-12 m.
+/// eps .004, tau .03, t^ .1 [m]; converged within 1e-12 m.
 FoldProjection projection_by(const std::string& map);
 
 ProjectedCloth project_specimen(const ProjectionCase& specimen, const FoldProjection& projection);

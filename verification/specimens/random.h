@@ -8,7 +8,7 @@
 
 namespace foldproof {
 
-/// Uniform numbers, the same on every machine for the same seed and shift of seeds.
+/// Uniform numbers, the same on every machine for the same seed and seed shift.
 class Random {
  public:
   explicit Random(unsigned seed) : bits_(shifted_seed(seed)) {}

@@ -19,7 +19,7 @@ struct Problem {
 
 Problem make_problem(const Scene& scene, unsigned seed);
 
-/// The masses of a system, to be solved with these settings.
+/// A system of these masses alone, to be solved with these settings.
 System system_of(const PerParticle& mass, const PerParticle& inverse_mass,
                  const SolverSettings& settings);
 

@@ -19,7 +19,7 @@ std::vector<double> random_angles(Random& random, size_t count) {
   return angles;
 }
 
-/// The mesh displaced at random; `edge` [m] is the length that displacements are measured in.
+/// The mesh displaced at random; `edge` [m] is the unit of the displacements.
 Specimen crumple_specimen(const std::string& name, TriangleMesh mesh, double edge, unsigned seed) {
   Random random(seed);
   Specimen specimen{name, scene_at_rest(std::move(mesh), 0.23), {}};

@@ -29,20 +29,20 @@ void add_flat_hinges(Scene& scene, double stiffness, double damping);
 /// The particles that the scene does not prescribe, ascending.
 std::vector<int> free_particles(const Scene& scene);
 
-/// Sheets of six patterns, a disc and a sphere, 80 triangles or so each, with random displacements
-/// (normal and in-plane, up to 0.35 and 0.2 of an edge), random velocities (up to 1.5 m/s) and
-/// random rest angles (up to 0.9 rad).
+/// Sheets of six patterns, a disc and a sphere, about 80 triangles each. Random are displacements
+/// (normal and in-plane, up to 0.35 and 0.2 of an edge), velocities (up to 1.5 m/s) and rest angles
+/// (up to 0.9 rad).
 std::vector<Specimen> crumpled_sheets();
 
 /// Three of them, small enough for dense matrices: an even pattern, an irregular one, a
 /// closed surface.
 std::vector<Specimen> small_crumpled_sheets();
 
-/// Shapes that are curved at rest, in their rest shape, with the angles of that shape as rest
-/// angles: a statue, a sphere, a cylinder, pleats.
+/// Shapes that are curved at rest, in their rest shape, with its angles as rest angles: a statue, a
+/// sphere, a cylinder, pleats.
 std::vector<Specimen> curved_shapes();
 
-/// The seated statue of 1280 triangles, .37 m high; made once.
+/// The seated statue of 1280 triangles, .37 m high; computed once.
 const TriangleMesh& small_statue();
 
 /// Two triangles of random shape (heights .4 to 1.5 of the edge, feet up to .4 of it beyond its
@@ -50,17 +50,17 @@ const TriangleMesh& small_statue();
 Corners random_corners(Random& random, double angle);
 
 /// A random hinge at `angle` [rad] with random velocities; its rest shape is another random hinge,
-/// its rest angle random too.
+/// with a random rest angle.
 Specimen random_hinge(unsigned seed, double angle);
 
 /// Random hinges at angles all around the circle [rad]: flat, slight, right, obtuse,
 /// sharp, of both signs.
 std::vector<Specimen> hinges_of_all_angles();
 
-/// All crumpled sheets, then those hinges.
+/// All crumpled sheets, then the random hinges.
 std::vector<Specimen> sheets_and_hinges();
 
-/// A scene of one hinge: particles 0, 1, 2, 3 are x1, x2, x3, x4 of it.
+/// A scene of one hinge: particles 0, 1, 2, 3 are its x1, x2, x3, x4.
 Scene hinge_scene(const Corners& rest, double rest_angle);
 
 State state_of(const Corners& x);

@@ -35,8 +35,8 @@ class Stepper {
 State step_once(const std::string& integrator, const System& system, const State& s, double h);
 
 /// Largest growth factor of a small initial disturbance during `steps` steps of h [1], at least 1.
-/// The disturbance is random, its velocities scaled by 1/(steps h); rounding errors on the way
-/// grow no faster.
+/// The disturbance is random, its velocities scaled by 1/(steps h); rounding errors made during the
+/// steps grow no faster.
 double growth(Stepper& stepper, const State& start, double h, int steps);
 
 }  // namespace foldproof

@@ -24,8 +24,8 @@ void give_trial_values(StickyPatch& patch) {
   patch.far = 0.053;
 }
 
-/// Sticks the particle to triangles of the patch whose corners are at y (3 x ...), at random places
-/// in them, and puts it away from their mean by part of `far`.
+/// Sticks the particle to triangles of the patch at random places; their corners are at y (3 x
+/// ...). Displaces it from the mean of these places by `part` of `far`.
 void stick(StuckSpecimen& specimen, int particle, const std::vector<int>& triangles,
            const PerParticle3& y, double part, Random& random) {
   const StickyPatch& patch = specimen.patch();

@@ -21,13 +21,11 @@ struct StuckSpecimen {
   const StickyPatch& patch() const { return scene.sticky.front(); }
 };
 
-/// Two small irregular sheets, one above the other; the upper one's particles stick to one or
-/// two triangles of the lower one, drawn away from their targets by 7, 44, 83 and 99
-/// hundredths of `far`.
+/// Two small irregular sheets, one above the other. The upper one's particles stick to one or two
+/// triangles of the lower one, at distances of .07, .44, .83 and .99 `far` from their targets.
 std::vector<StuckSpecimen> stuck_layers();
 
-/// The upper sheet alone, stuck to a surface that turns and drifts as the formula
-/// says: rates are known.
+/// The upper sheet alone, stuck to a surface that turns and drifts by formula: rates are known.
 StuckSpecimen stuck_to_turning_surface();
 
 /// The oracle's elastic forces (3 x N [N]) and energy [J] of the specimen.
@@ -38,19 +36,19 @@ double expected_energy(const StuckSpecimen& specimen);
 /// corners): 3N x 3N [N s/m].
 Eigen::MatrixXd expected_damping(const StuckSpecimen& specimen);
 
-/// Two sheets of n x n cells, `gap` apart in z, each a part of one mesh: particles of the
-/// lower one first. [m]
+/// Two sheets of n x n cells as one mesh, `gap` apart in z; particles of the lower one come first.
+/// [m]
 TriangleMesh two_sheets(int n, double side, double gap);
 
-/// The second half of the particles may stick to the triangles of the first
-/// half; nothing else is set.
+/// The second half of the particles may stick to the triangles of the first half; nothing else is
+/// set.
 StickyPatch layer_patch(const TriangleMesh& mesh);
 
-/// A palm of .8 m that swings, for all particles of the scene, with values of sticking.
+/// A swinging palm of .8 m for all particles of the scene, with all sticking parameters set.
 StickyPatch swinging_palm(const Scene& scene);
 
-/// A horizontal square to stick to, of two triangles that face upwards, about the origin at rest: a
-/// patch for all particles of the scene. The square moves as the motion says.
+/// A horizontal square of two triangles that face upwards, about the origin at rest: a patch for
+/// all particles of the scene to stick to. The square moves with `motion`.
 StickyPatch palm(const Scene& scene, double side, const RigidMotion& motion);
 
 }  // namespace foldproof

@@ -39,15 +39,15 @@ LimitedCloth limit(const std::string& name, const Specimen& specimen, const PerP
   return cloth;
 }
 
-/// The limits just outside of the strains that the cloth has.
+/// The limits just outside the cloth's strains.
 void limit_about(LimitedCloth& cloth) {
   const Strains strains = strains_of(cloth.scene, cloth.scene.x);
   cloth.scene.strain_limits->extension = std::max(0.0, strains.largest) + 0.031;
   cloth.scene.strain_limits->compression = std::max(0.0, -strains.least) + 0.017;
 }
 
-/// The sheet displaced as the specimen is, or by a share of it: on a random mesh a short edge must
-/// not be more than halved nor doubled.
+/// The sheet displaced as the specimen is, or by a fraction of it: on a random mesh no short edge
+/// may shrink below half or grow beyond twice its length.
 LimitedCloth crumpled_cloth(const Specimen& specimen, const StrainLimits& limits) {
   const PerParticle3& rest = specimen.scene.mesh.rest;
   for (double share = 1;; share *= 0.7) {
@@ -60,9 +60,8 @@ LimitedCloth crumpled_cloth(const Specimen& specimen, const StrainLimits& limits
   }
 }
 
-/// The sheet stretched by 5 %, with a share of its displacements that leaves all springs
-/// within their limits: of 6 %, unless that shortens a short edge of a random mesh by more
-/// than it is stretched.
+/// The sheet stretched by 5 %, with 6 % of its displacements, or less if these would take a spring
+/// of a random mesh beyond its limits.
 LimitedCloth stretched_cloth(const Specimen& specimen, const StrainLimits& limits) {
   const PerParticle3& rest = specimen.scene.mesh.rest;
   for (double share = 0.06;; share *= 0.7) {
@@ -73,8 +72,8 @@ LimitedCloth stretched_cloth(const Specimen& specimen, const StrainLimits& limit
   }
 }
 
-/// The spring with the largest strain is pulled by a tenth of its length in a step: not all random
-/// motions break limits.
+/// The ends of the spring with the largest strain separate by a tenth of its length in a step: not
+/// every random motion breaks limits.
 void pull(LimitedCloth& cloth) {
   const Edge* longest = nullptr;
   double largest = -infinity;
@@ -90,8 +89,8 @@ void pull(LimitedCloth& cloth) {
   cloth.state.v.col(longest->b) = mean + 0.05 / cloth.step * d;
 }
 
-/// Makes the step so short that the ends of a spring move against each other by .3 of its length at
-/// most; its motion breaks limits then, too.
+/// Shortens the step so that the ends of a spring move relative to each other by at most .3 of its
+/// length; the motion still breaks limits.
 void moderate(LimitedCloth& cloth) {
   cloth.step *= std::min(1.0, 0.3 / relative_motion(cloth, cloth.step));
   if (strain_violation(cloth.scene, cloth.state.x + cloth.step * cloth.state.v) < 0.05) pull(cloth);

@@ -1,4 +1,4 @@
-// Small case files written by code, and the differences between their text and what is read.
+// Small case files written by code, and differences between their text and the scene read.
 #pragma once
 
 #include <string>
@@ -29,18 +29,18 @@ integrator = "A"
 step = 0.003
 )";
 
-/// The sheet, some tables, the time. path: of the case file, beside or below which its meshes lie.
+/// The sheet, some tables, the time. path: of the case file; its meshes lie beside or below it.
 Scene trial_scene(const std::string& tables, const std::vector<std::string>& overrides = {},
                   const std::string& path = "trial.toml");
 
-/// Tables that must be refused, and words of the message.
+/// Tables that must be refused, and words of the error message.
 struct RejectedCase {
   std::string tables;
   std::vector<std::string> words;
 };
 
-/// Counts the cases that are accepted and built, or refused without file and line or
-/// one of the words.
+/// Counts the cases that are accepted and built, or refused without file and line or one of the
+/// words.
 Finding rejected_cases(const std::vector<RejectedCase>& cases,
                        const std::string& path = "trial.toml");
 
@@ -50,10 +50,10 @@ PerParticle3 plain_positions();
 /// Differences between what was read and what was written, one per row.
 class Differences {
  public:
-  /// A statement without a size: 0 if it is right, else infinite.
+  /// A statement without a magnitude: 0 if it is right, else infinite.
   void is(const std::string& what, bool right);
 
-  /// In roundings of the size of what is compared, which is in the same unit.
+  /// In roundings of `size`, which has the unit of `difference`.
   void is_near(const std::string& what, double difference, double size = 1);
 
   Finding judged(double bound, const std::string& why_bound) const;

@@ -10,7 +10,7 @@ using oracles::Whole2;
 using oracles::Whole3;
 using oracles::WholePrism;
 
-/// Counter-clockwise about the origin, every vertex in sight of it; the rays' tips are two to
+/// Counter-clockwise about the origin, with every vertex visible from it; the rays' tips are two to
 /// nine degrees sharp.
 const std::vector<Whole2> star = {{40, 1},  {2, 2},   {3, 31},   {-2, 3},
                                   {-37, 2}, {-3, -2}, {-1, -29}, {2, -3}};

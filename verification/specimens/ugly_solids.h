@@ -1,5 +1,5 @@
-// Surfaces put together, and closed meshes on which inside and outside are hard to tell, with an
-// exact inside test.
+// Combined surfaces, and closed meshes on which inside and outside are hard to tell, with an exact
+// inside test.
 #pragma once
 
 #include <string>

@@ -172,8 +172,7 @@ TriangleSoup overlapping_balls() {
   return join(join({PerParticle3(3, 0), {}, {}}, ball, -c), ball, c);
 }
 
-/// The union of the two balls' own grids on the given lattice: the smaller of the two, exact
-/// outside.
+/// The union of the two balls' own grids on the given lattice: the minimum, exact outside.
 Mended against_union(const Grid& mended) {
   Mended result{0, 0};
   long outside = 0;

@@ -42,8 +42,7 @@ struct TurningPair {
   double length, omega;
 };
 
-/// A pre-stretched pair that turns about its centre of mass; the rotation is steady in continuous
-/// time.
+/// A pre-stretched pair that turns about its centre of mass, steadily in continuous time.
 TurningPair turning_pair() {
   const oracles::SpringPair pair{53, 0.31, 0.62, 0.27, 0.43};
   TurningPair turning;

@@ -150,8 +150,7 @@ std::vector<std::pair<std::string, Scene>> sheets_to_solve() {
   return sheets;
 }
 
-/// Number of solves, out of 36, that missed their tolerance, at steps up to 50 times the elastic
-/// limit.
+/// Solves out of 36 that missed their tolerance, at steps up to 50 times the elastic limit.
 Finding large_steps_finding(const Subject& subject) {
   Table missed{{"case", ""}, {"solves that missed their tolerance", "solves"}};
   for (const auto& [name, scene] : sheets_to_solve())

@@ -40,7 +40,7 @@ State one_particle(double x, double v) {
   return {0, PerParticle3(Vector3(x, 0, 0)), PerParticle3(Vector3(v, 0, 0))};
 }
 
-/// The reference's step matrix, found by stepping the two unit vectors.
+/// The reference's step matrix, from steps of the two unit vectors.
 Eigen::Matrix2d stepped_matrix(const std::string& integrator, const Oscillator& oscillator,
                                double h) {
   const System system = oscillator_system(oscillator);

@@ -18,8 +18,7 @@ namespace {
 
 // ---- resumed
 
-/// Number of entries that differ, over all frames at which the run is interrupted; NaN for an
-/// invalid run.
+/// Most numbers that differ after an interruption, over all frames; NaN for an invalid run.
 double differences(const NamedRun& of) {
   const Integrator& integrator = integrator_named(of.integrator);
   const Followed whole = followed_run(of, build_system(of.scene), integrator);
@@ -172,8 +171,7 @@ Numbers numbers_on(int threads, const NamedRun& of) {
 /// A sheet of n x n alternating cells.
 TriangleMesh plain_mesh(int n) { return make_sheet({SheetPattern::alternating, 1.3, 1.1, n, n}); }
 
-/// The same with particles numbered at random: each thread then has most elements in common with
-/// others.
+/// The same, numbered at random: most elements then have particles of several threads.
 TriangleMesh shuffled_mesh(int n) {
   const TriangleMesh plain = plain_mesh(n);
   std::vector<int> number(size_t(plain.particles()));

@@ -1,5 +1,5 @@
-// The lines of the schemes, one by one: modified velocities, their continuation, prescribed motion
-// and counted work.
+// The lines of the schemes, one by one: which velocities are filtered and which continue,
+// prescribed motion, counted work.
 #include "reference/dynamics/integrator.h"
 #include "verification/specimens/check.h"
 #include "verification/specimens/differences.h"

@@ -40,8 +40,7 @@ Scene convert(Scene scene, const Units& u) {
   return scene;
 }
 
-/// Solved to rounding: a solve that stops at a tolerance may stop an iteration later in other
-/// units.
+/// Solved to rounding: in other units, a solve to a tolerance may take one more iteration.
 Scene solved_sheet() {
   Scene scene = partly_prescribed_sheet();
   scene.solver.tolerance = 1e-14;

@@ -17,8 +17,7 @@ constexpr double thickness = 0.002;  // m
 constexpr double span = 0.004;       // s
 constexpr int apex_above = 0, apex_below = 6;
 
-/// A corner of one triangle above the interior of a horizontal one, and a corner of a third below
-/// it:
+/// A corner of a triangle above the interior of a horizontal one, and one of a third below:
 ///
 ///        1 ---- 2
 ///           0           `gap` above
@@ -48,7 +47,7 @@ double velocity_below(const Scene& scene, const PerParticle3& v, int apex) {
   return (side(4, 5, p) * v(2, 3) + side(5, 3, p) * v(2, 4) + side(3, 4, p) * v(2, 5)) / whole;
 }
 
-/// How fast apex and triangle approach each other [m/s].
+/// Approach speed of apex and triangle [m/s].
 double approach_rate(const Scene& scene, const PerParticle3& v, int apex) {
   const double relative = velocity_below(scene, v, apex) - v(2, apex);
   return apex == apex_above ? relative : -relative;
@@ -166,7 +165,7 @@ std::vector<Place> ends_of_line(const PerParticle3& x, const Triangle& s, const 
   return ends;
 }
 
-/// How the end moves per displacement of its edge against the other triangle, along the line
+/// Motion of the end per displacement of its edge against the other triangle, along the line
 /// towards the other end: the steepest way to shorten the line. Exact, as the end is linear in it.
 Vector3 steepest(const PerParticle3& x, const Place& end, const Place& other) {
   const Vector3 along = (other.p - end.p).normalized();

@@ -34,8 +34,8 @@ Finding equal_depth_finding(const Subject& subject) {
                      "as many roundings as a forecast against one object takes, twice");
 }
 
-/// The velocity along the surface halfway is shortened, not turned, by at most the sum of both
-/// Coulomb limits.
+/// The velocity along the surface between both objects is shortened, not turned, by at most the sum
+/// of both Coulomb limits.
 Finding pinch_friction_finding(const Subject& subject) {
   const Pinch pinch = known_pinch();
   const PerParticle3 after = corrected_by_objects(subject, pinch.scene, pinch.span, pinch.state);

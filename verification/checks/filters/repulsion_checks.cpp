@@ -30,8 +30,8 @@ Scene over_triangle(const OverTriangle& wanted) {
   return scene;
 }
 
-/// The change of relative velocity by the rule of the paper's reference, coded a second time: with
-/// the weights of the foot from areas, and m/(1 + ...) for the compliance.
+/// The change of relative velocity by the rule of BFA02, coded a second time: with the weights of
+/// the foot from areas, and m/(1 + ...) for the compliance.
 Vector3 expected_change(const OverTriangle& wanted, const Scene& scene) {
   const PerParticle mass = lumped_masses(scene.mesh, scene.density);
   const auto area = [&](int a, int b, double x, double y) {

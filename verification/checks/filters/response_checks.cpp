@@ -45,8 +45,7 @@ double velocity_scale(const Contact& contact, const Answer& a) {
   return a.speed + 1 / contact.span.step;
 }
 
-/// The worst value of a quantity in roundings, over the particles of all contacts that `wanted`
-/// accepts.
+/// The worst of a quantity in roundings, over the contacts' particles that `wanted` accepts.
 Finding worst_over(const Subject& subject,
                    const std::function<bool(const Contact&, const Answer&)>& wanted,
                    const std::function<double(const Contact&, const Answer&)>& roundings) {

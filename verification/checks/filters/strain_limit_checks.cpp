@@ -1,5 +1,4 @@
-// One correction by strain limits: exact for one spring; for a cloth, within promises in any order
-// of sweeps.
+// One correction by strain limits: of one spring, exactly; of a cloth, in every order of sweeps.
 #include "reference/dynamics/system.h"
 #include "verification/oracles/limited_spring.h"
 #include "verification/specimens/check.h"

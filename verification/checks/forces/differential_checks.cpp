@@ -62,8 +62,7 @@ Finding hinge_is_second_derivative() {
                      "magnified by the triangle's thinness, its derivative's once more");
 }
 
-/// Sheets and hinges with every force that has a derivative: springs, both bending laws, and both
-/// kinds at once.
+/// Sheets and hinges with each differentiable force: springs, both bending laws, both at once.
 std::vector<Specimen> elastic_specimens() {
   std::vector<Specimen> all;
   const StretchMaterial springs{41.0, 0, 1.04};
@@ -144,7 +143,7 @@ Finding projection_is_nearest() {
                      "roundings of its norm");
 }
 
-/// Two particles joined by the spring of that length, by the reference alone.
+/// Error of one spring's derivatives at this stretch [1], by the reference alone.
 double spring_error(double stretch) {
   StretchSprings springs{{{0, 1, 0.31, 23.0, 0}}};
   State s = resting_state(PerParticle3::Zero(3, 2));

@@ -83,8 +83,7 @@ oracles::Estimate largest_frequency(const Probe& probe, const State& s, const Pe
   return {found[1], std::abs(found[1] - found[0])};
 }
 
-/// Two triangles ten times as high as their common edge is long; at rest they have ordinary
-/// proportions.
+/// Two triangles ten times as high as their common edge is long; ordinary ones at rest.
 Specimen tall_hinge(double angle) {
   const double edge = 0.031, height1 = 9.4 * edge, height2 = 9.8 * edge;
   const auto corners = [&](double shrink, double folded) -> Corners {
@@ -199,8 +198,7 @@ Finding rows_are_covered() {
                      "an upper bound may not be exceeded, but for rounding in thin triangles");
 }
 
-/// Hinges in their rest shape, where only the rank-one part remains: there the bound equals the
-/// sum.
+/// Hinges at rest, where only the rank-one part remains: there the bound equals the sum.
 Finding rows_are_reached() {
   Table measured{{"case", ""}, {"largest |sum of a row over its bound - 1|", "1"}};
   std::vector<Specimen> cases;

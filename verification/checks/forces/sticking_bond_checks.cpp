@@ -276,7 +276,7 @@ SurroundedParticle surround(double near, double distance) {
   made.patch.particles = {0, 1, 2, 3, 4, 5};
   made.patch.stiffness = 3.7;
   made.patch.near = near;
-  made.patch.far = 0.3 * near;  // of what it sticks to where it is, a particle is no distance away
+  made.patch.far = 0.3 * near;  // a new target is at the particle: distance 0
   made.state =
       resting_state(PerParticle3{{0.13 - distance, 0.93 + distance, 0.35, 0.13, 0.35, 0.35},
                                  {0.41, 0.21, 0.21 - distance, 1.11 + distance, 0.41, 0.41},

@@ -1,5 +1,4 @@
-// The forces of sticking against their definition in 50 digits, their conserved quantities, and
-// their fading.
+// The forces of sticking against their definition in 50 digits, what they conserve, how they fade.
 #include <fmt/format.h>
 
 #include "reference/dynamics/system.h"

@@ -91,7 +91,7 @@ Finding follows_finding(const Subject& subject) {
 
 Finding lag_finding(const Subject& subject) {
   Table measured{{"case", ""}, {"lag less what was derived, over it", "1"}};
-  for (const double pull : {0.05, 0.15, 0.27}) {  // of k far: what m g is; at .286 it breaks
+  for (const double pull : {0.05, 0.15, 0.27}) {  // m g over k far; it breaks at .286
     Scene scene = over_the_palm(Motion{});
     const StickyPatch& patch = scene.sticky[0];
     scene.gravity = Vector3(0, 0, -pull * patch.stiffness * patch.far / mass);
@@ -108,8 +108,7 @@ Finding lag_finding(const Subject& subject) {
                      "e^-t; the solve's tolerance is 1e-10");
 }
 
-/// A surface of one triangle that is bent by its animation: what is stuck to it stays at
-/// its place in it.
+/// A surface of one triangle, bent by its animation: a stuck particle keeps its place in it.
 Finding deforming_finding(const Subject& subject) {
   SceneObject part;
   const PerParticle3 x0 =

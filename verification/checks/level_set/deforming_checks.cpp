@@ -23,8 +23,8 @@ OctreeSettings coarse_sampling() {
 
 Vector3 shift() { return {0.83, -0.24, 0.5}; }  // a direction, about 1 long
 
-/// A ball that has moved `displacement` along the shift by the first frame, and `displacement` on
-/// in each frame that follows.
+/// A ball displaced by -1/2 `displacement` along the shift at time 0; it moves by `displacement` in
+/// every 0.04 s.
 MeshSequence moving_ball(double displacement, std::vector<double> times) {
   const auto deformation = [=](const Vector3& X, double t) -> Vector3 {
     return X + (displacement * t / 0.04 - 0.5 * displacement) * shift().normalized();
@@ -35,8 +35,8 @@ MeshSequence moving_ball(double displacement, std::vector<double> times) {
 /// Points about the origin, no farther than `reach` along an axis.
 std::vector<Vector3> points_within(double reach) { return random_points(2000, reach, 7741); }
 
-/// The body's largest miss next to the surface at a part of the way from its first frame to its
-/// second, in tolerances.
+/// Largest error of the body's phi near the surface, at a fraction of the time from its first frame
+/// to its second, in tolerances.
 double carried_miss(const MeshSequence& ball, const DeformingBody& body, double part) {
   const PerParticle3 x = (1 - part) * ball.positions[0] + part * ball.positions[1];
   const MeshDistance exact = make_mesh_distance(x, ball.triangles);
@@ -64,8 +64,8 @@ Finding carried_ball_keeps_its_shape() {
   return judge_worst(measured, 2, "a uniform displacement adds nothing to the octrees' error");
 }
 
-/// The distance from the middle of the way at which the blended phi is zero, across the motion [m];
-/// 0 if it is positive even there.
+/// Halfway between the frames: radius, across the motion, at which the blended phi is zero [m]; 0
+/// if phi is positive even at the centre.
 double blended_radius(double displacement) {
   const DeformingBody body = make_deforming_body(moving_ball(displacement, {0, 0.04}),
                                                  coarse_sampling(), BetweenFrames::blended);
@@ -108,8 +108,8 @@ MeshSequence turning_ball(double angle, int subdivisions) {
   return deformed_mesh(make_icosphere(radius, subdivisions), deformation, {0, 0.04});
 }
 
-/// How far the nodes of a frame err, over what they may: some roundings, and beyond the band half
-/// of what a cell may miss there, if |phi| is too large.
+/// Errors of a frame's nodes over the allowed ones: some roundings; beyond the band, if |phi| is
+/// too large, also half of the error allowed in a cell.
 double node_error(const DeformingFrame& frame, const MeshDistance& exact) {
   const Octree& tree = frame.field;
   const std::vector<OctreePlace> places = branch_places(tree);
@@ -127,7 +127,7 @@ double node_error(const DeformingFrame& frame, const MeshDistance& exact) {
   return worst.value();
 }
 
-/// Hanging nodes keep their own values, as they were found.
+/// Hanging nodes keep their own computed values.
 OctreeSettings free_sampling() {
   OctreeSettings settings = coarse_sampling();
   settings.hanging = HangingNodes::free;

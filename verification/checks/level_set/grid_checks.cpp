@@ -1,5 +1,4 @@
-// Checks of signed distance on a grid: interpolation, the narrow band, what lies
-// beyond the lattice.
+// Checks of signed distance on a grid: interpolation, the narrow band, points outside the lattice.
 #include "reference/level_set/narrow_band.h"
 #include "verification/specimens/check.h"
 #include "verification/specimens/random.h"
@@ -64,7 +63,7 @@ Finding cell_is_trilinear() {
                      "differences of such values are divided by h");
 }
 
-/// Differences over two cells are exact for quadratics, and so is their blend, which is linear.
+/// Differences over two cells are exact for quadratics; so is their interpolation, which is linear.
 Finding nodal_gradient_is_exact() {
   Eigen::Matrix3d curvature;
   curvature << 1.9, 0.3, -0.7, 0.3, -1.1, 0.5, -0.7, 0.5, 0.8;
@@ -88,8 +87,8 @@ Finding nodal_gradient_is_exact() {
       "differences of values near 1 are divided by 2 h, blended and made a unit vector");
 }
 
-/// Outside its lattice a sphere's grid must still answer with the distance: never less than that
-/// but for the border's error, and with only so much more as the search is cut short.
+/// Outside its lattice a sphere's grid must still return the distance: too small only by the
+/// border's error, and too large only because the search is cut short.
 Finding beyond_is_distance() {
   constexpr double radius = 0.7, too_small = 0.05, too_large = 0.01, turned = 0.13, jumps = 1e-6;
   const Sphere sphere{radius};

@@ -1,4 +1,4 @@
-// Level sets made on several threads: every bit is that of one thread.
+// Level sets computed on several threads: bit for bit the result of one thread.
 #include "reference/bodies/repair.h"
 #include "reference/level_set/deforming.h"
 #include "reference/mesh/shapes.h"
@@ -34,7 +34,7 @@ Numbers numbers_of(const Octree& tree) {
   return all;
 }
 
-/// The searches, too: each node counts once, however many threads have met it.
+/// Includes the searches: each node counts once, even if several threads have reached it.
 Numbers numbers_of(const DeformingBody& body) {
   Numbers all;
   for (const DeformingFrame& frame : body.frames) {
@@ -61,7 +61,7 @@ std::vector<DistanceFunction> two_bodies() {
           [](const Vector3& p) { return Sphere{0.17}.at(p - Vector3(0.21, 0.05, -0.04)); }};
 }
 
-/// Bends and moves on by a little more in each frame: some values are kept, others searched anew.
+/// Bends and moves a little more in each frame: some values are kept, others are searched again.
 MeshSequence bending_ball() {
   const auto deformation = [](const Vector3& X, double t) -> Vector3 {
     return X + t * Vector3(0.03 + 0.4 * X.z() * X.z(), -0.02, 0.05 * X.x());
@@ -69,7 +69,7 @@ MeshSequence bending_ball() {
   return deformed_mesh(make_icosphere(0.15, 3), deformation, {0, 0.5, 1.1});
 }
 
-/// A level set by what makes it, on that many threads.
+/// A way to make a level set on a given number of threads.
 struct NamedMaking {
   std::string name;
   std::function<Numbers(int threads)> numbers_on;

@@ -1,4 +1,4 @@
-// Checks of fast marching and of its crude start.
+// Checks of fast marching and of its crude initial values.
 #include <stdexcept>
 
 #include "reference/level_set/fast_marching.h"
@@ -45,8 +45,8 @@ Lattice about_unit_ball() {
   return lattice_about(Bounds(Vector3::Constant(-1), Vector3::Constant(1)), 30, 4);
 }
 
-/// Upwind differences of either order are exact on a plane where no characteristic enters through
-/// the border: the border's nodes are seeds, so that none does.
+/// Upwind differences of either order are exact on a plane if no characteristic enters through the
+/// border: the border's nodes are seeds, which prevents this.
 Finding planes_are_exact() {
   const Lattice& lattice = lattice_of_planes;
   Table measured = roundings_of("times the lattice's size");
@@ -111,8 +111,8 @@ Finding equation_is_solved() {
                      "neighbouring distances are divided by h");
 }
 
-/// Nodes on the wrong side of a plane through nodes that count as inside; the seeds are those and
-/// the layer above.
+/// Nodes on the wrong side of a plane through nodes that count as inside; these and the layer above
+/// are the seeds.
 int wrong_below_the_plane() {
   const Lattice& lattice = lattice_of_planes;
   constexpr int level = 14;
@@ -157,8 +157,8 @@ Finding sides_are_kept() {
                      "signs spread from the seeds only, and seeds are never recomputed");
 }
 
-/// A plane's own values as sides: crossings along the axes name the plane, and the distance
-/// to it is exact.
+/// Sides from a plane's own values: crossings along the axes define the plane, and the distance to
+/// it is exact.
 Finding crossings_are_exact() {
   const Lattice& lattice = lattice_of_planes;
   const auto plane = [&](const Vector3& p) { return oblique.dot(p) - 0.031; };
@@ -189,7 +189,7 @@ Finding crossings_are_exact() {
                      "the cell's share of phi, and again where crossings lie near the node");
 }
 
-/// How many of three misuses are not refused.
+/// Number of misuses, out of three, that are not refused.
 Finding misuse_is_rejected() {
   const Lattice lattice = about_unit_ball();
   Table measured{{"case", ""}, {"not refused", "1"}};

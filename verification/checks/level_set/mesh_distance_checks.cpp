@@ -50,7 +50,7 @@ Vector3 point(Random& random, const MeshDistance& mesh, int i) {
                     : near_surface(random, mesh, 0.02 * mesh.tree.nodes[0].bounds.sizes().norm());
 }
 
-/// Roundings of what distances are made of: coordinates of p and of the mesh [m].
+/// Roundings of the terms of a distance: coordinates of p and of the mesh [m].
 double scale_of(const MeshDistance& mesh, const Vector3& p) {
   return epsilon * (p.norm() + mesh.x.colwise().norm().maxCoeff());
 }

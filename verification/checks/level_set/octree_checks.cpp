@@ -63,7 +63,7 @@ Finding misses_by_its_tolerance() {
                      "again where they are interpolated from a coarse neighbour");
 }
 
-/// Levels of the eight leaves about a node, highest less lowest.
+/// Differences in level between the eight leaves around a node, highest less lowest.
 int level_step(const Octree& tree, const Vector3& node) {
   int low = 99, high = 0;
   for (int side = 0; side < 8; ++side) {
@@ -136,8 +136,8 @@ Finding goes_on_beyond_the_cube() {
       "least the distance to the surface, which that point misses by the error of phi");
 }
 
-/// An octree of a body that is led by keyframes: its answers against the body's own, and whether
-/// anything is asked of the body once the tree stands.
+/// An octree of a body moved by keyframes: its answers against the body's own, and the number of
+/// queries to the body after the tree is built.
 Finding rides_with_its_body() {
   long queries = 0;
   const DistanceFunction counted = [&queries](const Vector3& p) {

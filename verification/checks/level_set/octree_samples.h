@@ -15,8 +15,8 @@ Distance tilted_torus(const Vector3& p);
 /// to 1/2^depth m.
 OctreeSettings sampling(int depth, double tolerance, HangingNodes hanging);
 
-/// The largest jump [m] of phi over `count` random places where two cells meet, one of them in a
-/// branch of the level `deepest` or above.
+/// The largest jump [m] of phi over `count` random points where two cells meet, one of them in a
+/// branch at level `deepest` or above.
 double largest_jump(const Octree& tree, int count, int deepest = 99);
 
 }  // namespace foldproof

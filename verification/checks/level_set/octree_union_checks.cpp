@@ -9,8 +9,7 @@ namespace foldproof {
 
 namespace {
 
-/// Three bodies: two balls and a capsule, each of which overlaps the other two, and a fourth
-/// that touches none.
+/// Four bodies: two balls and a capsule, all overlapping each other, and one that touches none.
 std::vector<DistanceFunction> parts_of_a_body() {
   return {[](const Vector3& p) { return Sphere{0.19}.at(p - Vector3(-0.11, 0.02, 0.01)); },
           [](const Vector3& p) { return Sphere{0.16}.at(p - Vector3(0.14, -0.03, 0.04)); },
@@ -126,8 +125,8 @@ Finding pinch_is_flagged() {
   return judge_worst(measured, 0, "points nearer to a decision than two tolerances are left out");
 }
 
-/// Small balls far from each other: in the wide cells between them one may be nearest where none
-/// of the nodes is.
+/// Small balls far from each other: inside the wide cells between them, the nearest ball may be one
+/// that is nearest at none of the nodes.
 std::vector<DistanceFunction> scattered_balls() {
   std::vector<DistanceFunction> parts;
   for (const Vector3& c : random_points(9, 0.4, 5))

@@ -17,12 +17,12 @@ namespace {
 
 constexpr double width = 0.47, height = 0.29;  // of all sheets [m]
 
-/// A mesh and what geometry says of it.
+/// A mesh and the values that geometry predicts for it.
 struct Known {
   std::string name;
   TriangleMesh mesh;
   int euler;    // V - E + F
-  double area;  // m^2; NaN if only the mesh knows
+  double area;  // m^2; NaN if not predicted
 };
 
 Sheet sheet_of(SheetPattern pattern) {
@@ -71,7 +71,7 @@ Finding euler_characteristic_is_known() {
                      "closed surface without handles");
 }
 
-/// True if the triangle is (a, b, c) or the same begun elsewhere.
+/// True if the triangle is (a, b, c) or a cyclic permutation.
 bool runs(const Triangle& triangle, int a, int b, int c) {
   return triangle == Triangle{a, b, c} || triangle == Triangle{b, c, a} ||
          triangle == Triangle{c, a, b};

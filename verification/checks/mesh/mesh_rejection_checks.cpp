@@ -9,11 +9,11 @@ namespace foldproof {
 
 namespace {
 
-/// A file that no one should accept, and what the refusal must say of it.
+/// A file that must be refused, and the words that the message must contain.
 struct BadFile {
   std::string name, text;
-  int line;             // that the message must name
-  std::string keyword;  // that it must hold
+  int line;             // named by the message
+  std::string keyword;  // contained in the message
 };
 
 const char* const square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";  // four lines
@@ -47,13 +47,13 @@ std::vector<BadFile> bad_files() {
       {"nothing", "", 1, "empty"}};
 }
 
-/// The messages, with the folder of the run left away so that they are the same each time.
+/// The messages without the folder of the run, so that they are the same each time.
 std::string without_folder(const std::string& message) {
   const size_t slash = message.rfind('/', message.find(".obj"));
   return slash == std::string::npos ? message : message.substr(slash + 1);
 }
 
-/// Adds a row for each bad file: what its refusal leaves out.
+/// Adds a row for each bad file: the number of parts that its refusal lacks.
 void try_bad_files(Table& measured) {
   const ScratchFolder folder;
   const auto observe = [&](const std::string& name, const std::string& path,
@@ -70,7 +70,7 @@ void try_bad_files(Table& measured) {
   observe("a file that is not there", missing, {missing, "cannot be opened"});
 }
 
-/// A mesh made by code that no one should accept.
+/// A mesh made by code that must be refused.
 struct BadMesh {
   std::string name;
   PerParticle3 rest;

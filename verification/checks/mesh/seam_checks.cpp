@@ -1,4 +1,4 @@
-// Panels of a garment that are sewn where their vertices meet.
+// Panels of a garment that are sewn where their vertices coincide.
 #include <fstream>
 #include <random>
 
@@ -14,8 +14,8 @@ namespace foldproof {
 
 namespace {
 
-/// Vertex by vertex, by its definition: the first of those that stay and are
-/// near. -1: it stays itself.
+/// By definition, vertex by vertex: the first near vertex that stays; -1 for a vertex that itself
+/// stays.
 std::vector<int> join_by_trying(const PerParticle3& x, double distance) {
   std::vector<int> becomes;
   for (Eigen::Index v = 0; v < x.cols(); ++v) {
@@ -27,8 +27,8 @@ std::vector<int> join_by_trying(const PerParticle3& x, double distance) {
   return becomes;
 }
 
-/// Points in a box of the side 1 about a place far from the origin and near it, and triangles that
-/// keep three corners.
+/// Points in a box of side 1, far from the origin or near it, and triangles that keep three
+/// distinct corners.
 TriangleSoup random_soup(const std::vector<int>& becomes, PerParticle3 x, std::mt19937& random) {
   TriangleSoup soup{std::move(x), {}, {}};
   const auto end_of = [&](int v) { return becomes[size_t(v)] < 0 ? v : becomes[size_t(v)]; };

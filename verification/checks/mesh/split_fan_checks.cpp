@@ -1,5 +1,5 @@
-// Vertices of several fans that are split: each fan by itself, where it was, and held as
-// its vertex was.
+// Vertices with several fans are split: each fan gets its own vertex, in the same place and held as
+// the original was.
 #include <fstream>
 #include <random>
 #include <set>
@@ -17,7 +17,7 @@ namespace foldproof {
 
 namespace {
 
-// ---- meshes that hang together by points
+// ---- meshes connected at points
 
 std::set<int> neighbours_of(const TriangleSoup& soup, int v) {
   std::set<int> found{v};
@@ -26,7 +26,7 @@ std::set<int> neighbours_of(const TriangleSoup& soup, int v) {
   return found;
 }
 
-/// Replaces b by a, if they have no neighbour in common: an edge keeps its triangles.
+/// Replaces b by a, if they have no neighbour in common, so that no edge gains a triangle.
 void glue(int a, int b, TriangleSoup& soup) {
   const std::set<int> of_a = neighbours_of(soup, a), of_b = neighbours_of(soup, b);
   if (std::ranges::any_of(of_a, [&](int v) { return of_b.contains(v); })) return;
@@ -56,7 +56,7 @@ TriangleSoup random_hangings(std::mt19937& random, int pairs) {
   const int count = int(soup.rest.cols());
   std::shuffle(soup.triangles.begin(), soup.triangles.end(), random);
   for (int k = 0; k < pairs; ++k) {
-    const int a = int(random() % unsigned(count)) / 3 * 3;  // every third one: some of them again
+    const int a = int(random() % unsigned(count)) / 3 * 3;  // every third one: some are glued again
     glue(a, int(random() % unsigned(count)), soup);
   }
   return without_unused(soup);
@@ -69,7 +69,7 @@ bool share_an_edge_at(const Triangle& s, const Triangle& t, int v) {
                              [&](int w) { return w != v && std::ranges::find(t, w) != t.end(); });
 }
 
-/// The triangles of the fan of v that triangle `first` is in, found by walking over edges at v.
+/// The triangles of the fan of v that contains triangle `first`, found by walking over edges at v.
 std::set<int> fan_at(const TriangleSoup& soup, int v, int first) {
   std::vector<int> fan{first};
   for (size_t i = 0; i < fan.size(); ++i)
@@ -239,7 +239,7 @@ g top
 f 1 6 7 8
 )";
 
-/// Reads cases with that mesh.
+/// Reads cases with this mesh.
 class ThreeFans {
  public:
   ThreeFans() {

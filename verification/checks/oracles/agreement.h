@@ -9,7 +9,7 @@ namespace foldproof {
 
 using Pairs = std::vector<std::pair<oracles::Estimate, oracles::Estimate>>;
 
-/// The answers of both ways, one point per row; each answer has its uncertainty.
+/// The answers of both methods, one point per row; each answer has its uncertainty.
 class Answers {
  public:
   void compare(const std::string& point, const oracles::Estimate& one,
@@ -35,7 +35,7 @@ class Answers {
                {"apart, of that", "1"}};
 };
 
-/// A check that two ways agree.
+/// A check that two methods agree.
 struct Comparison {
   const char *name, *claim;
   void (*compare)(Answers&);

@@ -14,8 +14,8 @@ namespace {
 using oracles::Estimate;
 using oracles::HingeInput;
 
-/// Hinges of sizes from a millimetre to a metre, folded by angles of both signs, every
-/// constant another.
+/// Hinges of sizes from a millimetre to a metre, folded by angles of both signs; all constants
+/// differ.
 std::vector<HingeInput> random_hinge_inputs() {
   Random random(811);
   std::vector<HingeInput> list;
@@ -41,8 +41,8 @@ std::string numbered(const std::string& what, std::size_t number) {
   return what + " " + std::to_string(number + 1);
 }
 
-/// Corresponding components of vectors, each with its answer's uncertainty; `sign`
-/// turns the second.
+/// Corresponding components of vectors, each with its vector's uncertainty; `sign` reverses the
+/// second.
 template <int N>
 Pairs pair_up(const oracles::VectorsEstimate<N>& one, const oracles::VectorsEstimate<N>& other,
               double sign) {
@@ -62,8 +62,8 @@ Pairs pair_up(const oracles::MatrixEstimate& one, const oracles::MatrixEstimate&
   return pairs;
 }
 
-/// f'(0) by central differences over `step` and half of it, extrapolated; off by less than the two
-/// differ, and by the rounding of values of size `scale`.
+/// f'(0) by central differences over `step` and half of it, extrapolated. The error is below the
+/// difference of the two, plus the rounding of values of size `scale`.
 Estimate slope(const std::function<double(double)>& f, double step, double scale) {
   const double wide = (f(step) - f(-step)) / (2 * step),
                narrow = (f(step / 2) - f(-step / 2)) / step;

@@ -29,7 +29,7 @@ constexpr std::array<std::pair<Features, const char*>, 2> features{
     {{Features::vertex_and_triangle, "vertex and triangle"},
      {Features::edge_and_edge, "edge and edge"}}};
 
-/// Whole numbers from -largest to largest, each as likely as the others.
+/// Uniform whole numbers from -largest to largest.
 double whole_in(Random& random, int largest) {
   return std::floor(random.uniform(-largest, largest + 1));
 }
@@ -41,7 +41,7 @@ FourPoints grid_points(Random& random, int largest) {
   return x;
 }
 
-/// numerator/denominator as a factor with that root, and the number itself.
+/// numerator/denominator, and the linear factor with this root.
 struct Rational {
   long numerator, denominator;
 
@@ -49,7 +49,7 @@ struct Rational {
   double value() const { return double(numerator) / double(denominator); }
 };
 
-/// Six triangles with corners on a grid; none without an area.
+/// Six triangles with corners on a grid; all have an area.
 PerParticle3 six_triangles(Random& random) {
   PerParticle3 x(3, 18);
   for (int t = 0; t < 6; ++t) do
@@ -66,7 +66,7 @@ bool found_between(const std::vector<oracles::EdgeInTriangle>& found, int s, int
   });
 }
 
-/// The surface of a prism over a pentagon with a notch, all of whose corners the fourth one sees.
+/// Surface of a prism over a notched pentagon whose corners are all visible from the fourth.
 oracles::TriangleSoup notched_surface(const oracles::WholePrism& prism) {
   const int n = int(prism.polygon.size());
   oracles::TriangleSoup soup;
@@ -95,7 +95,7 @@ long double to_second_edge(const FourPoints& x, long double s) {
   return Long3(at - p.col(2) - along * d).norm();
 }
 
-/// The least of a convex function of s in [0, 1], by cutting the bracket in thirds.
+/// The minimum of a convex function of s in [0, 1], by cutting the bracket in thirds.
 Estimate edge_distance(const FourPoints& x) {
   long double low = 0, high = 1;
   for (int i = 0; i < 160; ++i) {
@@ -110,7 +110,7 @@ Estimate edge_distance(const FourPoints& x) {
   return {double(least), 4 * epsilon * double(least) + 1e-9 * epsilon};
 }
 
-/// The slope of the map that climbs from eps at -t^ to tau at tau, integrated: y = f, or f and f'.
+/// The slope of the map from eps at -t^ to tau at tau, integrated: y = f, or f and f'.
 double integrate(const oracles::RightHandSide& rhs, const std::vector<double>& start, double from,
                  double to, double& uncertainty) {
   const auto solution =
@@ -134,13 +134,13 @@ Estimate power_map_by_equation(const oracles::Band& band, double phi) {
   return {f * whole, off * whole};
 }
 
-/// f'' is 0 and then (1 - m)/w; m such that f climbs from eps to tau, by bracketing.
+/// f'' is 0 and then (1 - m)/w; m, found by bracketing, makes f climb from eps to tau.
 Estimate blend_map_by_equation(const oracles::Band& band, double phi) {
   const double whole = band.reach + band.deepest, w = (band.reach - band.nearest) / 2 / whole,
                bend = 1 - w;
   double off = 0;
   const auto climbed = [&](double m, double to) {
-    // in two parts, since the slope's slope jumps between them
+    // in two parts, since f'' jumps between them
     const auto straight = std::min(to, bend);
     const double there = band.nearest / whole + m * straight;
     if (to <= bend) return there;
@@ -170,8 +170,8 @@ void depth_maps_agree(Answers& answers) {
     }
 }
 
-// The matrix of second differences, whose eigenvalues are 2 - 2 cos(k pi/(n + 1)); a companion
-// matrix, whose are the roots chosen; a system whose solution is chosen; a matrix made of two turns
+// Matrices with known answers: second differences, with eigenvalues 2 - 2 cos(k pi/(n + 1)); a
+// companion matrix with chosen roots; a system with a chosen solution; a product of two rotations
 // and chosen singular values.
 void dense_algebra_agrees(Answers& answers) {
   Random random(839);
@@ -212,8 +212,7 @@ void dense_algebra_agrees(Answers& answers) {
   for (const Vector3& values : {Vector3(3.7, 1.1, .2), Vector3(41, 6, 5)}) {
     const Vector3 from = random.vectors(1, 1).col(0), to = random.vectors(1, 1).col(0);
     const Eigen::Matrix3d U = oracles::rotation_between(from, to).toRotationMatrix();
-    // the axis of a turn by nearly half a circle is known as well as its half angle's
-    // cosine is large
+    // for nearly half a turn, the axis is known only as well as the half angle's cosine is large
     const double half = std::sqrt((1 + from.normalized().dot(to.normalized())) / 2);
     const Eigen::Matrix3d V = Eigen::AngleAxisd(1.1, from.normalized()).toRotationMatrix();
     const oracles::SingularParts parts =
@@ -337,8 +336,8 @@ void sides_agree(Answers& answers) {
   }
 }
 
-// A vertex and a triangle in 50 digits and in extended precision; two edges in 50 digits and by
-// cutting in thirds.
+// A vertex and a triangle in 50 digits and in extended precision; two edges in 50 digits and by a
+// search in thirds.
 void distances_agree(Answers& answers) {
   Random random(863);
   for (int k = 0; k < 12; ++k) {

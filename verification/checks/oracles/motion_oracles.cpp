@@ -24,7 +24,7 @@ using Complex = std::complex<double>;
 constexpr std::array<std::pair<Scheme, const char*>, 3> schemes{
     {{Scheme::mixed, "A"}, {Scheme::central_newmark, "B"}, {Scheme::variable_step_newmark, "C"}}};
 
-/// Weakly, strongly and critically damped, at different scales of time.
+/// Weakly, strongly and critically damped, at different time scales.
 std::vector<std::pair<std::string, Oscillator>> oscillators() {
   return {{"zeta .15", {31, 1.7, .8, -.3}},
           {"zeta 2.7", {2.9, 9.1, -.4, 1.6}},
@@ -32,8 +32,7 @@ std::vector<std::pair<std::string, Oscillator>> oscillators() {
           {"zeta .003", {840, .17, 1.3, 11}}};
 }
 
-/// One step of the scheme's lines as printed, on x'' = -k x - c x', with numbers and no
-/// algebra. state: x, v.
+/// One step of the scheme's lines as printed, on x'' = -k x - c x', in plain numbers. state: x, v.
 template <class Scalar>
 std::array<Scalar, 2> step_by_lines(Scheme scheme, const Oscillator& o, double h,
                                     const std::array<Scalar, 2>& state) {
@@ -51,7 +50,7 @@ std::array<Scalar, 2> step_by_lines(Scheme scheme, const Oscillator& o, double h
   return {x_next, implicit_half(x_next, explicit_half(x, v))};
 }
 
-/// The step's matrix, a column for each of two starts.
+/// The step's matrix, one column for each of two starts.
 Eigen::Matrix2d matrix_by_lines(Scheme scheme, const Oscillator& o, double h) {
   const auto first = step_by_lines<double>(scheme, o, h, {1, 0}),
              second = step_by_lines<double>(scheme, o, h, {0, 1});
@@ -79,7 +78,7 @@ std::vector<oracles::ForecastInput> forecast_inputs() {
   for (const double friction : {0., .3, .3, 1.7, .05, 40.}) {
     const Vector3 normal = random.vectors(1, 1).col(0).normalized();
     const Vector3 v_object = random.vectors(1, .7).col(0);
-    // the first two leave, the others meet the object
+    // the first two move away, the others hit the object
     const double towards = list.size() < 2 ? .9 : -random.uniform(.3, 3);
     list.push_back({random.uniform(-.002, .004), normal, v_object,
                     v_object + towards * normal + random.vectors(1, 1).col(0).cross(normal),
@@ -88,8 +87,8 @@ std::vector<oracles::ForecastInput> forecast_inputs() {
   return list;
 }
 
-/// By the principle that Coulomb's law rests on: of all frictional impulses within the cone take
-/// the one that leaves the least sliding speed, found by halving the angle's bracket, in doubles.
+/// By the principle behind Coulomb's law: of all frictional impulses within the cone, take the one
+/// with the least remaining sliding speed, by bisecting the angle in doubles.
 Vector3 forecast_by_least_sliding(const oracles::ForecastInput& input) {
   const Vector3& N = input.normal;
   const double gap = input.phi + input.tau * (input.v - input.v_object).dot(N);
@@ -102,7 +101,7 @@ Vector3 forecast_by_least_sliding(const oracles::ForecastInput& input) {
   const auto impulse = [&](double angle) {
     return Vector3(most * (std::cos(angle) * one + std::sin(angle) * other));
   };
-  // of the remaining speed with the angle, up to a positive factor
+  // derivative of the remaining speed by the angle, up to a positive factor
   const auto change = [&](double angle) {
     return (sliding + impulse(angle))
         .dot(Vector3(-std::sin(angle) * one + std::cos(angle) * other));
@@ -115,7 +114,7 @@ Vector3 forecast_by_least_sliding(const oracles::ForecastInput& input) {
   return pushed + impulse(start);
 }
 
-/// Springs beyond their limits, long and short, with free ends and with a held one.
+/// Springs beyond their limits, long and short, with free ends and with one held end.
 std::vector<oracles::LimitedSpringInput> limited_spring_inputs() {
   Random random(829);
   std::vector<oracles::LimitedSpringInput> list;
@@ -132,7 +131,7 @@ std::vector<oracles::LimitedSpringInput> limited_spring_inputs() {
   return list;
 }
 
-/// The impulse along d by bracketing the length that it leaves.
+/// The impulse along d, by bracketing on the resulting length.
 double length_error(const oracles::LimitedSpringInput& s, double impulse) {
   const Vector3 d = s.x_b - s.x_a, along = d.normalized();
   const Vector3 v_a = s.v_a - impulse * s.inverse_mass_a * along,
@@ -238,7 +237,7 @@ void rotation_lengths_agree(Answers& answers) {
   for (const auto& [pair, omega] : {std::pair{oracles::SpringPair{41, .13, .7, .05, .09}, 7.3},
                                     std::pair{oracles::SpringPair{9, 2.1, 1.6, .4, .23}, 1.9}}) {
     const double mass = pair.mass_a * pair.mass_b / (pair.mass_a + pair.mass_b);
-    // of the spring over what the turn needs [N]
+    // of the spring over the force that the turn needs [N]
     const auto surplus = [&, pair = pair, omega = omega](double length) {
       return pair.young * pair.area / pair.rest_length * (length / pair.rest_length - 1) -
              mass * omega * omega * length;

@@ -4,7 +4,7 @@ namespace foldproof {
 
 namespace {
 
-/// All in the order in which they are shown.
+/// All, in the order of display.
 std::vector<Comparison> comparisons() {
   std::vector<Comparison> all;
   for (const auto& part : {force_comparisons, motion_comparisons, static_comparisons,
@@ -13,7 +13,7 @@ std::vector<Comparison> comparisons() {
   return all;
 }
 
-/// What the two ways of a comparison find.
+/// The results of both methods of a comparison.
 Answers answers_of(const Comparison& comparison) {
   Answers answers;
   comparison.compare(answers);

@@ -15,14 +15,14 @@ namespace {
 using oracles::Estimate;
 using Series = std::array<long double, 26>;  // coefficients of powers of the arc length
 
-/// Tip of the strip for one curvature at the clamp: slope's derivative, drop, reach.
+/// Tip of the strip for one curvature at the clamp: derivative of the slope, drop, reach.
 struct Tip {
   long double curvature, drop, reach;
 };
 
 /// theta'' = -(weight (1 - s) + load) cos(theta) from theta = 0 at the clamp, by its power series
-/// about each of sixty places, in extended precision: no step-size control, no stages, nothing of
-/// GSL. weight = rho_A g L^3/B, load = P L^2/B.
+/// about each of sixty points in extended precision, with no step-size control, stages or GSL.
+/// weight = rho_A g L^3/B, load = P L^2/B.
 Tip bent_by_series(double weight, double load, long double curvature) {
   constexpr int places = 60;
   constexpr long double ds = 1.0L / places;
@@ -58,8 +58,8 @@ struct BentTip {
   Estimate drop, reach;
 };
 
-/// The tip without curvature, by bisection of the clamp's. The series err by far less than 1e-15,
-/// the answer is rounded.
+/// The tip where its curvature is zero, by bisection on the clamp's. The series err by far less
+/// than 1e-15; the answer is rounded.
 BentTip bent_strip(double weight, double load) {
   long double low = 0, high = weight / 2 + load;
   for (int i = 0; i < 70; ++i) {
@@ -70,8 +70,8 @@ BentTip bent_strip(double weight, double load) {
   return {{double(tip.drop), 1e-15}, {double(tip.reach), 1e-15}};
 }
 
-/// A patch of nine by nine cells of rectangles split as `rises` says, all of whose points stay on
-/// the cylinder; the hinges of a block of 2 x 2 cells in its middle count.
+/// A patch of nine by nine rectangular cells, split according to `rises`; all its points stay on
+/// the cylinder. Only the hinges of the 2 x 2 cells in its middle count.
 oracles::PlaneSheet patch_of(const oracles::SplitBlock& block) {
   constexpr int cells = 9, first = 4;
   oracles::PlaneSheet sheet;
@@ -83,7 +83,7 @@ oracles::PlaneSheet patch_of(const oracles::SplitBlock& block) {
   const auto rises = [&](int i, int j) {
     return !block.rises || block.rises(i % block.columns, j % block.rows);
   };
-  // the corner of cell (i, j) that is opposite to the side shared with a neighbour
+  // the corner of cell (i, j) opposite to the side shared with a neighbour
   const auto add = [&](int x1, int x2, int x3, int x4, bool counts) {
     sheet.hinges.push_back({x1, x2, x3, x4});
     sheet.counted.push_back(counts);
@@ -185,7 +185,7 @@ void rigidities_agree(Answers& answers) {
   }
   const auto jack =
       oracles::split_rectangles({1, 1, 2, 2, [](int i, int j) { return (i + j) % 2 == 0; }});
-  for (const double angle : {.1, .9, 2.2})  // criss-cross is union jack, turned by 45 degrees
+  for (const double angle : {.1, .9, 2.2})  // criss-cross is union jack turned by 45 degrees
     answers.compare("relaxed union jack and criss-cross, at " + std::to_string(angle),
                     {oracles::cylinder_rigidity(oracles::relaxed_rigidity(jack), angle), off},
                     {oracles::cylinder_rigidity(

@@ -1,4 +1,4 @@
-// Oracles of folds, ribbons and chains, checked by oracles.
+// Oracles of folds, ribbons and chains, checked by other oracles.
 #include <fmt/format.h>
 
 #include "verification/checks/oracles/agreement.h"
@@ -28,7 +28,7 @@ void tipping_ribbons_agree(Answers& answers) {
                   oracles::tipping_load_by_shooting());
   answers.compare("load of a column, series and shooting", oracles::self_buckling_load_by_series(),
                   oracles::self_buckling_load_by_shooting());
-  // a ribbon's two edges cost it the same, however wide it is: more rows add the sheet's own
+  // a ribbon's two edges lower its rigidity equally at any width: more rows add the sheet's own
   const double edge = 0.7, added = 20 * edge * std::sqrt(0.75);
   const oracles::RibbonRigidity narrow = oracles::equilateral_ribbon(edge, 40),
                                 wide = oracles::equilateral_ribbon(edge, 60);
@@ -129,7 +129,7 @@ void clamped_stresses_agree(Answers& answers) {
                           std::to_string(sheet.length_over_width) + " widths",
                       one[i], other[i]);
   }
-  // what does not narrow is not held back
+  // without Poisson contraction the clamps restrain nothing
   answers.compare("no Poisson effect",
                   oracles::clamped_stress_by_stresses({2, 0}, std::array<double, 1>{0.2})[0],
                   {0, 1e-12});

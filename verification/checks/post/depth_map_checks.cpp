@@ -1,4 +1,4 @@
-// The maps of signed distance by themselves.
+// The maps of signed distance alone.
 #include "reference/post/depth_map.h"
 #include "verification/oracles/depth_maps.h"
 #include "verification/specimens/check.h"
@@ -54,8 +54,8 @@ Finding ends_are_right() {
       for (const double below : {1.0, 1.7, 40.0})
         deepest.observe(std::abs(map.at(band, -below * band.deepest) - band.nearest) /
                         (epsilon * band.reach));
-      for (const double beyond : {1.0, 1.3, 900.0}) {  // those are not moved: not by a bit
-        // divided, for a fused difference has the product's rounding
+      for (const double beyond : {1.0, 1.3, 900.0}) {  // these do not move, not by a bit
+        // divided, because a fused difference keeps the product's rounding
         const double phi = beyond * band.reach;
         at_reach.observe(std::abs(map.at(band, phi) / phi - 1) * beyond / epsilon);
       }
@@ -66,7 +66,7 @@ Finding ends_are_right() {
   return judge_worst(measured, 8, "phi + t^ at -t^ is off by a rounding of t^, at most 6 tau");
 }
 
-/// A convex map misses the slope 1 over the last h by its second derivative, largest at
+/// Over the last h the slope of a convex map differs from 1 by its second derivative, largest at
 /// tau, times h/2.
 double bend_at_reach(const DepthMap& map, const DepthBand& band) {
   const double depths = band.reach + band.deepest, band_width = band.reach - band.nearest,
@@ -90,7 +90,7 @@ Finding meets_the_identity_smoothly() {
                      "that length, 1e-12 of a slope of 1 against 1e-5");
 }
 
-/// Depths that fall, and, if they have to rise, depths that stay, of those given in rising order.
+/// Number of ascending depths whose mapped depth falls, or stays where it must rise.
 double disorder(const DepthMap& map, const DepthBand& band, bool has_to_rise) {
   double wrong = 0, last = map.at(band, -band.deepest);
   for (int k = 1; k <= 500; ++k) {

@@ -1,4 +1,4 @@
-// Points moved out of objects: where they end, what is left alone.
+// Points moved out of objects: final positions, and points that must not move.
 #include <numeric>
 
 #include "verification/specimens/check.h"
@@ -60,7 +60,7 @@ Finding lands_where_the_map_says() {
   return judge_worst(over_maps({"largest miss", "m"}, largest_miss), twice, tolerance_reason);
 }
 
-/// How far outside [eps, tau] the points are that began short of tau [m].
+/// Largest distance outside [eps, tau] among the points that started below tau [m].
 double outside_band(const PerParticle& before, const PerParticle& after, const DepthBand& band) {
   Worst worst;
   for (Eigen::Index i = 0; i < before.size(); ++i)
@@ -146,7 +146,7 @@ Finding fates_are_true() {
       0, "where there is room every point is moved to the end, and its reported outcome is true");
 }
 
-/// Pairs, neighbours in depth, that changed their order by more than the tolerance.
+/// Pairs of neighbours in depth whose order is reversed by more than the tolerance.
 double disorder(const PerParticle& before, const PerParticle& after) {
   std::vector<Eigen::Index> order(size_t(before.size()));
   std::iota(order.begin(), order.end(), 0);

@@ -1,4 +1,4 @@
-// The projection of whole cloths: pinched ones, and subdivided ones.
+// The projection of whole cloths: pinched and subdivided.
 #include "reference/mesh/shapes.h"
 #include "reference/mesh/subdivision.h"
 #include "verification/oracles/exact_geometry.h"
@@ -80,13 +80,13 @@ PerParticle3 sunk(const TriangleMesh& mesh) {
   return x;
 }
 
-/// Cloth brought out of the ball about the origin, and the eps with which [m].
+/// Cloth moved out of the ball about the origin, and the eps used [m].
 struct BroughtOut {
   PerParticle3 x;
   double eps;
 };
 
-/// With an eps that suits the edges that these triangles have afterwards.
+/// With an eps that suits the edge lengths after the projection.
 BroughtOut out_of_the_ball(const std::vector<Triangle>& triangles, const PerParticle3& x) {
   const auto enough = [&](const PerParticle3& at) {
     return std::pow(longest_edge(triangles, at), 2) / (6 * radius);

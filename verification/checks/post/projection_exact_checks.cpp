@@ -36,12 +36,12 @@ oracles::TriangleSoup soup_of(const TriangleMesh& mesh, const PerParticle3& x) {
 
 Object body(const Solid& solid) { return {"body", RigidObject{solid, {}, Motion{}}, 0}; }
 
-/// A solid, and how many triangles of a cloth are not clear of it.
+/// A solid, and the count of a cloth's triangles that are not clear of it.
 struct Target {
   std::string name;
   Solid solid;
   double top;                                 // its height above the origin [m]
-  std::function<double(double edge)> enough;  // eps for edges so long [m]
+  std::function<double(double edge)> enough;  // eps for edges of this length [m]
   std::function<std::size_t(const oracles::TriangleSoup&)> inside;
 };
 
@@ -59,7 +59,7 @@ std::vector<Target> targets() {
            }}};
 }
 
-/// The sheet projected with eps enough for the edges that it has afterwards, or with eps = 0.
+/// The sheet projected with an eps large enough for its edges afterwards, or with eps = 0.
 PerParticle3 project_out(const Target& target, const Sunk& sunk, const std::string& map,
                          bool has_clearance) {
   const ProjectionCase specimen{target.name, {body(target.solid)}, 0, sunk.x};
@@ -67,7 +67,7 @@ PerParticle3 project_out(const Target& target, const Sunk& sunk, const std::stri
   PerParticle3 x = sunk.x;
   for (int k = 0; k < 4; ++k) {
     FoldProjection projection = projection_by(map);
-    projection.band = {eps, 2 * eps + 0.03, 0.04};  // the deepest points all go to eps
+    projection.band = {eps, 2 * eps + 0.03, 0.04};  // the deepest points all map to eps
     x = project_specimen(specimen, projection).x;
     if (!has_clearance || eps >= target.enough(longest_edge(sunk.mesh.triangles, x))) break;
     eps = 1.01 * target.enough(longest_edge(sunk.mesh.triangles, x));

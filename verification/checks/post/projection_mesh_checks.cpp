@@ -1,5 +1,5 @@
-// Cloth brought out of a body that is a triangle mesh, known by exact distances or by a grid;
-// whether it is out is decided without either.
+// Cloth moved out of a body that is a triangle mesh, known by exact distances or by a grid; whether
+// it is outside is decided without either.
 #include <memory>
 
 #include "reference/level_set/mesh_grid.h"
@@ -14,11 +14,11 @@ namespace foldproof {
 
 namespace {
 
-/// The statue, as something that answers with its signed distance.
+/// The statue as a solid with its signed distance.
 struct KnownStatue {
   std::string name;
   Solid solid;
-  double margin;  // by how much the answer may be too large, between nodes and next to edges [m]
+  double margin;  // the distance may be too large by this, between nodes and next to edges [m]
 };
 
 std::vector<KnownStatue> statues() {
@@ -29,7 +29,7 @@ std::vector<KnownStatue> statues() {
           {"grid of 48 cells", GridSolid{grid}, grid->lattice.spacing}};
 }
 
-/// A wavy sheet that cuts a centimetre into what is foremost.
+/// A wavy sheet that cuts a centimetre into the foremost part of the statue.
 struct Worn {
   TriangleMesh mesh;
   ProjectionCase specimen;

@@ -1,4 +1,4 @@
-// Smooth surfaces that do not cross themselves, judged without rounding by the oracle.
+// Smooth surfaces that do not cross themselves, decided by the oracle without rounding.
 #include <fmt/format.h>
 
 #include "reference/mesh/shapes.h"
@@ -12,8 +12,8 @@ namespace foldproof {
 
 namespace {
 
-/// Two ridges, one in the other; the upper one has cells twice as wide, so that Loop's rule rounds
-/// its ridge off further than the lower one's.
+/// Two ridges, one inside the other; the upper one has cells twice as wide, so that Loop's rule
+/// flattens its ridge more than the lower one's.
 struct NestedRidges {
   std::string words;
   TriangleMesh mesh;
@@ -57,7 +57,7 @@ Finding never_crosses() {
                 crossings(cloth.x, triangles), cloth.rounds, cloth.share.mean(),
                 (cloth.share.array() == 0).count());
     }
-  // where Loop's surface does not cross, nothing is shown
+  // where Loop's surface does not cross, this shows nothing
   const auto& plain = found.numbers("Loop's crossings");
   const bool is_hard = *std::min_element(plain.begin(), plain.end()) > 0;
   const double most = is_hard ? found.worst("crossings") : nan;

@@ -18,7 +18,7 @@ namespace {
 constexpr double radius = 0.13;      // m
 constexpr double degree = pi / 180;  // rad
 
-/// A ball as an OBJ file, and [[object]] of it with these keys.
+/// A ball as an OBJ file, and an [[object]] that uses it with these keys.
 std::string ball_body(const ScratchFolder& folder, const std::string& keys) {
   const TriangleMesh ball = make_icosphere(radius, 3);
   write_obj(folder.file("ball.obj"), ball.rest, ball.triangles);
@@ -37,7 +37,7 @@ Octree octree_of(const Scene& scene) {
   return *std::get<OctreeSolid>(std::get<RigidObject>(first_object(scene).body).solid).tree;
 }
 
-/// The largest miss next to the surface, at points on both sides of the ball's faces [tolerances].
+/// The largest error near the surface, at points on both sides of the ball's faces [tolerances].
 double octree_miss(const Octree& tree) {
   const TriangleMesh ball = make_icosphere(radius, 3);
   const MeshDistance exact = make_mesh_distance(ball.rest, ball.triangles);
@@ -75,8 +75,8 @@ Finding octree_finding() {
                      "an octree keeps its tolerance, to which hanging nodes add another");
 }
 
-/// Where the point X of the body goes, by another road than the reference takes: about the centre
-/// of the arc, at R = height/angle beside the base.
+/// Position of the body's point X, derived independently of the reference: about the centre of the
+/// arc, at R = height/angle beside the base.
 Vector3 bend_point(const Vector3& X, double angle, double height) {
   const double R = height / angle, phi = X.y() / R;
   return {R - (R - X.x()) * std::cos(phi), (R - X.x()) * std::sin(phi), X.z()};
@@ -94,8 +94,8 @@ Vector3 breathe_point(const Vector3& X, double growth, double height) {
 
 using Shaping = std::function<Vector3(const Vector3& X, double share, double height)>;
 
-/// Largest distance of the drawn surface from the placed ball, deformed by hand; heights count from
-/// its lowest point [m].
+/// Largest distance of the drawn surface from the placed ball, deformed by hand; heights are
+/// measured from its lowest point [m].
 double surface_miss(const Scene& scene, const Shaping& shaping, double period, double t) {
   const TriangleMesh ball = make_icosphere(radius, 3);
   const Vector3 move(0.2, -0.1, 0.3);
@@ -165,7 +165,7 @@ Finding deformation_finding() {
       "sines, cosines and products of lengths below 1 m, with a few dozen roundings in either way");
 }
 
-/// Two frames of a ball in a folder, whose name is returned.
+/// Two frames of a ball in a folder; returns the folder's name.
 std::string written_frames(const ScratchFolder& folder) {
   const TriangleMesh ball = make_icosphere(radius, 2);
   const std::string frames = folder.file("frames");
@@ -201,7 +201,7 @@ Finding frames_finding() {
                             "scaled, moved and averaged with a few roundings of lengths below 1 m");
 }
 
-/// The drawn surface lies on the level sets that the cloth meets, at frames and between.
+/// The drawn surface lies on the level sets that the cloth touches, at frames and in between.
 Finding surface_finding() {
   const ScratchFolder folder;
   Table measured{{"case", ""},
@@ -226,7 +226,7 @@ Finding surface_finding() {
                      "rad, of a displacement of 5 mm: 1e-6 m, a thousandth of it");
 }
 
-/// A folder of one file more than there may be frames, whose name is returned.
+/// A folder with one file more than the allowed number of frames; returns its name.
 std::string too_many_frames(const ScratchFolder& folder) {
   const std::string frames = folder.file("many");
   std::filesystem::create_directory(frames);

@@ -1,4 +1,4 @@
-// Cloth that a case file shapes, copies or folds, and what it says of cloth meeting itself.
+// Cloth that a case file shapes, copies or folds, and the keys for its self-collision.
 #include "reference/mesh/shapes.h"
 #include "verification/specimens/check.h"
 #include "verification/specimens/differences.h"
@@ -31,8 +31,8 @@ void see_shape(Differences& differences, const std::string& name, const Scene& s
   differences.is(name + ", triangles", int(scene.mesh.triangles.size()) == triangles);
 }
 
-/// Farthest that a particle's distance from the origin is from r, in the directions that `axes`
-/// does not cancel [m].
+/// Largest deviation of a particle's distance from the origin from r, in the directions that `axes`
+/// keeps [m].
 double off_radius(const Scene& scene, const Vector3& axes, double r) {
   const PerParticle3 x = axes.asDiagonal() * scene.x;
   return (x.colwise().norm().array() - r).abs().maxCoeff();
@@ -191,8 +191,8 @@ std::string folded_case(int layers, const std::string& more = "") {
          more;
 }
 
-/// Where the point at the arc length s [m] of a strip of length `length` in three layers is, along
-/// and up [m]: each stretch by itself.
+/// Point at arc length s [m] of a strip of length `length` in three layers, along and up [m]: each
+/// stretch separately.
 Eigen::Vector2d in_three_layers(double s, double length) {
   const double turn = pi * gap / 2, run = (length - 2 * turn) / 3, r = gap / 2;
   const auto on_circle = [&](double into) {

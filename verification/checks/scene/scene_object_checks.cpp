@@ -47,7 +47,7 @@ Vector3 rotate(double degrees, const Vector3& axis, const Vector3& x) {
   return Eigen::AngleAxisd(degrees * pi / 180, axis.normalized()) * x;
 }
 
-/// Distances that the solids must have at a time, worked out by hand from the text.
+/// Distances that the solids must have at a time, worked out by hand from the case's text.
 void see_places(const Scene& scene, Differences& differences) {
   const Vector3 tip = rotate(41, {1, -2, 0.5}, {0, 0, 0.35}) + Vector3(0.2, -0.3, 0.5);
   const Vector3 out = rotate(41, {1, -2, 0.5}, {0, 0, 1});
@@ -90,7 +90,7 @@ Finding meaning_finding() {
                             "rotations and distances of lengths below 2 m: a dozen roundings each");
 }
 
-/// The surface that is drawn lies on the solid, but for its facets.
+/// The drawn surface lies on the solid, except for its facets.
 Finding surface_finding() {
   const Scene scene = trial_scene(three_objects);
   Worst off;

@@ -1,4 +1,4 @@
-// Where a case file puts the cloth, and how it starts and is held.
+// Placement of the cloth by a case file, its initial velocity and its held particles.
 #include "reference/mesh/shapes.h"
 #include "reference/scene/scene.h"
 #include "verification/specimens/check.h"

@@ -42,10 +42,10 @@ tolerance = 1e-8
 max_iterations = 30
 )";
 
-/// One edit of the case above that has to be refused.
+/// One edit of the case above that must be refused.
 struct Rejection {
-  std::string find, replace;          // the last line of `replace` is the one that is wrong
-  std::vector<std::string> mentions;  // what the message has to contain beside file and line
+  std::string find, replace;          // the last line of `replace` is the wrong one
+  std::vector<std::string> mentions;  // must be in the message beside file and line
 };
 
 std::string edit(const Rejection& rejection) {
@@ -56,7 +56,7 @@ std::string edit(const Rejection& rejection) {
   return text.replace(place, rejection.find.size(), rejection.replace);
 }
 
-/// "trial.toml:LINE: " of the line that is wrong.
+/// "trial.toml:LINE: " of the wrong line.
 std::string expected_place(const Rejection& rejection) {
   const std::string text = edit(rejection);
   const size_t end = trial_case.find(rejection.find) + rejection.replace.size();
@@ -75,7 +75,7 @@ std::string missing(const Rejection& rejection, const std::string& message) {
 }
 
 Finding rejected(const std::vector<Rejection>& rejections) {
-  read_scene_text(trial_case, "trial.toml");  // the unedited case is understood
+  read_scene_text(trial_case, "trial.toml");  // the unedited case is valid
   double wrong = 0;
   Table answers{{"edit", "1"}, {"message", "1"}, {"lacking", "1"}};
   for (const Rejection& rejection : rejections) {
@@ -90,7 +90,7 @@ Finding rejected(const std::vector<Rejection>& rejections) {
           answers};
 }
 
-/// A line after another one.
+/// Inserts a line after another one.
 Rejection add_line(const std::string& after, const std::string& line,
                    std::vector<std::string> mentions) {
   return {after, after + "\n" + line, std::move(mentions)};

@@ -95,7 +95,7 @@ Finding carried_finding() {
   return differences.judged(8, "a rigid motion of points of size 1 takes a few roundings");
 }
 
-/// Three triangles: the first two of an object of two names and a group each, the last of none.
+/// Three triangles: the first two in an object with two names and one group each, the last in none.
 const std::string grouped = R"(v 0 0 0
 v 1 0 0
 v 1 1 0

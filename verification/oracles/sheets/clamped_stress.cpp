@@ -16,12 +16,12 @@ using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
 // Terms along and across. Stresses are infinite in the corners, so errors fall with a power of
-// these; half as many terms tell them.
+// these numbers; half as many terms give an error estimate.
 constexpr int terms_along = 24, terms_across = 16;
 
 enum class Parity { even, odd };
 
-/// Functions of one coordinate from 0, on a middle line, to 1; a column each at some places.
+/// Functions of one coordinate from 0, on a middle line, to 1: a column each, a row per place.
 struct Functions {
   Matrix value, first, second;  // derivatives
 };
@@ -50,14 +50,14 @@ Functions zero_at_end(const Functions& f, const Vector& s) {
           -2 * f.value + 2 * (dq.asDiagonal() * f.first) + q.asDiagonal() * f.second};
 }
 
-/// With derivatives against a coordinate that ends at `end`.
+/// With derivatives by a coordinate that ends at `end`.
 Functions over(Functions f, double end) {
   f.first /= end;
   f.second /= end * end;
   return f;
 }
 
-/// Products of all functions along with all across: rows and columns, or single ones.
+/// Products of every function along with every function across: rows and columns, or single ones.
 Matrix products(const Matrix& along, const Matrix& across) {
   Matrix all(along.rows() * across.rows(), along.cols() * across.cols());
   for (Eigen::Index i = 0; i < along.rows(); ++i)
@@ -77,7 +77,7 @@ Vector integrals(const Matrix& one, const Vector& weight) { return one.transpose
 struct Quarter {
   double half_length, nu;
   Gauss x, y;
-  Vector places;  // on the middle line, over half the length from the middle
+  Vector places;  // on the middle line; distance from the middle over half the length
   int along, across;
 
   Quarter(const ClampedRectangle& sheet, std::span<const double> from_clamp, int divided)

@@ -1,4 +1,4 @@
-// A flat rectangular sheet between two clamps that are pulled apart: where it is compressed across.
+// A flat rectangular sheet between two clamps pulled apart: where it is compressed across.
 #pragma once
 
 #include <span>
@@ -16,11 +16,11 @@ struct ClampedRectangle {
 };
 
 /// The stress across over the tension T, the mean stress along, on the middle line between the free
-/// edges at `places` from a clamp over the length, from 0.05 to 0.5 [1]. Positive is tension.
+/// edges [1]; positive is tension. places: distance from a clamp over the length, 0.05 to 0.5.
 ///
-/// Stresses that are in equilibrium with T, of least complementary energy: second derivatives of
+/// Stresses in equilibrium with T, of least complementary energy: second derivatives of
 ///   T y^2/2 + (1 - (2 y/W)^2)^2 sum c_mn P_2m(2 x/L) P_2n(2 y/W),
-/// Legendre's polynomials P. The clamps do no work on what is added to T: it has no force.
+/// Legendre's polynomials P. The clamps do no work on the terms added to T: they have no force.
 std::vector<Estimate> clamped_stress_by_stresses(const ClampedRectangle& sheet,
                                                  std::span<const double> places);
 

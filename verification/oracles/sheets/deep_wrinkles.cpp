@@ -58,7 +58,7 @@ struct Terms {
   }
 };
 
-/// The load doubles up to N, from where the heights are those of a sine.
+/// The load doubles up to N, starting where the heights are those of a sine.
 Eigen::VectorXd followed(const Terms& terms, double N) {
   const double q2 = pi * pi;
   const double onset = (terms.D * std::pow(q2 + terms.K, 2) + q2) / terms.K;  // of a sine
@@ -84,7 +84,7 @@ double bend_of(const Eigen::VectorXd& c) {
   return bend;
 }
 
-/// f and f' at a clamp, for f and f'' in the middle.
+/// f and f' at a clamp, for given f and f'' in the middle.
 std::array<double, 2> at_clamp(const DeepWrinkles& wrinkles, double middle, double bend) {
   const double D = wrinkles.reach * wrinkles.reach, K = std::pow(2 * pi / wrinkles.wavelength, 2);
   const RightHandSide rhs = [&](double, std::span<const double> y, std::span<double> dy) {
@@ -111,7 +111,7 @@ DeepWrinkleHeight deep_wrinkles_by_series(const DeepWrinkles& wrinkles,
   DeepWrinkleHeight result;
   const double middle = middle_of(c);
   if (!(middle > 0.05)) throw InputError("oracle deep_wrinkles: this plate stays flat");
-  // errors fall at least with the square of the terms
+  // errors fall at least with the square of the number of terms
   result.middle = {middle, std::abs(middle - middle_of(fewer)) / 3 + count * last};
   result.bend = bend_of(c);
   for (const double s : places) {

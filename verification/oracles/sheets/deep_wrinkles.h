@@ -1,4 +1,4 @@
-// Wrinkles of a stretched plate far beyond their onset: how high they are.
+// Wrinkles of a stretched plate far beyond their onset: their height.
 #pragma once
 
 #include <span>
@@ -8,10 +8,10 @@
 
 namespace foldproof::oracles {
 
-/// A plate as in stretched_wrinkles.h with Young's modulus Y times thickness, whose width is
-/// shorter by a part Delta than the tension alone makes it. Across, every section is as short as
-/// the others. Where the plate folds as w = X(s) cos(k y), k^2 X^2/4 of Delta is folded away, and
-/// the rest is compressed:
+/// A plate as in stretched_wrinkles.h with Young's modulus times thickness Y, whose width is
+/// shortened by the fraction Delta beyond the contraction from tension. Every section is shortened
+/// equally. Where the plate folds as w = X(s) cos(k y), k^2 X^2/4 of Delta is folded away, and the
+/// rest is compressed:
 ///   D (X'''' - 2 k^2 X'' + k^4 X) - T X'' - k^2 Y (Delta - k^2 X^2/4) X = 0.
 /// With X = (2/k) Delta^(1/2) f and lengths over L, three numbers remain.
 struct DeepWrinkles {
@@ -23,7 +23,7 @@ struct DeepWrinkles {
 struct DeepWrinkleHeight {
   Estimate middle;              // f halfway between the clamps
   double bend = 0;              // f'' there
-  std::vector<double> heights;  // f at places from 0 to 1 that were asked for
+  std::vector<double> heights;  // f at the requested places, from 0 to 1
 };
 
 /// f by a series sum c_j (1 - cos(2 pi j s)) of least energy, followed from small heights up. No
@@ -34,8 +34,8 @@ DeepWrinkleHeight deep_wrinkles_by_series(const DeepWrinkles& wrinkles,
 /// f in the middle, by shooting from there to a clamp, started near `guess`; reach >= 0.08.
 Estimate deep_wrinkles_by_shooting(const DeepWrinkles& wrinkles, const DeepWrinkleHeight& guess);
 
-/// f = 2^(1/2): a sine along the length whose excess length is Delta in the mean. f = 1: every
-/// section folds away what it is prescribed. With X in wavelengths,
+/// f = 2^(1/2): a sine along the length whose mean excess length is Delta. f = 1: every section
+/// folds away all of its prescribed shortening. With X in wavelengths,
 ///   X = (2^(1/2)/pi) Delta^(1/2) or X = (1/pi) Delta^(1/2).
 constexpr double folded_in_the_mean = 1.4142135623730951;
 constexpr double folded_in_each_section = 1;

@@ -1,4 +1,4 @@
-// A disc cut into flat sectors, and the cone that it is when it hangs from its centre.
+// A disc cut into flat sectors, and the cone that it forms when it hangs from its centre.
 #pragma once
 
 #include <array>
@@ -9,10 +9,10 @@
 namespace foldproof::oracles {
 
 /// Straight spokes divide the disc into equal sectors. Up to `core` of its radius each sector is
-/// one triangle; beyond, rings are as far apart as spokes. A cone whose curve is a polygon turns at
-/// the spokes alone and stretches nothing. Particle 0 is the centre; those of a ring follow each
-/// other, from the innermost ring out. The mesh is its own mirror image about two diameters, so
-/// that two folds lie still on it.
+/// one triangle; beyond, rings are as far apart as spokes. A cone over a polygon folds at the
+/// spokes alone and stretches nothing. Particle 0 is the centre; the particles of a ring are
+/// consecutive, from the innermost ring out. The mesh is symmetric about two diameters, so that two
+/// folds stay still on it.
 struct DiscOfSectors {
   int sectors;    // a multiple of 4
   double radius;  // m
@@ -24,9 +24,9 @@ struct DiscOfSectors {
   std::vector<std::array<int, 3>> triangles() const;  // normals +z
 };
 
-/// Directions of the spokes on the unit sphere, neighbours apart by the angle of a sector: those
-/// of a polygon whose vertices have the heights of the hung cone of this weight, but for a shift
-/// that closes it.
+/// Directions of the spokes on the unit sphere, neighbours apart by the angle of a sector. They
+/// form a polygon whose vertices have the heights of the hung cone of this weight, except for a
+/// shift that closes it.
 std::vector<Vector3> spokes_of_hung_cone(int folds, double weight, int sectors);
 
 }  // namespace foldproof::oracles

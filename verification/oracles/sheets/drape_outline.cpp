@@ -7,7 +7,7 @@ namespace foldproof::oracles {
 
 namespace {
 
-/// Lets an edge from a by d reach out in the directions that it covers.
+/// Extends the outline by an edge from a to a + d, in the directions that the edge covers.
 void add_edge(Outline& outline, const Eigen::Vector2d& a, const Eigen::Vector2d& d) {
   const long directions = long(outline.size());
   const double step = 2 * pi / double(directions), from = std::atan2(a.y(), a.x());

@@ -1,4 +1,4 @@
-// The shadow of a draped disc of cloth: how far it reaches, its drape coefficient and its folds.
+// The shadow of a draped disc of cloth: its outline, its drape coefficient and its folds.
 #pragma once
 
 #include <array>
@@ -13,15 +13,15 @@ struct DrapeRadii {
   double specimen, plate;
 };
 
-/// The cloth from above, from outside in: how far its edge or a fold reaches from the axis in each
-/// of equally spaced directions [m], at least to the plate's rim.
+/// The cloth seen from above: the farthest distance of its edge or of a fold from the axis in each
+/// of equally spaced directions [m], at least that of the plate's rim.
 using Outline = std::vector<double>;
 
 /// x: 3 x N [m], z up, the axis at x = y = 0.
 Outline outline_of(const PerParticle3& x, const std::vector<std::array<int, 3>>& triangles,
                    double plate, int directions);
 
-/// The shadow beyond the plate over that of the level ring [1].
+/// Area of the shadow beyond the plate over that of the flat ring [1].
 double drape_coefficient(const Outline& outline, const DrapeRadii& radii);
 
 /// Highest points around the outline that stand out by the prominence [m].

@@ -64,7 +64,7 @@ std::vector<std::array<int, 3>> GrowingRing::triangles() const {
   const auto particle = [&](int circle, int i) { return circle * around + i % around; };
   for (int circle = 0; circle <= rows; ++circle)
     for (int i = 0; i < around; ++i) {
-      const int turned = circle % 2;  // the inner circle lies half a space ahead
+      const int turned = circle % 2;  // the inner circle is half a spacing ahead
       const int in = particle(circle, i), in_next = particle(circle, i + 1);
       const int out = particle(circle + 1, i + turned), out_next = particle(circle + 1, i + 1);
       all.push_back({in, out, in_next});

@@ -13,7 +13,7 @@ namespace foldproof::oracles {
 
 namespace {
 
-constexpr int load_steps = 12;  // the weight grows in so many steps; each starts from the last
+constexpr int load_steps = 12;  // the weight grows in this many steps; each starts from the last
 
 void require_known(int folds, double weight) {
   if (!(folds >= 2 && folds <= 9 && weight > 0))
@@ -55,8 +55,8 @@ struct HalfWave {
       }
   }
 
-  /// The derivative of energy - pull (azimuth - pi/folds) by the terms and by the pull, all of half
-  /// a wave; the last of the unknowns is the pull.
+  /// The derivative of energy - pull (azimuth - pi/folds), all over half a wave, by the terms and
+  /// by the pull; the last unknown is the pull.
   Eigen::VectorXd residual(const Eigen::VectorXd& unknowns) const {
     const Eigen::VectorXd b = unknowns.head(terms);
     const double pull = unknowns[terms];
@@ -102,7 +102,7 @@ double solve_by_newton(const Residual& residual, Eigen::VectorXd& x) {
   return last;
 }
 
-/// The terms, and how far they are from solved.
+/// The terms, and their distance from the solution.
 std::pair<Eigen::VectorXd, double> terms_of(int folds, double weight, int terms) {
   const GentleCone gentle = gentle_cone(folds, weight / load_steps);
   Eigen::VectorXd x = Eigen::VectorXd::Zero(terms + 1);

@@ -8,17 +8,17 @@
 
 namespace foldproof::oracles {
 
-/// A disc that does not stretch hangs from its centre. Its radii stay straight: it is a cone over a
-/// closed curve of length 2 pi on the unit sphere, by arc length s. With kappa the curve's
-/// curvature on the sphere, the cone's is kappa/r, and energy over bending rigidity times the
-/// logarithm of outer over inner radius is the integral of
+/// An inextensible disc hangs from its centre. Its radii stay straight: it is a cone over a closed
+/// curve of length 2 pi on the unit sphere, by arc length s. With kappa the curve's curvature on
+/// the sphere, the cone's is kappa/r. The energy over (bending rigidity times the logarithm of
+/// outer over inner radius) is the integral of
 ///   kappa^2/2 + weight z,
-/// z: height of the point on the sphere over the centre; the least one is sought among curves of
-/// `folds` equal waves about the vertical, each its own mirror image, that do not overhang.
+/// with z the height of the point on the sphere over the centre. The minimum is sought among curves
+/// of `folds` equal waves about the vertical, each its own mirror image, that do not overhang.
 struct HungCone {
   Estimate energy;              // see above [1]
   Estimate depth;               // of the curve's mean height below the centre [1]
-  std::vector<double> heights;  // z at the arc lengths that were asked for, 0 at a crest
+  std::vector<double> heights;  // z at the requested arc lengths, 0 at a crest
   double uncertainty = 0;       // of the heights
 };
 

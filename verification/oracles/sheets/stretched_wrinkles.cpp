@@ -28,7 +28,7 @@ struct Profile {
 Profile profile_of(double reach, double K) {
   const auto m_of = [&](double p) { return std::sqrt(p * p + 1 / (reach * reach) + 2 * K); };
   const auto slope = [&](double p) {
-    // times cos(p/2), to have no pole
+    // times cos(p/2), to avoid a pole
     return p * std::sin(p / 2) + m_of(p) * std::tanh(m_of(p) / 2) * std::cos(p / 2);
   };
   const double p = bracketed_root(slope, pi, 2 * pi, 0).value;
@@ -85,7 +85,7 @@ struct Series {
   }
 
   double compression() const {
-    // between no load and the one of j = 1 alone
+    // between zero load and the load of j = 1 alone
     const double D = reach * reach, none = D * K, q = 2 * pi;
     const double first = (D * std::pow(q, 4) + (1 + 2 * D * K) * q * q + D * K * K) / K;
     const double close = 1e-9 * (first - none);
@@ -127,7 +127,7 @@ Wrinkles wrinkles_by_series(double reach) {
     change = std::abs(next / series.K - 1);
     series.K = next;
   }
-  // terms that are left out of the sum, each below 2 b K/(reach q^2)^2
+  // terms omitted from the sum, each below 2 b K/(reach q^2)^2
   const double left_out = 2 * b * series.K / (3 * std::pow(2 * pi, 4) * 8e12 * reach * reach);
   const double off = change + left_out + 1e-11;
   return {{wavelength_of(series.K), off * wavelength_of(series.K)}, {b, off * b}};

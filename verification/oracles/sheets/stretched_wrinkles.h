@@ -31,7 +31,7 @@ std::vector<double> wrinkle_profile(double reach, std::span<const double> places
 /// Cerda and Mahadevan, Phys. Rev. Lett. 90 (2003) 074302: bending across against tension alone.
 /// With X = sin(pi s), b = D k^2 + T (pi/L)^2/k^2 is least at k^4 = (pi/L)^2 T/D:
 ///   wavelength = 2 pi^(1/2) (D/T)^(1/4) L^(1/2),   b = 2 pi (D T)^(1/2)/L.
-/// The uncertainty is how far wrinkles_by_functions is away: bending along, and the clamps.
+/// The uncertainty is the difference from wrinkles_by_functions: bending along, and the clamps.
 Wrinkles wrinkles_by_scaling(double reach);
 
 /// The rigidity D + T edge^2/48 against waves of many edges across the tension, of equilateral
