@@ -104,7 +104,7 @@ class ProgramTest(ProgramCase):
         sheet = "and no shipped case of that name; did you mean hanging_sheet?"
         for typed, said in {
             "simualte cases/hinge.toml": "unknown command 'simualte'; did you mean simulate?",
-            "frobnicate": "known: simulate, verify,",
+            "frobnicate": "known: ablate, bench,",
             "evaluate bendig": "did you mean bending?",
             "evaluate": "a command is missing, one of bending, crossings",
             "": "a command is missing, one of simulate,",
