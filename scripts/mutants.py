@@ -34,7 +34,7 @@ PYTHON_TESTS = {
         "PrecisionSolverTest": "test_precision_solver"
     }.items()
 } | {"IndependentTest": ROOT / "verification/independent/test_independent.py"}
-SHARED_BY_TESTS = ("program_case", "judge_case")
+SHARED_BY_TESTS = ("program_case", "judge_case", "campaign_case")
 APART_FOLDER = BUILD / "faults" / "apart"
 CLOCK = 240  # s: how long the processor may take for a mutant
 

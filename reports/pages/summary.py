@@ -133,7 +133,8 @@ def _verdict(judged: Judged) -> list[Piece]:
     ]
     generic = sum(one.scope == "generic" and one.outcome == "holds" for one in judged.findings)
     if generic:
-        said += [", ", count_of(generic, "generic findings that hold"), " of them generic"]
+        said += [", ", count_of(generic, "generic findings that hold"),
+                 " of them made by every case"]
     others = [
         [
             count_of(count, f"findings: {outcome}"), " ",

@@ -185,7 +185,8 @@ std::string summary(const RunRecord& run) {
     return r.outcome == Outcome::holds && scope_of(r) == FindingScope::generic;
   });
   const auto unrun = std::ranges::count_if(run.records, did_not_run);
-  const std::string of_them = generic > 0 ? fmt::format(" ({} generic)", generic) : "";
+  const std::string of_them =
+      generic > 0 ? fmt::format(" ({} that every case makes)", generic) : "";
   std::string findings = fmt::format("{} hold{}, {} fail, {} inconclusive, {} not applicable",
                                      count(Outcome::holds), of_them, count(Outcome::fails),
                                      count(Outcome::inconclusive), count(Outcome::not_applicable));

@@ -75,7 +75,13 @@ class SqliteTransaction {
  public:
   /// begin: the statement, as "begin" for a transaction that only reads at first.
   SqliteTransaction(SqliteFile& file, const std::string& begin) : file_(file) { file.run(begin); }
-  ~SqliteTransaction() { file_.roll_back(); }
+  /// Where the disk lets nothing be undone now, SQLite undoes it when the file is opened next.
+  ~SqliteTransaction() {
+    try {
+      file_.roll_back();
+    } catch (const std::exception&) {
+    }
+  }
   SqliteTransaction(const SqliteTransaction&) = delete;
   SqliteTransaction& operator=(const SqliteTransaction&) = delete;
 

@@ -155,7 +155,12 @@ FileLock::FileLock(const std::string& path, const std::function<void()>& wait) {
   fs::create_directories(fs::path(path).parent_path());
   file_ = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (file_ < 0) throw InputError(path + ": cannot be written: " + std::strerror(errno));
-  while (flock(file_, LOCK_EX | LOCK_NB) != 0 && (errno == EWOULDBLOCK || errno == EINTR)) {
+  while (flock(file_, LOCK_EX | LOCK_NB) != 0) {
+    if (errno != EWOULDBLOCK && errno != EINTR) {
+      const std::string why = std::strerror(errno);
+      close(file_);
+      throw InputError(path + ": cannot be locked: " + why + "; use a folder with file locks");
+    }
     wait();
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }

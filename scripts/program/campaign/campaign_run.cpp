@@ -76,7 +76,9 @@ bool run_batch(OpenCampaign& of, const Options& options, const InterruptionWatch
   stand(of, [&, most = most](const BatchJob& job) {
     if (writer->jobs() < most) writer->add(job);
   });
-  const Batch batch = writer->finish().value();
+  const std::optional<Batch> finished = writer->finish();
+  if (!finished) return true;  // since the first look another process ended the jobs: look again
+  const Batch& batch = *finished;
   ProgressLine line(fmt::format("{} on {}: {} jobs", of.campaign.name, batch.engine, batch.jobs));
   const auto show = [&](size_t ended) {
     watch.check();
@@ -146,10 +148,10 @@ void bring_home(const std::string& scratch, const std::string& shard) {
 
 /// Runs what the slice lacks. A scheduler that starts it again while it runs waits for the first.
 bool work_on_slice(const Batch& batch, size_t slice, const Options& options) {
+  const std::vector<BatchJob> jobs = read_slice(batch, slice);
   const InterruptionWatch watch;
   const FileLock lock(lock_of_slice(batch, slice), [&] { watch.check(); });
   std::vector<std::string> shards = shards_of_slice(batch, slice);
-  const std::vector<BatchJob> jobs = read_slice(batch, slice);
   const std::string shard = new_shard_of_slice(batch, slice),
                     scratch = options.scratch + "/" + fs::path(shard).filename().string();
   const auto home = [&] {

@@ -177,6 +177,8 @@ Finding values_finding() {
       {"step = 0.003", "step = -0.003", {"'step'", "> 0"}},
       {"step = 0.003", "step = \"adaptive\"", {"'step'", "automatic"}},
       {"step = 0.003", "safety = 0", {"'safety'", "> 0"}},
+      {"step = 0.003", "strain_per_step = 0", {"'strain_per_step'", "> 0"}},
+      {"max_iterations = 30", "max_iterations = 0", {"'max_iterations'"}},
       {"tolerance = 1e-8", "tolerance = 0", {"'tolerance'", "> 0"}},
       {"tolerance = 1e-8",
        "relative_to = \"nothing\"",

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <stdexcept>
 #include <type_traits>
 
 #include "verification/evidence.h"
@@ -102,6 +103,8 @@ Declaration read_declaration(const json& header) {
 }
 
 bool Declaration::offers(const std::string& capability) const {
+  if (std::ranges::find(known_capabilities, capability) == std::end(known_capabilities))
+    throw std::logic_error("a law needs '" + capability + "', which is no capability");
   return std::ranges::find(capabilities, capability) != capabilities.end();
 }
 

@@ -23,6 +23,7 @@ struct Declaration {
   std::vector<std::string> capabilities;
   double solve_tolerance = 0;  // relative residual of its linear systems; 0: solves none
 
+  /// Throws std::logic_error for a word that no solver can offer.
   bool offers(const std::string& capability) const;
   double rounding() const;  // the distance from 1 to the next number of its precision
 };

@@ -1,5 +1,8 @@
-// What an octree refuses: too many bodies, and those that reach the cube's boundary.
+// Octrees reject settings beyond their limits, too many bodies, and bodies at the cube's boundary.
 #include <catch2/catch.hpp>
+
+#include <cmath>
+#include <functional>
 
 #include "reference/level_set/octree.h"
 
@@ -39,6 +42,32 @@ void check_boundary(const Vector3& eighths, int depth, bool is_on_boundary) {
 }
 
 }  // namespace
+
+TEST_CASE("an octree's settings are rejected beyond their limits") {
+  struct Limit {
+    std::function<void(OctreeSettings&, double)> set;
+    std::vector<double> good, bad;
+  };
+  const std::vector<Limit> limits = {
+      {[](auto& s, double v) { s.depth = int(v); }, {1, 20}, {0, 21}},
+      {[](auto& s, double v) { s.surface_depth = int(v); }, {0, 2}, {-1, 3}},
+      {[](auto& s, double v) { s.width = v; }, {0.01}, {0, NAN}},
+      {[](auto& s, double v) { s.tolerance = v; }, {1e-300}, {0, NAN}},
+      {[](auto& s, double v) { s.band = v; }, {0}, {-1e-300, NAN}},
+      {[](auto& s, double v) { s.beyond = v; }, {0}, {-1e-300, NAN}},
+      {[](auto& s, double v) { s.reach = v; }, {0}, {-1e-300, NAN}}};
+  for (const Limit& limit : limits) {
+    OctreeSettings settings = usable();
+    for (const double good : limit.good) {
+      limit.set(settings, good);
+      CHECK_NOTHROW(make_octree({constant(5)}, settings));
+    }
+    for (const double bad : limit.bad) {
+      limit.set(settings, bad);
+      CHECK_THROWS_AS(make_octree({constant(5)}, settings), InputError);
+    }
+  }
+}
 
 TEST_CASE("an octree covers 1 to 255 bodies, each with a channel if it needs one") {
   OctreeSettings settings = usable();
