@@ -107,7 +107,7 @@ class ProgramTest(ProgramCase):
             "frobnicate": "known: ablate, bench,",
             "evaluate bendig": "did you mean bending?",
             "evaluate": "a command is missing, one of bending, crossings",
-            "": "a command is missing, one of simulate,",
+            "": "a command is missing, one of ablate,",
             "simulate hinge.toml --resum": "unknown option '--resum'; did you mean --resume?",
             "export run.h5 --fromat obj --out f": "did you mean --format?",
             "list checks now": "unexpected word 'now'; usage: foldproof list",
