@@ -85,8 +85,10 @@ bool run_batch(OpenCampaign& of, const Options& options, const InterruptionWatch
     line.show(double(ended) / double(batch.jobs));
   };
   try {
-    if (is_for_slurm(options))
+    if (is_for_slurm(options)) {
+      writer.reset();  // a slice may start, and lock its file, before sbatch returns
       slurm_submit(batch, {options.engine_options, work_settings(options).cache, options.scratch});
+    }
     planning.reset();
     if (!is_for_slurm(options))
       work_through(batch.terms, read_slice(batch, 0), work_settings(options),
@@ -95,10 +97,7 @@ bool run_batch(OpenCampaign& of, const Options& options, const InterruptionWatch
     mark_ended(batch);
     throw;
   }
-  if (is_for_slurm(options)) {
-    writer.reset();
-    follow(of, batch, watch, show);
-  }
+  if (is_for_slurm(options)) follow(of, batch, watch, show);
   mark_ended(batch);
   return true;
 }
