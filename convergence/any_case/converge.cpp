@@ -109,7 +109,7 @@ LadderAnswer time_answer(const LadderPlan& plan, const std::vector<LevelRun>& ru
 
 namespace {
 
-/// What is refined, what becomes shorter from level to level, and in which unit.
+/// The words for a ladder in time or in space: its subject, its lengths, and their unit.
 struct Refined {
   const char *what, *shortened, *unit;
 };

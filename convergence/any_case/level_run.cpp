@@ -120,7 +120,7 @@ void add(const std::string& text, ContentKey& key) {
   key.add(text.data(), text.size());
 }
 
-/// What is kept of a run beside its frames, its work and its end.
+/// The arrays that are stored beside a run's frames, work and end.
 constexpr std::pair<const char*, std::vector<double> LevelRun::*> kept_arrays[] = {
     {"values", &LevelRun::values},
     {"kinetic", &LevelRun::kinetic},

@@ -106,7 +106,7 @@ std::vector<std::string> remapped_lists(const std::vector<ParticleList>& lists,
   return overrides;
 }
 
-/// What all finer levels are made from.
+/// The source of all finer levels.
 struct Refinement {
   const CaseSource& source;
   const KeyTable& keys;

@@ -91,7 +91,7 @@ Table pairs_of_frames(const TriangleMesh& ball, int depth, const MeshDistance& e
 /// kind: "blended" or "carried".
 Convergence errors_of(const Table& pairs, const std::string& kind) {
   Convergence errors = convergence_of(pairs, "miss, " + kind);
-  errors.floor = 2 * tolerance;  // what the octrees may miss, see make_octree
+  errors.floor = 2 * tolerance;  // the octrees' own tolerance, see make_octree
   return errors;
 }
 

@@ -48,7 +48,7 @@ EnergyRange after_jump(Stepper& stepper, const Probe& probe, const FastestMode& 
 }
 
 // At the step h = s (2/omega) the leapfrog keeps Q = v^2/2 + (1 - s^2) omega^2 x^2/2 of an undamped
-// mode. Whatever its phase, the energy E at the jump gives a Q in [(1 - s^2) E, E]; afterwards the
+// mode. At any phase, the energy E at the jump gives a Q in [(1 - s^2) E, E]; afterwards the
 // energy lies in [Q, Q/(1 - s^2)].
 /// The finding hard-limits.energy-is-bounded-across-a-step-jump.<scheme>: an undamped sheet
 /// vibrates in its fastest mode in steps of 0.009 (2/omega), which jump to 0.9 (2/omega) at one of

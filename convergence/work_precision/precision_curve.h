@@ -45,8 +45,8 @@ struct LongerEnergy {
   double added;    // the largest in the added time, after the end of the shorter run
 };
 
-/// Two such runs. Half the step shows how much energy the scene itself allows, whatever gravity,
-/// contact and prescribed motion bring in and damping takes out.
+/// The energies of two such runs. The run with half the step shows how much energy the scene itself
+/// allows: gravity, contact and prescribed motion bring some in, damping takes some out.
 struct LongerRun {
   double step;  // s
   LongerEnergy with_step, with_half;

@@ -32,7 +32,7 @@ constexpr std::array<double, 2> wanted_errors = {0.01, 0.001};
 /// The method of a scene by its name; InputError if it has not run.
 const PrecisionCurve& curve_of(const PrecisionScene& scene, std::string_view method);
 
-/// What the wanted error costs with a method of the scene.
+/// The price of the wanted error with this method.
 inline Price price_of(const PrecisionScene& scene, const PrecisionCurve& curve, double wanted) {
   return price_at(curve, scene.problem.end, wanted);
 }

@@ -203,6 +203,10 @@ class CampaignTest(CampaignCase):
     def test_a_slice_that_is_started_twice_at_once_is_worked_on_once(self) -> None:
         [line] = self.campaign("emit", self.campaign_file(LONG), "--slice",
                                "12").stdout.splitlines()
+        absent = subprocess.run(line.replace("--slice 0", "--slice 1"), shell=True, check=False,
+                                capture_output=True, text=True)
+        self.assertEqual(absent.returncode, 2)
+        self.assertIn("the batch has no such slice", absent.stderr)
         running = []
         for _ in range(2):
             running.append(subprocess.Popen(line, shell=True, stderr=subprocess.DEVNULL))

@@ -69,6 +69,7 @@ TEST_CASE("subject: a capability that there is not is told by its name") {
     "level": "L1", "precision": "f8", "scheme": {"name": "s", "order": 1},
     "capabilities": ["spheres", "held"]})");
   CHECK(read_declaration(header).offers("spheres"));
+  CHECK_THROWS_AS(read_declaration(header).offers("sphere"), std::logic_error);
   header["capabilities"].push_back("sphere");
   CHECK_THROWS_WITH(read_declaration(header), Contains("'sphere', which is no capability"));
 }
