@@ -68,7 +68,8 @@ TEST_CASE("subject: a strip without bending fails the laws of bent strips, and t
   }
 }
 
-TEST_CASE("subject: bent strips raise no alarm for bending of another kind or rigidity", "[long]") {
+TEST_CASE("subject: bent strips raise no alarm for bending of another kind or rigidity",
+          "[long][alarm]") {
   require_found({"bends", "bends_fourfold"}, {"strip"}, {});
 }
 

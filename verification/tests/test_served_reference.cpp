@@ -127,7 +127,7 @@ TEST_CASE(
   CHECK(compared >= 60);
 }
 
-TEST_CASE("served reference: no law raises an alarm, in f8 and f4", "[long]") {
+TEST_CASE("served reference: no law raises an alarm, in f8 and f4", "[long][alarm]") {
   for (const std::string integrator : {"A", "C", "RK4", "backward-euler", "implicit-midpoint"})
     for (const std::string precision : {"f8", "f4"})
       for (const Record& record :
