@@ -102,33 +102,46 @@ Told told_in_time(const LadderPlan& plan, const Answering& by) {
   return {std::move(ladder), std::move(twins), {}, {}, done.runs.back()};
 }
 
+/// Another solver, which has reached the end with the case's own step: what cannot be asked of it
+/// is refused before the reference runs.
+struct OtherSolver {
+  /// Throws InputError if the solver cannot be started, does not offer what the case needs, or does
+  /// not reach the end.
+  OtherSolver(const LadderPlan& plan, const Options& options, const LevelSetProvider& level_sets)
+      : trial(solver_command(options)), ladder(plan, trial, level_sets), first(ladder.run(0)) {
+    if (!first.stopped.empty())
+      throw InputError("the solver does not reach the end with the case's own step: " +
+                       first.stopped);
+  }
+
+  Trial trial;
+  SolverLadder ladder;
+  LevelRun first;
+};
+
 /// The runs of another solver, coarse to fine, one after the other. None is kept in a store: the
 /// program behind the command may change.
-std::vector<LevelRun> solver_runs(SolverLadder& ladder, int levels) {
-  std::vector<LevelRun> runs;
+std::vector<LevelRun> solver_runs(OtherSolver& other, int levels) {
+  std::vector<LevelRun> runs{std::move(other.first)};
   ProgressLine line("levels of the solver");
   const double all = std::exp2(levels) - 1;  // if each takes twice the one before
-  for (int k = 0; k < levels; ++k) {
-    runs.push_back(ladder.run(k));
-    if (k == 0 && !runs[0].stopped.empty())
-      throw InputError("the solver comes to no end with the case's own step: " + runs[0].stopped);
+  for (int k = 1; k < levels; ++k) {
+    runs.push_back(other.ladder.run(k));
     line.show((std::exp2(k + 1) - 1) / all);
   }
   return runs;
 }
 
 /// Of another solver, asked before the reference's horizon only.
-Told told_of_solver(const LadderPlan& plan, const Told& reference, const Answering& by) {
-  Trial solver(solver_command(by.options));
-  SolverLadder ladder(plan, solver, by.kept.level_sets);
-  std::vector<LevelRun> runs = solver_runs(ladder, by.options.levels);
+Told told_of_solver(const LadderPlan& plan, const Told& reference, OtherSolver& other) {
+  std::vector<LevelRun> runs = solver_runs(other, plan.levels);
   const double horizon = reference.twins->of.horizon;
   LevelRun finest = reference.finest;
   if (horizon < reference.twins->of.end) {
     runs = frames_until(std::move(runs), horizon);
     finest = frames_until({finest}, horizon).front();
   }
-  Told told{ladder.answer(runs), {}, {}, {}, {}, solver.mapping()};
+  Told told{other.ladder.answer(runs), {}, {}, {}, {}, other.trial.mapping()};
   const Scene& scene = plan.input_case.scene;
   told.gap = solver_gap(runs.back(), told.ladder, finest, reference.ladder,
                         lumped_masses(scene.mesh, scene.density));
@@ -153,13 +166,19 @@ MapAnswer map_answer(const LadderAnswer& in_time, const LadderAnswer& in_space, 
   return answer;
 }
 
-std::vector<Told> told_for(const CaseSource& source, const Answering& by) {
-  LadderPlan plan{case_of(source), by.options.levels, {}};
+LadderPlan plan_of(const CaseSource& source, const Options& options) {
+  LadderPlan plan{case_of(source), options.levels, {}};
   plan.measurements = measurements_of(plan.input_case);
   require_asked_before_end(plan.measurements, plan.input_case.scene.schedule.end);
+  return plan;
+}
+
+/// other: null without --solver.
+std::vector<Told> told_for(const CaseSource& source, OtherSolver* other, const Answering& by) {
+  const LadderPlan plan = plan_of(source, by.options);
   std::vector<Told> all;
   if (by.options.in != "space") all.push_back(told_in_time(plan, by));
-  if (!by.options.solver.empty()) all.push_back(told_of_solver(plan, all[0], by));
+  if (other) all.push_back(told_of_solver(plan, all[0], *other));
   if (by.options.in != "time") all.push_back(told_in_space(source, by));
   if (by.options.in == "both")
     all[1].map = map_answer(all[0].ladder, all[1].ladder, all[0].twins->of.motion, by.options);
@@ -242,6 +261,9 @@ int converge(const Options& options) {
     throw InputError("--solver is held against one method of the reference");
   const Scene scene = case_of(source).scene;
   build(scene, level_sets);  // refuses now what cannot be built
+  source.method = methods.front();
+  std::optional<OtherSolver> other;
+  if (!options.solver.empty()) other.emplace(plan_of(source, options), options, level_sets);
   const OutFolder folder(options.out);
   require_replaceable(options.out + "/converge.h5");
   log_warnings(scene);
@@ -253,7 +275,7 @@ int converge(const Options& options) {
   const Answering by{{{level_sets, store, program_identity()}, options.running}, options};
   for (const std::string& method : methods) {
     source.method = method;
-    for (Told& told : told_for(source, by)) {
+    for (Told& told : told_for(source, other ? &*other : nullptr, by)) {
       const std::string further = told.twins ? in_words(told.twins->of)
                                   : told.gap ? in_words(*told.gap, told.ladder.method)
                                              : "";
