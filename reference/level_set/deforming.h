@@ -34,7 +34,7 @@ PerParticle3 positions_at(const MeshSequence& sequence, double t);
 
 /// All files *.obj of a folder in the order of their names, `interval` [s] apart from time 0 on.
 /// Throws InputError naming the file: no file, more than `most`, triangles that differ from the
-/// first file's, or a file that read_obj refuses.
+/// first file's, or a file that read_mesh refuses.
 MeshSequence read_obj_sequence(const std::string& folder, double interval, long most = 1000);
 
 /// A frame's level set. A node has the displacement of the nearest surface point, so it is constant

@@ -10,7 +10,7 @@
 #include "reference/level_set/deforming.h"
 #include "reference/level_set/mesh_distance.h"
 #include "reference/level_set/octree_nodes.h"
-#include "reference/mesh/obj.h"
+#include "reference/mesh/mesh_file.h"
 
 namespace foldproof {
 
@@ -206,7 +206,7 @@ MeshSequence read_obj_sequence(const std::string& folder, double interval, long 
   std::sort(files.begin(), files.end());
   MeshSequence sequence;
   for (std::size_t k = 0; k < files.size(); ++k) {
-    TriangleMesh mesh = read_obj(files[k]);
+    TriangleMesh mesh = read_mesh(files[k]);
     if (k == 0) sequence.triangles = mesh.triangles;
     if (mesh.triangles != sequence.triangles)
       throw InputError(files[k] + ": its triangles are not those of " + files[0] +

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "reference/mesh/obj.h"
+#include "reference/mesh/mesh_file.h"
 #include "reference/mesh/seams.h"
 #include "reference/mesh/shapes.h"
 #include "reference/mesh/split_fans.h"
@@ -126,7 +126,7 @@ SplitMesh read_mesh(const KeyTable& keys, const std::string& folder) {
   const std::string file = mesh_file(keys, folder, "cloth");
   const auto repair = choice<ClothRepair>(
       keys, "repair", {{"refuse", ClothRepair::refuse}, {"split", ClothRepair::split}});
-  TriangleSoup soup = read_obj_soup(file);
+  TriangleSoup soup = read_mesh_file(file).soup;
   if (keys.has("seams")) soup = close_seams(std::move(soup), positive(keys, "seams"));
   if (repair == ClothRepair::refuse)
     return {make_triangle_mesh(std::move(soup.rest), std::move(soup.triangles), soup.origin), {}};
@@ -216,7 +216,7 @@ PlacedMesh read_cloth_mesh(const KeyTable& cloth, const std::string& folder,
                            const SceneLimits& limits) {
   if (cloth.has("shape") == cloth.has("mesh"))
     throw InputError(cloth.where("mesh") +
-                     ": [cloth] needs either 'shape' or 'mesh' (an OBJ file), and not both");
+                     ": [cloth] needs either 'shape' or 'mesh' (an OBJ or PLY file), and not both");
   PlacedMesh result = read_or_make(cloth, folder, limits);
 
   const auto pleats = cloth.table("pleats");

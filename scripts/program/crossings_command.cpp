@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scripts/program/command_line/options_of_commands.h"
-#include "reference/mesh/obj.h"
+#include "reference/mesh/mesh_file.h"
 #include "scripts/program/command_line/input_files.h"
 #include "scripts/program/json_text.h"
 #include "verification/oracles/exact_crossings.h"
@@ -30,9 +30,10 @@ JudgedFrame judge_frame(const std::string& file, std::size_t frame, double time,
 }
 
 void judge_file(const std::string& file, std::vector<JudgedFrame>& all) {
-  require_input(file, file.ends_with(".obj") ? mesh_kind : run_kind);
-  if (file.ends_with(".obj")) {
-    const TriangleSoup mesh = read_obj_soup(file);
+  const bool is_mesh = has_ending(file, mesh_kind);
+  require_input(file, is_mesh ? mesh_kind : run_kind);
+  if (is_mesh) {
+    const TriangleSoup mesh = read_mesh_file(file).soup;
     all.push_back(judge_frame(file, 0, 0, mesh.rest, mesh.triangles));
     return;
   }
@@ -99,7 +100,8 @@ void add_crossings_command(CLI::App& app, Program& program) {
       app, program,
       {"crossings", "Does a cloth pass through itself in any frame? Decided exactly", below},
       show_crossings);
-  add_input(crossings, "FILE", options.names, "Stored runs (.h5), or meshes (.obj), each a frame");
+  add_input(crossings, "FILE", options.names,
+            "Stored runs (.h5), or meshes (.obj, .ply), each a frame");
   add_json(crossings, options);
 }
 

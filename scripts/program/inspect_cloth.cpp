@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "reference/dynamics/system.h"
-#include "reference/mesh/obj.h"
+#include "reference/mesh/mesh_file.h"
 #include "reference/mesh/rigidity_map.h"
 #include "reference/scene/scene.h"
 #include "scripts/program/json_text.h"
@@ -161,7 +161,7 @@ nlohmann::json to_json(const std::string& file, const ClothInspection& found) {
 }  // namespace
 
 int inspect_cloth(const Options& options) {
-  const TriangleMesh mesh = read_obj(options.file);
+  const TriangleMesh mesh = read_mesh(options.file);
   const ClothInspection found = inspect_as_cloth(mesh);
   if (options.json)
     fmt::print("{}\n", json_text(to_json(options.file, found)));

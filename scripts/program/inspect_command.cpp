@@ -5,7 +5,7 @@
 
 #include "scripts/program/command_line/options_of_commands.h"
 #include "reference/bodies/mesh_inspection.h"
-#include "reference/mesh/obj.h"
+#include "reference/mesh/mesh_file.h"
 #include "scripts/program/command_line/input_files.h"
 #include "scripts/program/inspect_cloth.h"
 #include "scripts/program/json_text.h"
@@ -61,7 +61,7 @@ nlohmann::json to_json(const std::string& file, const MeshInspection& found) {
 int inspect(const InspectOptions& options) {
   require_input(options.file, mesh_kind);
   if (options.as_cloth) return inspect_cloth(options);
-  const MeshInspection found = inspect_mesh(read_obj_soup(options.file), options.cells);
+  const MeshInspection found = inspect_mesh(read_mesh_file(options.file).soup, options.cells);
   if (options.json)
     fmt::print("{}\n", json_text(to_json(options.file, found)));
   else
@@ -86,7 +86,7 @@ void add_inspect_command(CLI::App& app, Program& program) {
       app, program,
       {"inspect", "Is a mesh valid as a body? With --cloth: how stiff is it as a cloth?", below},
       inspect);
-  add_input(mesh, "MESH.obj", options.file, "An OBJ file");
+  add_input(mesh, "MESH", options.file, "An OBJ or PLY file");
   mesh->add_flag("--cloth", options.as_cloth,
                  "As a cloth: rigidity by direction, elastic limit, thinnest triangles");
   mesh->add_option("--cells", options.cells, "Grid cells along the longest side")
