@@ -52,6 +52,12 @@ TriangleMesh read_sheet(const KeyTable& keys, const SceneLimits& limits) {
   // at most three in the other patterns
   const double in_a_cell = sheet.pattern == SheetPattern::criss_cross ? 4 : 3;
   reject_many_triangles(keys, "columns", in_a_cell * sheet.columns * sheet.rows, limits);
+  const bool is_jittered = sheet.pattern == SheetPattern::jittered;
+  for (const char* key : {"jitter", "seed"})
+    if (keys.has(key) && !is_jittered &&
+        (key[0] == 'j' || sheet.pattern != SheetPattern::random_delaunay))
+      throw InputError(keys.where(key) + ": '" + key + "' changes nothing in this pattern; give " +
+                       "pattern = \"jittered\", or leave it out");
   sheet.jitter = keys.number_or("jitter", 0);
   const long seed = keys.integer_or("seed", 1);
   if (!(seed >= 0 && seed <= 4294967295))
@@ -203,6 +209,11 @@ std::string mesh_file(const KeyTable& keys, const std::string& folder, const std
 }
 
 double fit_factor(const KeyTable& keys, const PerParticle3& x) {
+  if (keys.has("scale")) {
+    if (keys.has("fit"))
+      throw InputError(keys.where("scale") + ": 'fit' and 'scale' both set the size; give one");
+    return positive(keys, "scale");
+  }
   if (!keys.has("fit")) return 1;
   const double size = (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).maxCoeff();
   const double wanted = keys.number("fit");
@@ -232,8 +243,9 @@ PlacedMesh read_cloth_mesh(const KeyTable& cloth, const std::string& folder,
   if (!pleats) result.mesh.rest = result.start;
   if (const auto copies = cloth.table("copies"))
     with_error_location(cloth.where("copies"), [&] { copy(*copies, limits, result); });
-  if (pleats && cloth.has("fit"))
-    throw InputError(cloth.where("fit") + ": 'fit' does not go with pleats");
+  for (const char* key : {"fit", "scale"})
+    if (pleats && cloth.has(key))
+      throw InputError(cloth.where(key) + ": '" + key + "' does not go with pleats");
   return result;
 }
 

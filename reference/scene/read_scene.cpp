@@ -16,6 +16,7 @@
 #include "reference/scene/read_strain.h"
 #include "reference/scene/refine_cloth.h"
 #include "reference/scene/scene.h"
+#include "reference/scene/scene_sizes.h"
 #include "reference/scene/read_cloth_mesh.h"
 
 namespace foldproof {
@@ -230,6 +231,7 @@ Scene scene_from(const CaseKeys& of, const SceneLimits& limits) {
   read_sticky(keys, folder, scene);
   if (const auto solver = keys.table("solver")) read_solver(*solver, scene.solver);
   if (const auto self = keys.table("self_collision")) reject_tangled_start(*self, scene);
+  warn_of_sizes(*cloth, scene);
   scene.name = file.stem().string();
   scene.folder = folder;
   scene.text = of.text;

@@ -6,6 +6,7 @@
 #include "scripts/program/command_line/options_of_commands.h"
 #include "reference/bodies/mesh_inspection.h"
 #include "reference/mesh/mesh_file.h"
+#include "reference/mesh/seams.h"
 #include "scripts/program/command_line/input_files.h"
 #include "scripts/program/inspect_cloth.h"
 #include "scripts/program/json_text.h"
@@ -17,6 +18,7 @@ namespace {
 struct InspectOptions : Options {
   bool as_cloth = false;  // rather than as a body
   int cells = 64;         // along the longest side
+  double seams = 0;       // distance within which vertices are joined [m]; 0: none
 };
 
 std::string point(const Vector3& p) {
@@ -60,8 +62,10 @@ nlohmann::json to_json(const std::string& file, const MeshInspection& found) {
 
 int inspect(const InspectOptions& options) {
   require_input(options.file, mesh_kind);
-  if (options.as_cloth) return inspect_cloth(options);
-  const MeshInspection found = inspect_mesh(read_mesh_file(options.file).soup, options.cells);
+  TriangleSoup soup = read_mesh_file(options.file).soup;
+  if (options.seams > 0) soup = close_seams(std::move(soup), options.seams);
+  if (options.as_cloth) return inspect_cloth(options, std::move(soup));
+  const MeshInspection found = inspect_mesh(soup, options.cells);
   if (options.json)
     fmt::print("{}\n", json_text(to_json(options.file, found)));
   else
@@ -89,6 +93,7 @@ void add_inspect_command(CLI::App& app, Program& program) {
   add_input(mesh, "MESH", options.file, "An OBJ or PLY file");
   mesh->add_flag("--cloth", options.as_cloth,
                  "As a cloth: rigidity by direction, elastic limit, thinnest triangles");
+  add_seams(mesh, options.seams);
   mesh->add_option("--cells", options.cells, "Grid cells along the longest side")
       ->type_name("N")
       ->check(whole_number(4, 1000))

@@ -6,6 +6,7 @@
 
 #include "scripts/program/command_line/options_of_commands.h"
 #include "reference/scene/field_recipe.h"
+#include "reference/scene/scene_sizes.h"
 #include "scripts/program/command_line/input_files.h"
 #include "scripts/program/interruption.h"
 #include "scripts/program/json_text.h"
@@ -137,6 +138,9 @@ int simulate_case(const Options& options) {
   const BuiltCase of = built_with_notice(std::move(input_case), options);
   const Scene& scene = of.input_case.scene;
   log_warnings(scene);
+  if (const std::string text = warning_of_step(scene, of.built); !text.empty())
+    log_line("warning: " + text);
+  log_line(fmt::format("{}: {}", scene.name, sizes_in_words(scene)));
   log_line(
       fmt::format("{}: {}", scene.name, fmt::join(describe_parts(scene, of.built.system), "; ")));
   for (std::size_t k = 0; k < scene.objects.size(); ++k)
