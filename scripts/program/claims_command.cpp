@@ -162,7 +162,7 @@ int show_claims(const ClaimsOptions& options) {
   return all_hold;
 }
 
-constexpr const char* below =
+constexpr const char* below_claims =
     R"(Examples:
   foldproof claims B10                                 one claim: its ruling, and the findings
   foldproof claims --paper BFA02                       the claims of one paper
@@ -175,7 +175,8 @@ Exit codes:
 
 void add_claims_command(CLI::App& app, Program& program) {
   auto [claims, options] = add_command(
-      app, program, {"claims", "Show the rulings of a finished run on the papers' claims", below},
+      app, program,
+      {"claims", "Show the rulings of a finished run on the papers' claims", below_claims},
       show_claims);
   claims->add_option(
       "ID", options.names,

@@ -104,7 +104,7 @@ int show_crossings(const CrossingsOptions& options) {
   return all_hold;
 }
 
-constexpr const char* below =
+constexpr const char* below_crossings =
     R"(Examples:
   foldproof crossings results/fast.h5
   foldproof crossings cases/skirt.obj cases/robe.obj
@@ -117,10 +117,11 @@ Exit codes:
 }  // namespace
 
 void add_crossings_command(CLI::App& app, Program& program) {
-  auto [crossings, options] = add_command(
-      app, program,
-      {"crossings", "Does a cloth pass through itself in any frame? Decided exactly", below},
-      show_crossings);
+  auto [crossings, options] =
+      add_command(app, program,
+                  {"crossings", "Does a cloth pass through itself in any frame? Decided exactly",
+                   below_crossings},
+                  show_crossings);
   add_input(crossings, "FILE", options.names,
             "Stored runs (.h5), or meshes (.obj, .ply), each a frame");
   add_seams(crossings, options.seams);

@@ -118,10 +118,6 @@ std::string or_none(double value, const char* digits) {
   return std::isfinite(value) ? fmt::format(fmt::runtime(digits), value) : "-";
 }
 
-std::string point(const Vector3& p) {
-  return fmt::format("({:.4g}, {:.4g}, {:.4g})", p.x(), p.y(), p.z());
-}
-
 void print(const std::string& file, const TriangleMesh& mesh, const ClothInspection& found) {
   fmt::print("{}: a cloth of {} particles, {} triangles, {}\n", file, found.particles,
              found.triangles, found.is_flat ? "flat" : "not flat");
@@ -182,6 +178,10 @@ nlohmann::json to_json(const std::string& file, const ClothInspection& found) {
 }
 
 }  // namespace
+
+std::string point(const Vector3& p) {
+  return fmt::format("({:.4g}, {:.4g}, {:.4g})", p.x(), p.y(), p.z());
+}
 
 int inspect_cloth(const Options& options, TriangleSoup soup) {
   const TriangleMesh mesh =

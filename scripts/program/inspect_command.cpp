@@ -21,10 +21,6 @@ struct InspectOptions : Options {
   double seams = 0;       // distance within which vertices are joined [m]; 0: none
 };
 
-std::string point(const Vector3& p) {
-  return fmt::format("({:.4g}, {:.4g}, {:.4g})", p.x(), p.y(), p.z());
-}
-
 void print(const std::string& file, const MeshInspection& found) {
   const bool is_solid = found.rejection.empty();
   fmt::print("{}: {} vertices, {} triangles\n", file, found.vertices, found.triangles);
@@ -73,7 +69,7 @@ int inspect(const InspectOptions& options) {
   return found.rejection.empty() && found.against_sign == 0 ? all_hold : some_fail;
 }
 
-constexpr const char* below =
+constexpr const char* below_inspect =
     R"(Examples:
   foldproof inspect cases/limb.obj --cells 100 --json
   foldproof inspect cases/skirt.obj --cloth            its rigidity by direction, its elastic limit
@@ -88,7 +84,8 @@ Exit codes:
 void add_inspect_command(CLI::App& app, Program& program) {
   auto [mesh, options] = add_command(
       app, program,
-      {"inspect", "Is a mesh valid as a body? With --cloth: how stiff is it as a cloth?", below},
+      {"inspect", "Is a mesh valid as a body? With --cloth: how stiff is it as a cloth?",
+       below_inspect},
       inspect);
   add_input(mesh, "MESH", options.file, "An OBJ or PLY file");
   mesh->add_flag("--cloth", options.as_cloth,

@@ -155,7 +155,7 @@ int simulate_case(const Options& options) {
   }
 }
 
-constexpr const char* below =
+constexpr const char* below_simulate =
     R"(A checkpoint is written at every frame and removed at the end. An interrupted run prints how to
 resume it. The same command without --resume or --restart then stops, and deletes nothing.
 
@@ -173,7 +173,7 @@ Exit codes:
 
 void add_simulate_command(CLI::App& app, Program& program) {
   auto [simulate, options] = add_command(
-      app, program, {"simulate", "Simulate a case; writes NAME.h5 and NAME.xdmf", below},
+      app, program, {"simulate", "Simulate a case; writes NAME.h5 and NAME.xdmf", below_simulate},
       simulate_case);
   add_input(simulate, "CASE", options.file, case_words);
   add_overrides(simulate, options);

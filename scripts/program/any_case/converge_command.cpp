@@ -104,10 +104,10 @@ Told told_in_time(const LadderPlan& plan, const Answering& by) {
 
 /// Another solver, which has reached the end with the case's own step: what cannot be asked of it
 /// is refused before the reference runs.
-struct OtherSolver {
+struct TriedSolver {
   /// Throws InputError if the solver cannot be started, does not offer what the case needs, or does
   /// not reach the end.
-  OtherSolver(const LadderPlan& plan, const Options& options, const LevelSetProvider& level_sets)
+  TriedSolver(const LadderPlan& plan, const Options& options, const LevelSetProvider& level_sets)
       : trial(solver_command(options)), ladder(plan, trial, level_sets), first(ladder.run(0)) {
     if (!first.stopped.empty())
       throw InputError("the solver does not reach the end with the case's own step: " +
@@ -121,7 +121,7 @@ struct OtherSolver {
 
 /// The runs of another solver, coarse to fine, one after the other. None is kept in a store: the
 /// program behind the command may change.
-std::vector<LevelRun> solver_runs(OtherSolver& other, int levels) {
+std::vector<LevelRun> solver_runs(TriedSolver& other, int levels) {
   std::vector<LevelRun> runs{std::move(other.first)};
   ProgressLine line("levels of the solver");
   const double all = std::exp2(levels) - 1;  // if each takes twice the one before
@@ -133,7 +133,7 @@ std::vector<LevelRun> solver_runs(OtherSolver& other, int levels) {
 }
 
 /// Of another solver, asked before the reference's horizon only.
-Told told_of_solver(const LadderPlan& plan, const Told& reference, OtherSolver& other) {
+Told told_of_solver(const LadderPlan& plan, const Told& reference, TriedSolver& other) {
   std::vector<LevelRun> runs = solver_runs(other, plan.levels);
   const double horizon = reference.twins->of.horizon;
   LevelRun finest = reference.finest;
@@ -174,7 +174,7 @@ LadderPlan plan_of(const CaseSource& source, const Options& options) {
 }
 
 /// other: null without --solver.
-std::vector<Told> told_for(const CaseSource& source, OtherSolver* other, const Answering& by) {
+std::vector<Told> told_for(const CaseSource& source, TriedSolver* other, const Answering& by) {
   const LadderPlan plan = plan_of(source, by.options);
   std::vector<Told> all;
   if (by.options.in != "space") all.push_back(told_in_time(plan, by));
@@ -262,7 +262,7 @@ int converge(const Options& options) {
   const Scene scene = case_of(source).scene;
   build(scene, level_sets);  // refuses now what cannot be built
   source.method = methods.front();
-  std::optional<OtherSolver> other;
+  std::optional<TriedSolver> other;
   if (!options.solver.empty()) other.emplace(plan_of(source, options), options, level_sets);
   const OutFolder folder(options.out);
   require_replaceable(options.out + "/converge.h5");
@@ -341,7 +341,7 @@ void add_twins(CLI::App* converge, Options& options) {
       ->capture_default_str();
 }
 
-constexpr const char* below =
+constexpr const char* below_converge =
     R"(Runs the case as it is, then refined level by level. Prints for each quantity the order at which
 differences between levels fall, Richardson's limit, and the grid convergence index as error bar
 (safety factor 1.25 where the order has settled at the method's, else 3). Quantities are those of
@@ -387,7 +387,8 @@ void add_converge_command(CLI::App& app, Program& program) {
   auto [command, options] = add_command(
       app, program,
       {"converge",
-       "How large are the errors of a case's step and mesh? Orders, limits and error bars", below},
+       "How large are the errors of a case's step and mesh? Orders, limits and error bars",
+       below_converge},
       converge);
   add_input(command, "CASE", options.file, case_words);
   add_ladder(command, options);
