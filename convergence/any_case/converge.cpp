@@ -237,6 +237,11 @@ std::string halved_by_level(const LadderAnswer& answer) {
                      answer.cost(coarsest) / answer.cost(0));
 }
 
+/// The last two, or the only one.
+std::vector<double> last_two(const std::vector<double>& orders) {
+  return {orders.end() - std::min<long>(2, long(orders.size())), orders.end()};
+}
+
 }  // namespace
 
 std::string as_name(const std::string& words) {
@@ -255,6 +260,24 @@ std::string how_to_halve(const LadderAnswer& answer) {
   if (bar.reading == Reading::inconclusive) return "What halves that error is not known.";
   return as_sentence(bar.reading == Reading::asymptotic ? halved_by_order(answer, bar.order)
                                                         : halved_by_level(answer));
+}
+
+std::string order_in_words(const LadderAnswer& answer) {
+  constexpr const char* ordinals[] = {"First", "Second", "Third", "Fourth"};
+  const QuantityOverLevels& positions = answer.quantities.front();
+  const ErrorBar& bar = positions.bar;
+  const int formal = std::clamp(int(answer.formal_order), 1, 4);
+  std::string words = fmt::format("{} order: ", ordinals[formal - 1]);
+  if (bar.reading == Reading::asymptotic)
+    words +=
+        fmt::format("yes, the last orders are {:.2f}", fmt::join(last_two(bar.orders), " and "));
+  else if (bar.reading == Reading::not_asymptotic && !bar.may_settle)
+    words += "no, " + bar.reason;
+  else
+    words += "cannot tell, because " + bar.reason;
+  if (std::isfinite(positions.first_error))
+    words += fmt::format(". Your error is {:.2g} m at most", positions.first_error);
+  return words + ". " + how_to_halve(answer);
 }
 
 std::string in_words(const LadderAnswer& answer) {

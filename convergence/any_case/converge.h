@@ -86,6 +86,10 @@ LadderAnswer time_answer(const LadderPlan& plan, const std::vector<LevelRun>& ru
 
 // The answer as evidence: curves of differences, tables, and a sentence.
 
+/// "Second order: yes, the last orders are 1.98 and 2.01." Of the positions: yes, no, or cannot
+/// tell, with the reason; then the case's own error, and what half of it costs.
+std::string order_in_words(const LadderAnswer& answer);
+
 /// How large the error of the case as it stands is, in one or two sentences.
 std::string in_words(const LadderAnswer& answer);
 

@@ -42,6 +42,10 @@ struct Told {
   std::vector<std::pair<std::string, std::string>> mapping = {};  // of another solver
 };
 
+constexpr int usual_levels = 4, most_levels = 9;
+
+int levels_of(const Options& options) { return options.levels > 0 ? options.levels : usual_levels; }
+
 /// How the questions of one call are answered.
 struct Answering : LevelRunner {
   const Options& options;
@@ -86,18 +90,52 @@ PredictabilityAnswer run_twins(const LadderPlan& plan, const std::vector<LevelRu
   return answer;
 }
 
+/// Of positions before the horizon.
+LadderAnswer answer_until(const Predictability& twins, const LadderPlan& plan,
+                          const std::vector<LevelRun>& runs) {
+  const bool is_cut = twins.horizon < twins.end;
+  return time_answer(plan, is_cut ? frames_until(runs, twins.horizon) : runs,
+                     integrator_named(plan.input_case.scene.integrator).order);
+}
+
+/// Whether the positions, or a number that has an order, may settle with another level.
+bool may_settle(const LadderAnswer& answer) {
+  return answer.quantities.front().bar.may_settle ||
+         std::ranges::any_of(answer.quantities, [](const QuantityOverLevels& q) {
+           return q.bar.may_settle && q.bar.reading == Reading::not_asymptotic;
+         });
+}
+
+/// Adds levels until the orders have settled, or the next one costs more than what is left of the
+/// budget.
+void add_levels(const LadderPlan& plan, const Predictability& twins, const Answering& by,
+                std::vector<LevelRun>& runs) {
+  double left = by.options.budget;
+  while (int(runs.size()) < most_levels && may_settle(answer_until(twins, plan, runs))) {
+    const double last = runs.back().seconds, before = runs[runs.size() - 2].seconds;
+    const double next = last * std::clamp(last / before, 1.5, 3.0);
+    if (next > left) {
+      log_line(fmt::format("a level more would take {}; --budget leaves {}", duration_text(next),
+                           duration_text(left)));
+      return;
+    }
+    left -= next;
+    const Level level = time_level(plan, int(runs.size()), runs[0].step_ends);
+    runs.push_back(run_levels({level}, {1}, "another level", by).front());
+  }
+}
+
 /// The first level, and the others, which divide its steps; positions before the horizon only.
 Told told_in_time(const LadderPlan& plan, const Answering& by) {
   const auto level = [&](int k, const std::vector<LevelRun>& runs) {
     return time_level(plan, k, k > 0 ? runs[0].step_ends : std::vector<double>());
   };
-  const LadderRuns done = run_ladder({plan.levels, level}, by, limits_of(by.options.hours));
+  LadderRuns done = run_ladder({plan.levels, level}, by, limits_of(by.options.hours));
   if (!done.refused.empty()) log_line(done.refused);
   PredictabilityAnswer twins = run_twins(plan, done.runs, by);
-  const double horizon = twins.of.horizon;
-  LadderAnswer ladder =
-      time_answer(plan, horizon < twins.of.end ? frames_until(done.runs, horizon) : done.runs,
-                  integrator_named(plan.input_case.scene.integrator).order);
+  if (by.options.levels == 0 && by.options.solver.empty() && done.refused.empty())
+    add_levels(plan, twins.of, by, done.runs);
+  LadderAnswer ladder = answer_until(twins.of, plan, done.runs);
   limit_to_horizon(plan.measurements, done.runs, twins.of, ladder);
   return {std::move(ladder), std::move(twins), {}, {}, done.runs.back()};
 }
@@ -150,8 +188,8 @@ Told told_of_solver(const LadderPlan& plan, const Told& reference, TriedSolver& 
 
 Told told_in_space(const CaseSource& source, const Answering& by) {
   const auto objects = by.options.refines_objects ? ObjectsToo::yes : ObjectsToo::no;
-  const SpaceRuns done =
-      run_meshes(space_ladder(source, by.options.levels, objects), by, limits_of(by.options.hours));
+  const SpaceRuns done = run_meshes(space_ladder(source, levels_of(by.options), objects), by,
+                                    limits_of(by.options.hours));
   if (!done.levels.refused.empty()) log_line(done.levels.refused);
   return {space_answer(done.ladder, done.levels.runs, done.halved), {}, {}, {}};
 }
@@ -167,7 +205,7 @@ MapAnswer map_answer(const LadderAnswer& in_time, const LadderAnswer& in_space, 
 }
 
 LadderPlan plan_of(const CaseSource& source, const Options& options) {
-  LadderPlan plan{case_of(source), options.levels, {}};
+  LadderPlan plan{case_of(source), levels_of(options), {}};
   plan.measurements = measurements_of(plan.input_case);
   require_asked_before_end(plan.measurements, plan.input_case.scene.schedule.end);
   return plan;
@@ -304,9 +342,15 @@ void add_ladder(CLI::App* converge, Options& options) {
       ->capture_default_str();
   converge
       ->add_option("--levels", options.levels,
-                   "Runs, 3 to 12, each with half the steps, or edges half as long")
+                   "Runs, 3 to 12, each with half the steps, or edges half as long (default: 4; "
+                   "in time more, until the orders have settled or --budget is spent)")
       ->type_name("N")
-      ->check(whole_number(3, 12))
+      ->check(whole_number(3, 12));
+  converge
+      ->add_option("--budget", options.budget,
+                   "Without --levels: time for levels beyond the fourth [s]; 0: none")
+      ->type_name("S")
+      ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   add_method(converge, options, "case's own");
   converge->add_flag("--refine-objects", options.refines_objects,
