@@ -262,19 +262,37 @@ std::string how_to_halve(const LadderAnswer& answer) {
                                                         : halved_by_level(answer));
 }
 
+std::string_view name_of(OrderVerdict verdict) {
+  constexpr std::string_view names[] = {"yes", "no", "cannot tell"};
+  return names[size_t(verdict)];
+}
+
+OrderVerdict order_verdict(const LadderAnswer& answer) {
+  const ErrorBar& bar = answer.quantities.front().bar;
+  if (bar.reading == Reading::inconclusive || bar.may_settle) return OrderVerdict::cannot_tell;
+  const bool has_order =
+      bar.reading == Reading::asymptotic && bar.order >= answer.formal_order - same_order;
+  return has_order ? OrderVerdict::yes : OrderVerdict::no;
+}
+
+bool may_settle(const LadderAnswer& answer) {
+  return answer.quantities.front().bar.may_settle ||
+         std::ranges::any_of(answer.quantities, [](const QuantityOverLevels& q) {
+           return q.bar.may_settle && q.bar.reading == Reading::not_asymptotic;
+         });
+}
+
 std::string order_in_words(const LadderAnswer& answer) {
   constexpr const char* ordinals[] = {"First", "Second", "Third", "Fourth"};
   const QuantityOverLevels& positions = answer.quantities.front();
   const ErrorBar& bar = positions.bar;
-  const int formal = std::clamp(int(answer.formal_order), 1, 4);
-  std::string words = fmt::format("{} order: ", ordinals[formal - 1]);
-  if (bar.reading == Reading::asymptotic)
-    words +=
-        fmt::format("yes, the last orders are {:.2f}", fmt::join(last_two(bar.orders), " and "));
-  else if (bar.reading == Reading::not_asymptotic && !bar.may_settle)
-    words += "no, " + bar.reason;
+  const OrderVerdict verdict = order_verdict(answer);
+  std::string words = fmt::format(
+      "{} order: {}", ordinals[std::clamp(int(answer.formal_order), 1, 4) - 1], name_of(verdict));
+  if (verdict == OrderVerdict::cannot_tell)
+    words += ", because " + bar.reason;
   else
-    words += "cannot tell, because " + bar.reason;
+    words += fmt::format(", the last orders are {:.2f}", fmt::join(last_two(bar.orders), " and "));
   if (std::isfinite(positions.first_error))
     words += fmt::format(". Your error is {:.2g} m at most", positions.first_error);
   return words + ". " + how_to_halve(answer);

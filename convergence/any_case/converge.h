@@ -86,8 +86,17 @@ LadderAnswer time_answer(const LadderPlan& plan, const std::vector<LevelRun>& ru
 
 // The answer as evidence: curves of differences, tables, and a sentence.
 
-/// "Second order: yes, the last orders are 1.98 and 2.01." Of the positions: yes, no, or cannot
-/// tell, with the reason; then the case's own error, and what half of it costs.
+/// Whether the positions of a method, or mesh, fall with its order.
+enum class OrderVerdict { yes, no, cannot_tell };
+std::string_view name_of(OrderVerdict verdict);  // "yes", "no", "cannot tell"
+
+OrderVerdict order_verdict(const LadderAnswer& answer);
+
+/// Whether the positions, or a number that has an order, may settle with another level.
+bool may_settle(const LadderAnswer& answer);
+
+/// "Second order: yes, the last orders are 1.98 and 2.01." The verdict with its reason; then the
+/// case's own error, and what half of it costs.
 std::string order_in_words(const LadderAnswer& answer);
 
 /// How large the error of the case as it stands is, in one or two sentences.

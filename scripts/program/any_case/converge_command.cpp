@@ -98,14 +98,6 @@ LadderAnswer answer_until(const Predictability& twins, const LadderPlan& plan,
                      integrator_named(plan.input_case.scene.integrator).order);
 }
 
-/// Whether the positions, or a number that has an order, may settle with another level.
-bool may_settle(const LadderAnswer& answer) {
-  return answer.quantities.front().bar.may_settle ||
-         std::ranges::any_of(answer.quantities, [](const QuantityOverLevels& q) {
-           return q.bar.may_settle && q.bar.reading == Reading::not_asymptotic;
-         });
-}
-
 /// Adds levels until the orders have settled, or the next one costs more than what is left of the
 /// budget.
 void add_levels(const LadderPlan& plan, const Predictability& twins, const Answering& by,

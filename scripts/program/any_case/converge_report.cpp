@@ -149,6 +149,7 @@ json to_json(const LadderAnswer& answer) {
                       {"stopped", answer.stopped},
                       {"warnings", answer.warnings},
                       {"halving", how_to_halve(answer)},
+                      {"has_order", name_of(order_verdict(answer))},
                       {"in_words", order_in_words(answer)},
                       {"quantities", json::array()}};
   if (!answer.clock.empty()) answer_json["clock"] = answer.clock;
