@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "reference/dynamics/integrator.h"
+#include "reference/forces/degenerate.h"
 #include "reference/mesh/box_tree.h"
 #include "reference/mesh/seams.h"
 
@@ -79,14 +80,19 @@ void warn_of_sizes(const KeyTable& cloth, Scene& scene) {
     scene.warnings.push_back(where + ": " + words);
 }
 
-std::string warning_of_step(const Scene& scene, const BuiltScene& built) {
+std::string warning_of_step(const Scene& scene, const System& system, const State& s) {
   const double step = scene.schedule.step.fixed;
   if (!(step > 0) || integrator_named(scene.integrator).family == Family::fully_implicit) return "";
-  const double limit = elastic_limit(built.system, built.start);
+  double limit = 0;
+  try {
+    limit = elastic_limit(system, s);
+  } catch (const DegenerateElement&) {
+    return "";
+  }
   if (!(step > limit)) return "";
   return "a step of " + digits(step) + " s is " + digits(step / limit) +
-         " times the elastic limit at the start, " + digits(limit) + " s, below which " +
-         scene.integrator + " is known to be stable; step = \"automatic\" keeps to it";
+         " times the elastic limit here, " + digits(limit) + " s, below which " + scene.integrator +
+         " is known to be stable; step = \"automatic\" keeps to it";
 }
 
 }  // namespace foldproof

@@ -17,8 +17,8 @@ std::string sizes_in_words(const Scene& scene);
 /// there.
 void warn_of_sizes(const KeyTable& cloth, Scene& scene);
 
-/// A fixed step beyond the elastic limit at the start, which bounds from below what is stable, in a
-/// line; "" if there is none, or the integrator is fully implicit.
-std::string warning_of_step(const Scene& scene, const BuiltScene& built);
+/// A fixed step beyond the elastic limit at this state, which bounds from below what is stable, in
+/// a line; "" if it is not, and for fully implicit integrators.
+std::string warning_of_step(const Scene& scene, const System& system, const State& s);
 
 }  // namespace foldproof

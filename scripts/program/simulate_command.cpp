@@ -129,6 +129,11 @@ CaseRun run_of(const BuiltCase& of, const Options& options) {
                                    });
 }
 
+void warn_of_step(const Scene& scene, const System& system, const State& s) {
+  if (const std::string text = warning_of_step(scene, system, s); !text.empty())
+    log_line("warning: " + text);
+}
+
 int simulate_case(const Options& options) {
   Case input_case = read_case(case_file(options.file), options.overrides);
   const bool may_delete = options.resumes || options.restarts;
@@ -138,8 +143,7 @@ int simulate_case(const Options& options) {
   const BuiltCase of = built_with_notice(std::move(input_case), options);
   const Scene& scene = of.input_case.scene;
   log_warnings(scene);
-  if (const std::string text = warning_of_step(scene, of.built); !text.empty())
-    log_line("warning: " + text);
+  warn_of_step(scene, of.built.system, of.built.start);
   log_line(fmt::format("{}: {}", scene.name, sizes_in_words(scene)));
   log_line(
       fmt::format("{}: {}", scene.name, fmt::join(describe_parts(scene, of.built.system), "; ")));
@@ -148,7 +152,10 @@ int simulate_case(const Options& options) {
       if (const std::string text = accuracy_report(*field, of.built.objects[k].body); !text.empty())
         log_line(fmt::format("object '{}': {}", scene.objects[k].object.name, text));
   try {
-    return report(run_of(of, options), options);
+    const CaseRun run = run_of(of, options);
+    const int code = report(run, options);
+    if (!run.record.stopped.empty()) warn_of_step(scene, of.built.system, run.result.last);
+    return code;
   } catch (const Interrupted& interrupted) {
     say_how_to_resume(scene, options);
     end_by(interrupted);
