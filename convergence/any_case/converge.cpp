@@ -270,13 +270,16 @@ std::string_view name_of(OrderVerdict verdict) {
 OrderVerdict order_verdict(const LadderAnswer& answer) {
   const ErrorBar& bar = answer.quantities.front().bar;
   if (bar.reading == Reading::inconclusive || bar.may_settle) return OrderVerdict::cannot_tell;
-  const bool has_order =
-      bar.reading == Reading::asymptotic && bar.order >= answer.formal_order - same_order;
-  return has_order ? OrderVerdict::yes : OrderVerdict::no;
+  const double lacks = answer.formal_order - bar.order;
+  if (bar.reading == Reading::asymptotic && lacks <= same_order) return OrderVerdict::yes;
+  const std::vector<double> last = last_two(bar.orders);
+  const bool comes_nearer = !(last.back() - last.front() < lacks / 4) || last.size() < 2;
+  return comes_nearer ? OrderVerdict::cannot_tell : OrderVerdict::no;
 }
 
 bool may_settle(const LadderAnswer& answer) {
-  return answer.quantities.front().bar.may_settle ||
+  const bool is_open = order_verdict(answer) == OrderVerdict::cannot_tell;
+  return (is_open && answer.quantities.front().bar.reading != Reading::inconclusive) ||
          std::ranges::any_of(answer.quantities, [](const QuantityOverLevels& q) {
            return q.bar.may_settle && q.bar.reading == Reading::not_asymptotic;
          });
@@ -290,7 +293,8 @@ std::string order_in_words(const LadderAnswer& answer) {
   std::string words = fmt::format(
       "{} order: {}", ordinals[std::clamp(int(answer.formal_order), 1, 4) - 1], name_of(verdict));
   if (verdict == OrderVerdict::cannot_tell)
-    words += ", because " + bar.reason;
+    words += ", because " +
+             (bar.reason.empty() ? "the order still comes nearer to the method's" : bar.reason);
   else
     words += fmt::format(", the last orders are {:.2f}", fmt::join(last_two(bar.orders), " and "));
   if (std::isfinite(positions.first_error))

@@ -91,9 +91,11 @@ int report(const CaseRun& run, const Options& options) {
   if (options.json)
     fmt::print("{}\n", json_text(to_json(run, options)));
   else
-    fmt::print("{}{}/{}: t = {:.6g} s in {} steps, {:.2f} CG iterations a solve, {:.1f} s\n",
-               listing(expected), options.out, run.record.file, run.result.last.time,
-               run.result.steps, double(work.cg_iterations) / double(std::max(1L, work.solves)),
+    fmt::print("{}{}/{}: t = {:.6g} s in {} steps{}, {:.1f} s\n", listing(expected), options.out,
+               run.record.file, run.result.last.time, run.result.steps,
+               work.solves > 0 ? fmt::format(", {:.2f} CG iterations a solve",
+                                             double(work.cg_iterations) / double(work.solves))
+                               : "",
                run.record.seconds);
   if (work.unfinished_solves > 0)
     log_line(fmt::format("warning: {} of {} solves hit the cap on iterations",

@@ -345,11 +345,13 @@ Outcome outcome_of(const ClaimRecord& record) {
 }
 
 bool is_out_of_reach(const ClaimRecord& record) {
-  return record.claim.decided_by.empty() && !record.claim.missing.empty();
+  return record.ruling == Ruling::undecided && record.claim.decided_by.empty() &&
+         !record.claim.missing.empty();
 }
 
 bool waits_for_full_tier(const ClaimRecord& record) {
-  return !record.claim.decided_by.empty() && !record.claim.missing.empty();
+  return record.ruling == Ruling::undecided && !record.claim.decided_by.empty() &&
+         !record.claim.missing.empty();
 }
 
 }  // namespace foldproof

@@ -127,6 +127,7 @@ TEST_CASE("what an OBJ file says wrong is refused with its line") {
            {"v 1 2 3", ":1: " + none},
            {"\n#", ":2: " + none},
            {four + "f 1 2 3\nf 1 2\n", ":6: a face of 2 vertices"},
+           {four + "f 1 3 2 4\n", ":5: a polygon of 4 corners whose sides cross"},
            {four + "f 1 \\\n2 \\\n x\n", ":7: 'x' is no corner of a face"},
            {four + "f 1 2 \\\n 3 4 7\n\n", ":5: index 7 is out of range; the file has 4 vertices"},
            {four + "f 1 2 -0\n", ":5: index 0 in '-0'"},
