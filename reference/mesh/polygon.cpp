@@ -47,6 +47,17 @@ std::vector<Vector2> shadow_of(std::span<const int> corners, const PerParticle3&
   return shadow;
 }
 
+/// Else a polygon without area crosses itself.
+bool are_in_line(std::span<const int> corners, const PerParticle3& x) {
+  double area = 0, longest = 0;
+  for (const Triangle& t : fan_of(corners)) {
+    const Vector3 a = x.col(t[1]) - x.col(t[0]), b = x.col(t[2]) - x.col(t[0]);
+    area = std::max(area, a.cross(b).norm());
+    longest = std::max({longest, a.squaredNorm(), b.squaredNorm()});
+  }
+  return !(area > least_area * longest);
+}
+
 double cross(const Vector2& a, const Vector2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// Twice the area over the longest side squared; negative if clockwise.
@@ -117,7 +128,7 @@ std::vector<Triangle> triangles_of_polygon(std::span<const int> corners, const P
   const std::vector<int> kept = without_repeats(corners);
   if (kept.size() < 3) return fan_of(corners);
   const std::vector<Vector2> shadow = shadow_of(kept, x);
-  if (shadow.empty()) return fan_of(corners);
+  if (shadow.empty()) return are_in_line(kept, x) ? fan_of(corners) : std::vector<Triangle>();
   if (is_fan(shadow)) return fan_of(kept);
   if (int(kept.size()) > most_concave_corners || crosses_itself(shadow)) return {};
   return best_cut(kept, shadow);

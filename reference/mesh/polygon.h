@@ -16,7 +16,7 @@ constexpr int most_concave_corners = 400;
 /// that its first corner sees whole within a half-plane, as it does where all are convex, is the
 /// fan about that corner; every other one is cut so that its worst triangle, by area over longest
 /// side squared, is as good as can be. A corner repeated at once counts once. A polygon that is not
-/// flat is so cut as its shadow is, and the triangles bend with the corners. One without area is
+/// flat is so cut as its shadow is, and the triangles bend with the corners. One in a line is
 /// the fan of its corners as they stand. Empty: its sides cross, or it is concave with too many
 /// corners.
 std::vector<Triangle> triangles_of_polygon(std::span<const int> corners, const PerParticle3& x);

@@ -49,7 +49,7 @@ TEST_CASE("concave polygons are cut into triangles that cover them once, from ev
   for (auto [area, outline] : std::vector<std::pair<double, std::vector<Eigen::Vector2d>>>{
            {3, {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}},                  // L
            {7, {{0, 0}, {3, 0}, {3, 3}, {2, 3}, {2, 1}, {1, 1}, {1, 3}, {0, 3}}},  // U
-           {1.5, {{0, 0}, {2, -1}, {0.5, 0}, {2, 2}}},                             // dart
+           {0.75, {{0, 0}, {2, -1}, {0.5, 0}, {2, 2}}},                            // dart
            {2.5, {{0, 0}, {1, 0}, {2, 0}, {2, 1}, {1, 2}}},  // a corner on a side
            {4, {{0, 0}, {1, 0}, {2, 0}, {2, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}},
            {5,
