@@ -26,7 +26,8 @@ std::string digits(double value) {
 double length_of(const PerParticle3& x) { return bounds_of(x).sizes().maxCoeff(); }
 
 std::string extent_of(const PerParticle3& x) {
-  const Vector3 size = bounds_of(x).sizes();
+  Vector3 size = bounds_of(x).sizes();
+  size = (size.array() < 1e-9 * size.maxCoeff()).select(0, size);  // rounding of a flat cloth
   return digits(size.x()) + " x " + digits(size.y()) + " x " + digits(size.z()) + " m";
 }
 
