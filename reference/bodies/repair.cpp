@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "reference/bodies/closed_mesh.h"
-#include "reference/bodies/winding.h"
+#include "reference/level_set/winding.h"
 #include "reference/fast/loops.h"
 #include "reference/mesh/mesh_locations.h"
 
