@@ -240,6 +240,14 @@ TriangleSoup soup_of(std::string_view text, const std::string& file) {
   return {std::move(rest), std::move(contents.triangles), std::move(contents.origin)};
 }
 
+TriangleSoup finite(TriangleSoup soup, const std::string& file) {
+  for (Eigen::Index v = 0; v < soup.rest.cols(); ++v) {
+    if (!soup.rest.col(v).allFinite())
+      reject(file, soup.origin.vertex_lines[v], "a coordinate is not finite; give numbers in m");
+  }
+  return soup;
+}
+
 }  // namespace
 
 TriangleMesh read_obj_text(std::string_view text, const std::string& file) {
@@ -252,12 +260,7 @@ FaceGroups read_obj_groups_text(std::string_view text, const std::string& file) 
 }
 
 TriangleSoup read_obj_soup_text(std::string_view text, const std::string& file) {
-  TriangleSoup soup = soup_of(text, file);
-  for (Eigen::Index v = 0; v < soup.rest.cols(); ++v) {
-    if (!soup.rest.col(v).allFinite())
-      reject(file, soup.origin.vertex_lines[v], "a coordinate is not finite; give numbers in m");
-  }
-  return soup;
+  return finite(soup_of(text, file), file);
 }
 
 TriangleMesh read_obj(const std::string& path) {
@@ -270,6 +273,11 @@ FaceGroups read_obj_groups(const std::string& path) {
 
 TriangleSoup read_obj_soup(const std::string& path) {
   return read_obj_soup_text(read_text_file(path, table_text_limits), path);
+}
+
+TriangleSoup read_body_soup(const std::string& path) {
+  return finite(without_unused_vertices(soup_of(read_text_file(path, table_text_limits), path)),
+                path);
 }
 
 void write_obj(const std::string& path, const PerParticle3& positions,

@@ -27,6 +27,9 @@ TriangleMesh read_obj(const std::string& path);
 /// are not finite.
 TriangleSoup read_obj_soup(const std::string& path);
 
+/// The same for a body: vertices that no triangle uses are left out, also if they are not finite.
+TriangleSoup read_body_soup(const std::string& path);
+
 /// Triangles by the name of their group, numbered as by read_obj: the triangles of all faces after
 /// 'g NAME ...' or 'o NAME', until the next record of the same letter. A name that occurs twice is
 /// one group; a face may belong to several.

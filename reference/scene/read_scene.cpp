@@ -174,6 +174,43 @@ void reject_overflow(const KeyTable& cloth, const Scene& scene) {
     throw InputError(cloth.where() + ": a particle has the mass 0, or one that is not finite");
 }
 
+/// Says by how much 'fit' scales each mesh, and warns if a file of --set is scaled by a 'fit' that
+/// the case has for another, so that cloth and body no longer match.
+void note_scales(const KeyTable& keys, double of_cloth, Scene& scene) {
+  const auto text = [](double value) {
+    std::ostringstream out;
+    out.precision(3);
+    out << value;
+    return out.str();
+  };
+  const auto note = [&](const std::string& name, const KeyTable& part, double scale) {
+    if (part.has("fit"))
+      scene.notes.push_back(name + ": fit = " + text(part.number("fit")) +
+                            " m scales the mesh by " + text(scale));
+  };
+  const auto is_typed = [](const KeyTable& part, const char* key) {
+    return part.has(key) && is_override(part.where(key));
+  };
+  const KeyTable& cloth = *keys.table("cloth");
+  note("cloth", cloth, of_cloth);
+  const auto objects = keys.tables("object");
+  for (size_t k = 0; k < objects.size(); ++k) {
+    const KeyTable& object = *objects[k];
+    const std::string name = "object '" + scene.objects[k].object.name + "'";
+    const double scale = scene.objects[k].scale;
+    note(name, object, scale);
+    if (!cloth.has("mesh") || !(object.has("mesh") || object.has("frames"))) continue;
+    if (!is_typed(cloth, "mesh") && !is_typed(object, "mesh") && !is_typed(object, "frames"))
+      continue;
+    if (is_typed(cloth, "fit") || is_typed(object, "fit")) continue;
+    if (std::abs(scale - of_cloth) <= 1e-6 * scale) continue;
+    scene.warnings.push_back((object.has("fit") ? object : cloth).where("fit") +
+                             ": 'fit' scales the mesh of " + name + " by " + text(scale) +
+                             ", that of the cloth by " + text(of_cloth) +
+                             "; --set object.fit= or --set cloth.fit= unsets it");
+  }
+}
+
 /// The fabric that the cloth names, if any.
 std::optional<Fabric> read_fabric(const KeyTable& cloth, const std::string& folder) {
   if (!cloth.has("fabric")) {
@@ -225,11 +262,15 @@ Scene scene_from(const CaseKeys& of, const SceneLimits& limits) {
   reject_overflow(*cloth, scene);
   read_time(*time, scene);
   read_objects(keys, {folder, scene.schedule.end, limits}, scene);
+  note_scales(keys, placed.scale, scene);
   if (const auto self = keys.table("self_collision"))
     scene.self_collision = read_self_collision(*self, scene.mesh);
   read_sticky(keys, folder, scene);
   if (const auto solver = keys.table("solver")) read_solver(*solver, scene.solver);
-  if (const auto self = keys.table("self_collision")) reject_tangled_start(*self, scene);
+  if (const auto self = keys.table("self_collision")) {
+    reject_touching_start(*self, scene);
+    reject_tangled_start(*self, scene);
+  }
   scene.name = file.stem().string();
   scene.folder = folder;
   scene.text = of.text;

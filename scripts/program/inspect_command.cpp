@@ -34,6 +34,7 @@ void print(const std::string& file, const MeshInspection& found) {
   else
     fmt::print("no solid: {}\n", found.rejection);
   if (!found.repair_failure.empty()) fmt::print("no repair: {}\n", found.repair_failure);
+  if (!found.thin_parts.empty()) fmt::print("too thin for the grid: {}\n", found.thin_parts);
   if (found.nodes > 0)
     fmt::print(
         "second opinion: at {} of {} nodes rays contradict the {} about inside and outside; at {} "
@@ -53,6 +54,7 @@ nlohmann::json to_json(const std::string& file, const MeshInspection& found) {
           {"pieces", found.pieces},
           {"volume", found.volume},
           {"no_repair", found.repair_failure},
+          {"thin_parts", found.thin_parts},
           {"nodes", found.nodes},
           {"against_sign", found.against_sign},
           {"among_rays", found.among_rays}};
@@ -61,7 +63,7 @@ nlohmann::json to_json(const std::string& file, const MeshInspection& found) {
 int inspect(const InspectOptions& options) {
   require_input(options.file, mesh_kind);
   if (options.as_cloth) return inspect_cloth(options);
-  const MeshInspection found = inspect_mesh(read_obj_soup(options.file), options.cells);
+  const MeshInspection found = inspect_mesh(read_body_soup(options.file), options.cells);
   if (options.json)
     fmt::print("{}\n", json_text(to_json(options.file, found)));
   else
