@@ -13,9 +13,7 @@ namespace foldproof {
 namespace {
 
 constexpr size_t most_samples = 32;  // of a piece's triangles
-constexpr double flat = 0.25;        // mean winding number on a hemisphere's surface: 0.3 [1]
-constexpr double undecided = 0.01;
-constexpr size_t most_compared = 2000;  // patches whose bounds are compared pair by pair
+constexpr double undecided = 0.02;   // winding number on the surface of a flat piece: 0
 
 /// Patches that are turned as one.
 struct Piece {
@@ -74,32 +72,6 @@ class PieceWinding {
   std::vector<Dipole> dipoles_;
 };
 
-/// Joins flat pieces whose bounds touch.
-std::vector<Piece> joined(std::vector<Piece> pieces, double touch) {
-  std::vector<Piece> result;
-  for (Piece& piece : pieces) {
-    const auto touches = [&](const Piece& other) {
-      Bounds reach = other.bounds;
-      reach.min().array() -= touch;
-      reach.max().array() += touch;
-      return pieces.size() > most_compared || reach.intersects(piece.bounds);
-    };
-    for (size_t k = 0; k < result.size();) {
-      if (!touches(result[k])) {
-        ++k;
-        continue;
-      }
-      if (piece.triangles.size() < result[k].triangles.size()) std::swap(piece, result[k]);
-      piece.triangles.insert(piece.triangles.end(), result[k].triangles.begin(),
-                             result[k].triangles.end());
-      piece.bounds.extend(result[k].bounds);
-      result.erase(result.begin() + long(k));
-    }
-    result.push_back(std::move(piece));
-  }
-  return result;
-}
-
 std::vector<Piece> pieces_of_patches(const PerParticle3& x, const OrientedPatches& of) {
   const std::vector<Bounds> bounds = triangle_bounds(x, of.triangles);
   const auto measure = [&](Piece& piece) {
@@ -107,18 +79,22 @@ std::vector<Piece> pieces_of_patches(const PerParticle3& x, const OrientedPatche
                      .mean(samples_of(x, of.triangles, piece.triangles, most_samples)) -
                  0.5;
   };
-  std::vector<Piece> pieces, sheets;
-  Bounds whole;
+  std::vector<Piece> pieces;
+  Piece flat{{}, {}};  // all flat patches, of which none has an inside alone
   for (const std::vector<int>& patch : of.patches) {
     Piece piece{patch, {}};
     for (const int t : patch) piece.bounds.extend(bounds[size_t(t)]);
-    whole.extend(piece.bounds);
     measure(piece);
-    (std::abs(piece.side) < flat ? sheets : pieces).push_back(std::move(piece));
+    if (std::abs(piece.side) > undecided) {
+      pieces.push_back(std::move(piece));
+      continue;
+    }
+    flat.triangles.insert(flat.triangles.end(), patch.begin(), patch.end());
+    flat.bounds.extend(piece.bounds);
   }
-  for (Piece& piece : joined(std::move(sheets), 1e-3 * whole.diagonal().norm())) {
-    measure(piece);
-    pieces.push_back(std::move(piece));
+  if (!flat.triangles.empty()) {
+    measure(flat);
+    pieces.push_back(std::move(flat));
   }
   // a piece comes after those that may enclose it
   std::ranges::stable_sort(pieces, std::greater<>(),

@@ -25,8 +25,8 @@ OrientedPatches oriented_patches(const TriangleSoup& soup);
 
 /// The same, with normals outward: a patch within which the winding number would be negative, for
 /// lack of another around it, is turned, together with the patches that it encloses. A cavity stays
-/// one, also in a body that is inside out as a whole. Patches that are too flat to have an inside
-/// are decided together with those that they touch.
+/// one, also in a body that is inside out as a whole. Flat patches, which have no inside alone, are
+/// decided together.
 OrientedPatches outward_patches(const TriangleSoup& soup);
 
 /// repair = "winding". Inside is where the generalised winding number of the outward triangles is

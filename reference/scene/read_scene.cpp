@@ -174,39 +174,37 @@ void reject_overflow(const KeyTable& cloth, const Scene& scene) {
     throw InputError(cloth.where() + ": a particle has the mass 0, or one that is not finite");
 }
 
-/// Says by how much 'fit' scales each mesh, and warns if a file of --set is scaled by a 'fit' that
-/// the case has for another, so that cloth and body no longer match.
+std::string three_digits(double value) {
+  std::ostringstream out;
+  out.precision(3);
+  out << value;
+  return out.str();
+}
+
+/// Says by how much 'fit' scales each mesh, and warns where a 'fit' of the case parts a cloth and a
+/// body of --set.
 void note_scales(const KeyTable& keys, double of_cloth, Scene& scene) {
-  const auto text = [](double value) {
-    std::ostringstream out;
-    out.precision(3);
-    out << value;
-    return out.str();
-  };
   const auto note = [&](const std::string& name, const KeyTable& part, double scale) {
     if (part.has("fit"))
-      scene.notes.push_back(name + ": fit = " + text(part.number("fit")) +
-                            " m scales the mesh by " + text(scale));
-  };
-  const auto is_typed = [](const KeyTable& part, const char* key) {
-    return part.has(key) && is_override(part.where(key));
+      scene.notes.push_back(name + ": fit = " + three_digits(part.number("fit")) +
+                            " m scales the mesh by " + three_digits(scale));
   };
   const KeyTable& cloth = *keys.table("cloth");
   note("cloth", cloth, of_cloth);
-  const auto objects = keys.tables("object");
-  for (size_t k = 0; k < objects.size(); ++k) {
-    const KeyTable& object = *objects[k];
+  for (size_t k = 0; k < scene.objects.size(); ++k) {
+    const KeyTable& object = *keys.tables("object")[k];
     const std::string name = "object '" + scene.objects[k].object.name + "'";
     const double scale = scene.objects[k].scale;
     note(name, object, scale);
-    if (!cloth.has("mesh") || !(object.has("mesh") || object.has("frames"))) continue;
-    if (!is_typed(cloth, "mesh") && !is_typed(object, "mesh") && !is_typed(object, "frames"))
-      continue;
-    if (is_typed(cloth, "fit") || is_typed(object, "fit")) continue;
+    const auto is_typed = [&](const char* key) {
+      return is_override(cloth.where(key)) || is_override(object.where(key));
+    };
+    const bool are_meshes = cloth.has("mesh") && !object.has("shape");
+    if (!are_meshes || !(is_typed("mesh") || is_typed("frames")) || is_typed("fit")) continue;
     if (std::abs(scale - of_cloth) <= 1e-6 * scale) continue;
     scene.warnings.push_back((object.has("fit") ? object : cloth).where("fit") +
-                             ": 'fit' scales the mesh of " + name + " by " + text(scale) +
-                             ", that of the cloth by " + text(of_cloth) +
+                             ": 'fit' scales the mesh of " + name + " by " + three_digits(scale) +
+                             ", that of the cloth by " + three_digits(of_cloth) +
                              "; --set object.fit= or --set cloth.fit= unsets it");
   }
 }

@@ -33,16 +33,15 @@ TriangleSoup inside_out(TriangleSoup soup) {
   return soup;
 }
 
-/// A cone 1 m high, with an apex of twice the angle.
+/// A cone 1 m high, its apex twice the angle wide.
 TriangleSoup cone(double degrees) {
-  constexpr int around = 40;
-  TriangleSoup soup{PerParticle3::Zero(3, around + 2), {}, {}};
-  soup.rest(1, around) = 1;
-  for (int k = 0; k < around; ++k) {
-    const double angle = 2 * pi * k / around, radius = std::tan(degrees * pi / 180);
-    soup.rest.col(k) = Vector3(radius * std::cos(angle), 0, radius * std::sin(angle));
-    soup.triangles.push_back({k, around, (k + 1) % around});
-    soup.triangles.push_back({k, (k + 1) % around, around + 1});
+  const double radius = std::tan(degrees * pi / 180);
+  TriangleSoup soup{PerParticle3::Zero(3, 42), {}, {}};
+  soup.rest(1, 40) = 1;
+  for (int k = 0; k < 40; ++k) {
+    soup.rest.col(k) = radius * Vector3(std::cos(pi * k / 20), 0, std::sin(pi * k / 20));
+    soup.triangles.push_back({k, 40, (k + 1) % 40});
+    soup.triangles.push_back({k, (k + 1) % 40, 41});
   }
   return soup;
 }
