@@ -6,24 +6,19 @@
 namespace foldproof {
 
 TriangleSoup without_unused_vertices(TriangleSoup soup) {
-  std::vector<int> place(size_t(soup.rest.cols()), -1);
+  std::vector<int> place(size_t(soup.rest.cols()), -1), kept, lines;
   for (const Triangle& t : soup.triangles)
     for (const int v : t) place[size_t(v)] = 0;
   if (std::ranges::find(place, -1) == place.end()) return soup;
-  std::vector<int> kept;
   for (size_t v = 0; v < place.size(); ++v) {
     if (place[v] < 0) continue;
     place[v] = int(kept.size());
     kept.push_back(int(v));
-  }
-  const PerParticle3 rest = soup.rest(Eigen::all, kept);
-  soup.rest = rest;
-  std::vector<int> lines;
-  for (const int v : kept) {
-    if (!soup.origin.vertex_lines.empty()) lines.push_back(soup.origin.vertex_lines[size_t(v)]);
-    soup.origin.vertex_numbers.push_back(v + 1);
+    lines.push_back(soup.origin.file.empty() ? 0 : soup.origin.vertex_lines[v]);
+    soup.origin.vertex_numbers.push_back(int(v) + 1);
   }
   soup.origin.vertex_lines = std::move(lines);
+  soup.rest = PerParticle3(soup.rest(Eigen::all, kept));
   for (Triangle& t : soup.triangles)
     for (int& v : t) v = place[size_t(v)];
   return soup;
