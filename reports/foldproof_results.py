@@ -18,13 +18,13 @@ from typing import Any, TypeVar
 import numpy as np
 
 from data.hdf5_values import Column
-from data.results import CaseEntry, Claim, Finding, load_case, load_run
+from data.results import CaseEntry, CaseObject, Claim, Finding, load_case, load_run
 from data.studies import OnAxes, Study, StudyMap
 from data.unreadable import Unreadable
 
 __all__ = [
-    "Results", "Trajectory", "Unreadable", "columns_of_study", "evidence_of", "load_results",
-    "load_trajectory"
+    "Results", "Trajectory", "Unreadable", "columns_of_study", "evidence_of", "findings_table",
+    "load_results", "load_trajectory"
 ]
 
 Item = TypeVar("Item")
@@ -39,8 +39,15 @@ class Trajectory:
     velocities: np.ndarray | None   # T x N x 3 [m/s]; None if the file has none
     triangles: np.ndarray           # M x 3, numbers of particles from 0
     held: np.ndarray                # N, true where the motion is prescribed
-    # name: unit, and values of S or, for vectors, S x 3; "time" [s] belongs to them all
+    # name: unit, and values of S or, for vectors, S x 3; "time" [s] belongs to them all. Energies
+    # and momenta, the step, and what it cost: cg_iterations, object_contacts, close_pairs, ...
     diagnostics: dict[str, Column]
+    rest: np.ndarray | None         # N x 3, positions of the rest shape [m]; None: not in the file
+    masses: np.ndarray | None       # N [kg]; None: not in the file
+    # T x N, to the nearest object, negative inside [m]; None without objects
+    distances: np.ndarray | None
+    objects: dict[str, CaseObject]  # by name: .triangles, .positions(frame), V x 3 [m]
+    findings: dict[str, Finding]    # what the case expects, judged
 
 
 @dataclass
@@ -98,8 +105,21 @@ def load_trajectory(path: str | Path) -> Trajectory:
             f"{path}: damaged: a triangle names a particle that is none of the {particles}"
         )
     return Trajectory(
-        case.frame_times, positions, velocities, case.triangles, case.held, case.diagnostics
+        case.frame_times, positions, velocities, case.triangles, case.held, case.diagnostics,
+        case.rest_positions(), case.masses(), case.every_frame("object_distance"),
+        _by_name((one.name, one) for one in case.objects),
+        _by_name((finding.name, finding) for finding in case.findings)
     )
+
+
+def findings_table(findings: dict[str, Finding]) -> dict[str, np.ndarray]:
+    """Findings as columns of one length: name, outcome, measured, bound, uncertainty, unit,
+    seconds, claim. pandas.DataFrame takes it as it is."""
+    names = ("name", "outcome", "measured", "bound", "uncertainty", "unit", "seconds", "claim")
+    return {
+        name: np.array([getattr(finding, name) for finding in findings.values()])
+        for name in names
+    }
 
 
 def evidence_of(finding: Finding) -> dict[str, Column]:

@@ -237,6 +237,11 @@ std::string halved_by_level(const LadderAnswer& answer) {
                      answer.cost(coarsest) / answer.cost(0));
 }
 
+/// The last two, or the only one.
+std::vector<double> last_two(const std::vector<double>& orders) {
+  return {orders.end() - std::min<long>(2, long(orders.size())), orders.end()};
+}
+
 }  // namespace
 
 std::string as_name(const std::string& words) {
@@ -255,6 +260,46 @@ std::string how_to_halve(const LadderAnswer& answer) {
   if (bar.reading == Reading::inconclusive) return "What halves that error is not known.";
   return as_sentence(bar.reading == Reading::asymptotic ? halved_by_order(answer, bar.order)
                                                         : halved_by_level(answer));
+}
+
+std::string_view name_of(OrderVerdict verdict) {
+  constexpr std::string_view names[] = {"yes", "no", "cannot tell"};
+  return names[size_t(verdict)];
+}
+
+OrderVerdict order_verdict(const LadderAnswer& answer) {
+  const ErrorBar& bar = answer.quantities.front().bar;
+  if (bar.reading == Reading::inconclusive || bar.may_settle) return OrderVerdict::cannot_tell;
+  const double lacks = answer.formal_order - bar.order;
+  if (bar.reading == Reading::asymptotic && lacks <= same_order) return OrderVerdict::yes;
+  const std::vector<double> last = last_two(bar.orders);
+  const bool comes_nearer = !(last.back() - last.front() < lacks / 4) || last.size() < 2;
+  return comes_nearer ? OrderVerdict::cannot_tell : OrderVerdict::no;
+}
+
+bool may_settle(const LadderAnswer& answer) {
+  const bool is_open = order_verdict(answer) == OrderVerdict::cannot_tell;
+  return (is_open && answer.quantities.front().bar.reading != Reading::inconclusive) ||
+         std::ranges::any_of(answer.quantities, [](const QuantityOverLevels& q) {
+           return q.bar.may_settle && q.bar.reading == Reading::not_asymptotic;
+         });
+}
+
+std::string order_in_words(const LadderAnswer& answer) {
+  constexpr const char* ordinals[] = {"First", "Second", "Third", "Fourth"};
+  const QuantityOverLevels& positions = answer.quantities.front();
+  const ErrorBar& bar = positions.bar;
+  const OrderVerdict verdict = order_verdict(answer);
+  std::string words = fmt::format(
+      "{} order: {}", ordinals[std::clamp(int(answer.formal_order), 1, 4) - 1], name_of(verdict));
+  if (verdict == OrderVerdict::cannot_tell)
+    words += ", because " +
+             (bar.reason.empty() ? "the order still comes nearer to the method's" : bar.reason);
+  else
+    words += fmt::format(", the last orders are {:.2f}", fmt::join(last_two(bar.orders), " and "));
+  if (std::isfinite(positions.first_error))
+    words += fmt::format(". Your error is {:.2g} m at most", positions.first_error);
+  return words + ". " + how_to_halve(answer);
 }
 
 std::string in_words(const LadderAnswer& answer) {

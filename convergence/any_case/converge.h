@@ -86,6 +86,21 @@ LadderAnswer time_answer(const LadderPlan& plan, const std::vector<LevelRun>& ru
 
 // The answer as evidence: curves of differences, tables, and a sentence.
 
+/// Whether the positions of a method, or mesh, converge with its order: yes, if they have settled
+/// within same_order of it; no, if they have settled below, and the last order came no nearer by a
+/// quarter of what it lacks (an order that is reached comes nearer by half at each level).
+enum class OrderVerdict { yes, no, cannot_tell };
+std::string_view name_of(OrderVerdict verdict);  // "yes", "no", "cannot tell"
+
+OrderVerdict order_verdict(const LadderAnswer& answer);
+
+/// Whether another level may give a verdict, or let a number settle that has an order.
+bool may_settle(const LadderAnswer& answer);
+
+/// "Second order: yes, the last orders are 1.98 and 2.01." The verdict with its reason; then the
+/// case's own error, and what half of it costs.
+std::string order_in_words(const LadderAnswer& answer);
+
 /// How large the error of the case as it stands is, in one or two sentences.
 std::string in_words(const LadderAnswer& answer);
 

@@ -56,18 +56,35 @@ std::string why_no_order(const std::vector<double>& d, const std::vector<double>
   return "";
 }
 
-/// Why an order that is there is not yet that of small steps; "" if it is.
-std::string why_not_asymptotic(const std::vector<double>& orders, double formal) {
-  const double last = orders.back();
+void accept(ErrorBar& bar) {
+  bar.reading = Reading::asymptotic;
+  bar.reason.clear();
+  bar.may_settle = false;
+}
+
+/// Reads the orders of a ladder that has a last one: asymptotic, or not yet, or at another order.
+void read_orders(double formal, ErrorBar& bar) {
+  const std::vector<double>& orders = bar.orders;
+  const double last = orders.back(), off = std::abs(last - formal);
+  bar.reading = Reading::not_asymptotic;
+  bar.may_settle = true;
   if (orders.size() == 1) {
-    if (std::abs(last - formal) <= same_order) return "";
-    return "three levels give one order, and it is not the method's own";
+    bar.reason = "three levels give one order, and it is not the method's own";
+    if (off <= same_order) accept(bar);
+    return;
   }
-  if (!(std::abs(last - orders[orders.size() - 2]) <= same_order))
-    return "the order still changes from level to level";
-  if (formal - last > far_below_formal)
-    return fmt::format("settled at order {:.2g}, not at the formal {:g}", last, formal);
-  return "";
+  const double before = orders[orders.size() - 2], off_before = std::abs(before - formal);
+  const bool is_steady = std::abs(last - before) <= same_order;
+  const bool is_closing_in =
+      off <= same_order && off < off_before && off_before <= far_below_formal;
+  if (!is_steady && !is_closing_in) {
+    bar.reason = "the order still changes from level to level";
+  } else if (formal - last > far_below_formal) {
+    bar.reason = fmt::format("settled at order {:.2g}, not at the formal {:g}", last, formal);
+    bar.may_settle = false;
+  } else {
+    accept(bar);
+  }
 }
 
 /// The bar of a ladder that has an order. A difference smaller than the highest order that is
@@ -119,8 +136,7 @@ ErrorBar error_bar(const Ladder& ladder) {
     bar.half_width = spread(last, before, ladder.floor);
     return bar;
   }
-  bar.reason = why_not_asymptotic(bar.orders, ladder.formal_order);
-  bar.reading = bar.reason.empty() ? Reading::asymptotic : Reading::not_asymptotic;
+  read_orders(ladder.formal_order, bar);
   bar.order = bar.orders.back();
   bar.safety = bar.reason.empty() ? safety_in_range : safety_outside;
   bar.half_width = bar_with_order(bar, ladder, last, before);

@@ -28,6 +28,7 @@ std::string_view name_of(Reading reading);  // "asymptotic", "not asymptotic", "
 struct ErrorBar {
   Reading reading = Reading::inconclusive;
   std::string reason;          // why it is not asymptotic, or inconclusive; "" if asymptotic
+  bool may_settle = false;     // not asymptotic, and another level may tell more
   std::vector<double> orders;  // n - 2, of neighbouring differences; NaN where there is none
   double order = std::numeric_limits<double>::quiet_NaN();  // observed; NaN if inconclusive
   // Richardson's; NaN without values, or order
@@ -61,9 +62,10 @@ constexpr double floors_for_order = 10;
 /// Reads a ladder of n >= 3 levels. Orders are
 ///   p_k = log(d_k / d_(k+1)) / log ratio,  d_k = f_(k+1) - f_k,  none where d changes sign.
 /// The range is asymptotic if the last two orders agree within same_order and the last one is not
-/// far_below_formal; with three levels, if the only one agrees with the formal order. The error
-/// bar is the grid convergence index (Roache 1994; Celik et al., J. Fluids Eng. 130 (2008)
-/// 078001, their eq. 7),
+/// far_below_formal; or if the last one agrees with the formal order, and the one before was
+/// farther from it, by far_below_formal at most; with three levels, if the only one agrees with it.
+/// The error bar is the grid convergence index (Roache 1994; Celik et al., J. Fluids Eng. 130
+/// (2008) 078001, their eq. 7),
 ///   safety * d / (ratio^p - 1),  p = min(p_last, highest),
 /// with a safety of 1.25 and the formal order as the highest in the asymptotic range, else of 3 and
 /// 1. Two things are ours, because the index alone misses errors of two terms by up to 250 times:

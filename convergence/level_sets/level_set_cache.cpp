@@ -11,7 +11,7 @@
 #include "reference/bodies/grid_content.h"
 #include "reference/dynamics/simulate.h"
 #include "reference/level_set/mesh_distance.h"
-#include "reference/mesh/obj.h"
+#include "reference/mesh/mesh_file.h"
 #include "reference/mesh/shapes.h"
 #include "reference/scene/scene.h"
 #include "verification/files/hdf5_file.h"

@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <tuple>
 
 #include "verification/checks.h"
 #include "verification/claims/read_claims.h"
@@ -43,12 +44,21 @@ ClaimRecord ruled(Ruling recorded, const std::string& why, const std::vector<Rec
 
 }  // namespace
 
-TEST_CASE("a finding of the full tier decides if it ran, and is not missed if it did not") {
+TEST_CASE("a claim waits for findings that only the full tier has, and is not confirmed before") {
   const Decider full{"long", Role::supports, true}, quick{"long", Role::supports};
-  const Record held = finding("support", holds), failed = finding("long", fails, 3);
-  CHECK(ruling({support, full}, {held}) == Ruling::confirmed);
-  CHECK(ruling({support, full}, {held, failed}) == Ruling::undecided);
-  CHECK(ruling({support, quick}, {held}) == Ruling::undecided);
+  const Record held = finding("support", holds), failed = finding("support", fails);
+  const auto outcome = [](const Decider& last, const std::vector<Record>& records) {
+    const ClaimRecord record = rule_claim(
+        {"BMF03", "X1", "3", "A sentence.", {support, last}, Ruling::confirmed, "", ""}, records);
+    return std::tuple(record.ruling, outcome_of(record), waits_for_full_tier(record));
+  };
+  CHECK(outcome(full, {held}) == std::tuple(Ruling::undecided, Outcome::inconclusive, true));
+  CHECK(outcome(full, {held, finding("long", holds)}) ==
+        std::tuple(Ruling::confirmed, holds, false));
+  CHECK(outcome(full, {held, finding("long", fails)}) ==
+        std::tuple(Ruling::undecided, fails, false));
+  CHECK(outcome(full, {failed}) == std::tuple(Ruling::undecided, fails, false));
+  CHECK(outcome(quick, {held}) == std::tuple(Ruling::undecided, fails, false));
 }
 
 TEST_CASE("a limit that holds makes a claim conditional; one that fails does not confirm it") {

@@ -42,8 +42,8 @@ PerParticle3 positions_at(const MeshSequence& sequence, double t);
 
 /// All files *.obj of a folder in the order of their names, `interval` [s] apart from time 0 on.
 /// Vertices that no triangle uses are left out. Throws InputError naming the file: no file, more
-/// than `most`, triangles that differ from the first file's, or a file that read_obj refuses; with
-/// Inside::winding only one that read_obj_soup refuses.
+/// than `most`, triangles that differ from the first file's, or a file that read_mesh refuses; with
+/// Inside::winding only one that read_mesh_file refuses.
 MeshSequence read_obj_sequence(const std::string& folder, double interval, long most = 1000,
                                Inside inside = Inside::normals);
 

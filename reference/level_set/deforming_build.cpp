@@ -13,7 +13,7 @@
 #include "reference/level_set/mesh_distance.h"
 #include "reference/level_set/octree_nodes.h"
 #include "reference/level_set/winding.h"
-#include "reference/mesh/obj.h"
+#include "reference/mesh/mesh_file.h"
 
 namespace foldproof {
 
@@ -267,7 +267,7 @@ MeshSequence read_obj_sequence(const std::string& folder, double interval, long 
   std::sort(files.begin(), files.end());
   MeshSequence sequence{{}, {}, {}, inside};
   for (std::size_t k = 0; k < files.size(); ++k) {
-    TriangleSoup mesh = read_body_soup(files[k]);
+    TriangleSoup mesh = without_unused_vertices(read_mesh_file(files[k]).soup);
     if (inside == Inside::normals) make_triangle_mesh(mesh.rest, mesh.triangles, mesh.origin);
     if (k == 0) sequence.triangles = mesh.triangles;
     if (mesh.triangles != sequence.triangles)

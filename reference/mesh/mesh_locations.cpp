@@ -4,14 +4,24 @@
 
 namespace foldproof {
 
+namespace {
+
+/// To begin a message. lines: empty for a binary file.
+std::string location(const MeshOrigin& origin, const std::vector<int>& lines, const char* part,
+                     int k) {
+  const std::string file = origin.file.empty() ? "mesh" : origin.file;
+  if (lines.empty()) return file + ": " + part + " " + std::to_string(k) + ": ";
+  return file + ":" + std::to_string(lines[size_t(k)]) + ": ";
+}
+
+}  // namespace
+
 std::string triangle_location(const MeshOrigin& origin, int t) {
-  if (origin.file.empty()) return "mesh: triangle " + std::to_string(t) + ": ";
-  return origin.file + ":" + std::to_string(origin.triangle_lines[t]) + ": ";
+  return location(origin, origin.triangle_lines, "triangle", t);
 }
 
 std::string vertex_location(const MeshOrigin& origin, int v) {
-  if (origin.file.empty()) return "mesh: vertex " + std::to_string(v) + ": ";
-  return origin.file + ":" + std::to_string(origin.vertex_lines[v]) + ": ";
+  return location(origin, origin.vertex_lines, "vertex", v);
 }
 
 std::string mesh_location(const MeshOrigin& origin) {
@@ -19,14 +29,14 @@ std::string mesh_location(const MeshOrigin& origin) {
 }
 
 std::string vertex_name(const MeshOrigin& origin, int v) {
-  if (origin.file.empty()) return "vertex " + std::to_string(v);
+  if (origin.vertex_lines.empty()) return "vertex " + std::to_string(v);
   const int number = origin.vertex_numbers.empty() ? v + 1 : origin.vertex_numbers[v];
   return "vertex " + std::to_string(number) + " (line " + std::to_string(origin.vertex_lines[v]) +
          ")";
 }
 
 std::string triangle_name(const MeshOrigin& origin, int t) {
-  if (origin.file.empty()) return "triangle " + std::to_string(t);
+  if (origin.triangle_lines.empty()) return "triangle " + std::to_string(t);
   return "the face of line " + std::to_string(origin.triangle_lines[t]);
 }
 

@@ -1,5 +1,5 @@
-// Names of the parts of a mesh in messages: FILE:LINE if it was read, numbers from 0 if it was made
-// by code.
+// Names of the parts of a mesh in messages: FILE:LINE if it was read from text; numbers from 0 if
+// it was made by code, or read from a binary file.
 #pragma once
 
 #include <string>

@@ -1,5 +1,4 @@
-#include "reference/mesh/ply.h"
-
+// Reads PLY files.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -7,17 +6,16 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
-#include "reference/mesh/text_file.h"
+#include "reference/mesh/mesh_reading.h"
 
 namespace foldproof {
 namespace {
 
-constexpr std::size_t most_vertices = 2'000'000, most_triangles = 4'000'000;
 constexpr std::size_t most_parts = 64;  // elements and properties of a header
-constexpr TextLimits ply_limits = {std::size_t(1) << 28, std::size_t(1) << 28};
 
 enum class Type { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 
@@ -64,6 +62,7 @@ struct Reader {
   std::size_t at = 0;
   int line = 1;             // of the header and of ASCII
   Form form = Form::ascii;  // of the next value to read
+  char line_end = '\n';     // or '\r', if the file's first line ends with that alone
 };
 
 [[noreturn]] void reject(const Reader& reader, const std::string& reason) {
@@ -89,7 +88,7 @@ std::vector<std::string_view> words_of(std::string_view line) {
 
 /// The next line of the header; in a file that is not PLY lines may be long, and are not split.
 std::vector<std::string_view> header_line(Reader& reader) {
-  const std::size_t end = reader.text.find('\n', reader.at);
+  const std::size_t end = reader.text.find(reader.line_end, reader.at);
   if (end == std::string_view::npos)
     reject(reader, "the header has no end_header; give a PLY file");
   const std::string_view line = reader.text.substr(reader.at, end - reader.at);
@@ -107,9 +106,13 @@ Type type_named(const Reader& reader, std::string_view word) {
 
 template <class Number>
 bool is_number(std::string_view word, Number& value) {
-  const std::from_chars_result result =
-      std::from_chars(word.data(), word.data() + word.size(), value);
-  return result.ec == std::errc() && result.ptr == word.data() + word.size();
+  if constexpr (std::is_same_v<Number, double>) {
+    return read_number(word, value) == std::errc();
+  } else {
+    const char* const end = word.data() + word.size();
+    const std::from_chars_result result = std::from_chars(word.data(), end, value);
+    return result.ec == std::errc() && result.ptr == end;
+  }
 }
 
 void read_format(Reader& reader, const std::vector<std::string_view>& words, Header& header) {
@@ -152,7 +155,10 @@ void read_property(Reader& reader, const std::vector<std::string_view>& words, H
 
 Header read_header(Reader& reader) {
   Header header;
-  if (!reader.text.starts_with("ply\n") && !reader.text.starts_with("ply\r\n"))
+  if (reader.text.starts_with("ply\r") && !reader.text.starts_with("ply\r\n"))
+    reader.line_end = '\r';
+  if (words_of(reader.text.substr(0, reader.text.find(reader.line_end))) !=
+      std::vector<std::string_view>{"ply"})
     reject(reader, "the file does not begin with the line 'ply'; give a PLY file");
   bool has_format = false;
   for (std::size_t parts = 0; parts <= most_parts;) {
@@ -179,7 +185,7 @@ std::string_view next_word(Reader& reader) {
     return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\v' || c == '\f';
   };
   while (reader.at < reader.text.size() && is_blank(reader.text[reader.at]))
-    reader.line += reader.text[reader.at++] == '\n' ? 1 : 0;
+    reader.line += reader.text[reader.at++] == reader.line_end ? 1 : 0;
   const std::size_t start = reader.at;
   while (reader.at < reader.text.size() && !is_blank(reader.text[reader.at])) ++reader.at;
   return reader.text.substr(start, reader.at - start);
@@ -247,9 +253,15 @@ void skip(Reader& reader, const Property& property) {
   for (std::size_t k = 0; k < count; ++k) next_number(reader, property.type);
 }
 
+/// Which lines a mesh has: none in a binary file.
+int line_of(const Reader& reader) { return reader.form == Form::ascii ? reader.line : 0; }
+
 void read_vertices(Reader& reader, const Element& element, TriangleSoup& soup) {
   if (element.count > most_vertices)
     reject(reader, "more than 2000000 vertices, the most that is read");
+  for (const std::string_view axis : {"x", "y", "z"})
+    if (std::ranges::find(element.properties, axis, &Property::name) == element.properties.end())
+      reject(reader, "the element vertex has no property " + std::string(axis));
   std::vector<Vector3> all;
   for (std::size_t v = 0; v < element.count; ++v) {
     Vector3 place = Vector3::Constant(std::nan(""));
@@ -260,31 +272,47 @@ void read_vertices(Reader& reader, const Element& element, TriangleSoup& soup) {
       else
         skip(reader, property);
     }
-    if (!place.allFinite())
-      reject(reader,
-             "vertex " + std::to_string(v) + " lacks a finite x, y or z; give numbers in m");
     all.push_back(place);
-    soup.origin.vertex_lines.push_back(reader.line);
+    if (line_of(reader) > 0) soup.origin.vertex_lines.push_back(line_of(reader));
   }
   soup.rest.resize(3, Eigen::Index(all.size()));
   for (std::size_t v = 0; v < all.size(); ++v) soup.rest.col(Eigen::Index(v)) = all[v];
 }
 
-void read_polygon(Reader& reader, const Property& property, std::size_t vertices,
-                  TriangleSoup& soup) {
+void add_corner(const Reader& reader, double vertex, FaceList& faces) {
+  if (!(vertex >= 0 && vertex < double(most_vertices) && vertex == std::floor(vertex)))
+    reject(reader, "an index of a vertex is not a whole number from 0 on");
+  if (!faces.add(int(vertex))) reject(reader, "more than 4000000 triangles, the most that is read");
+}
+
+void read_polygon(Reader& reader, const Property& property, FaceList& faces) {
   const std::size_t corners =
       next_whole(reader, property.count_type, reader.text.size(), "the length of a face");
+  if (corners == 0) return;
   if (corners < 3) reject(reader, "a face of fewer than three vertices; give at least three");
-  Triangle fan{};
   for (std::size_t k = 0; k < corners; ++k) {
-    const int index = int(next_whole(reader, property.type, vertices, "an index of a vertex"));
-    if (k > 2) fan[1] = fan[2];
-    fan[std::min<std::size_t>(k, 2)] = index;
-    if (k < 2) continue;
-    if (soup.triangles.size() == most_triangles)
-      reject(reader, "more than 4000000 triangles, the most that is read");
-    soup.triangles.push_back(fan);
-    soup.origin.triangle_lines.push_back(reader.line);
+    const double vertex = next_number(reader, property.type);
+    if (k == 0) faces.begin(line_of(reader));
+    add_corner(reader, vertex, faces);
+  }
+}
+
+/// Each vertex of a strip makes a triangle with the two before it; every second one is turned.
+void read_strips(Reader& reader, const Property& property, FaceList& faces) {
+  const std::size_t count =
+      next_whole(reader, property.count_type, reader.text.size(), "the length of a strip");
+  std::vector<double> strip;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double vertex = next_number(reader, property.type);
+    strip.push_back(vertex);
+    if (vertex == -1) strip.clear();
+    if (strip.size() < 3) continue;
+    const std::size_t last = strip.size() - 1;
+    const double a = strip[last - 2], b = strip[last - 1];
+    if (a == b || b == vertex || vertex == a) continue;  // joins two strips
+    faces.begin(line_of(reader));
+    for (const double corner : {last % 2 == 0 ? a : b, last % 2 == 0 ? b : a, vertex})
+      add_corner(reader, corner, faces);
   }
 }
 
@@ -292,45 +320,37 @@ bool has_corners(const Property& property) {
   return property.is_list && (property.name == "vertex_indices" || property.name == "vertex_index");
 }
 
-void read_faces(Reader& reader, const Element& element, std::size_t vertices, TriangleSoup& soup) {
-  for (std::size_t f = 0; f < element.count; ++f)
+/// An element without properties has no data whose end would stop a loop over an untrusted count.
+void read_element_data(Reader& reader, const Element& element, TriangleSoup& soup,
+                       FaceList& faces) {
+  if (element.properties.empty()) return;
+  if (element.name == "vertex") return read_vertices(reader, element, soup);
+  for (std::size_t k = 0; k < element.count; ++k)
     for (const Property& property : element.properties)
-      if (has_corners(property))
-        read_polygon(reader, property, vertices, soup);
+      if (element.name == "face" && has_corners(property))
+        read_polygon(reader, property, faces);
+      else if (element.name == "tristrips" && has_corners(property))
+        read_strips(reader, property, faces);
       else
         skip(reader, property);
 }
 
-/// An element without properties has no data whose end would stop a loop over an untrusted count.
-void read_element_data(Reader& reader, const Element& element, TriangleSoup& soup) {
-  if (element.properties.empty()) return;
-  if (element.name == "vertex") {
-    read_vertices(reader, element, soup);
-  } else if (element.name == "face") {
-    read_faces(reader, element, std::size_t(soup.rest.cols()), soup);
-  } else {
-    for (std::size_t k = 0; k < element.count; ++k)
-      for (const Property& property : element.properties) skip(reader, property);
-  }
-}
-
 }  // namespace
 
-PlyMesh read_ply_text(std::string_view text, const std::string& file) {
+MeshFile read_ply_text(std::string_view text, const std::string& file) {
   Reader reader{text, file};
   const Header header = read_header(reader);
   reader.form = header.form;
-  PlyMesh mesh;
+  MeshFile mesh;
   mesh.time = header.time;
   mesh.soup.origin.file = file;
   mesh.soup.rest.resize(3, 0);
-  for (const Element& element : header.elements) read_element_data(reader, element, mesh.soup);
-  if (mesh.soup.triangles.empty()) reject(reader, "the file has no face; give a mesh of triangles");
+  FaceList faces;
+  for (const Element& element : header.elements)
+    read_element_data(reader, element, mesh.soup, faces);
+  if (faces.empty()) reject(reader, "the file has no face; give a mesh of triangles");
+  faces.cut_into(mesh.soup, 0);
   return mesh;
-}
-
-PlyMesh read_ply(const std::string& path) {
-  return read_ply_text(read_text_file(path, ply_limits), path);
 }
 
 }  // namespace foldproof

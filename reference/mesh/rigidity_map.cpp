@@ -118,6 +118,22 @@ Rigidity rigidity_of(const TriangleMesh& mesh, const RestPlane& plane) {
   return sum.rigidity();
 }
 
+// In the strain e, a spring of stiffness Y A_e/L0^2 along the unit vector n stores
+// Y A_e (n.e n)^2/2.
+Rigidity membrane_of(const TriangleMesh& mesh, const RestPlane& plane) {
+  const Eigen::VectorXd areas = edge_areas(mesh);
+  Rigidity sum;
+  for (size_t e = 0; e < mesh.edges.size(); ++e) {
+    const Edge& edge = mesh.edges[e];
+    const Vector3 n = (mesh.rest.col(edge.b) - mesh.rest.col(edge.a)).normalized();
+    const double c = n.dot(plane.first), s = n.dot(plane.second);
+    const Eigen::Vector3d a(c * c, s * s, c * s);
+    sum.R += areas[Eigen::Index(e)] * a * a.transpose();
+  }
+  sum.R /= areas.sum() / 3;  // each triangle lies at three edges
+  return sum;
+}
+
 std::vector<RigidityExtremes> rigidity_around_particles(const TriangleMesh& mesh) {
   std::vector<Vector3> normals(std::size_t(mesh.particles()), Vector3::Zero());
   std::vector<std::vector<int>> corners(std::size_t(mesh.particles()));

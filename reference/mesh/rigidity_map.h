@@ -1,5 +1,5 @@
-// Bending stiffness of a mesh of hinges, by direction and place: the material sets ke, the mesh the
-// rest.
+// Stiffness of a mesh of hinges and springs, by direction and place: the material sets ke and Y,
+// the mesh the rest.
 #pragma once
 
 #include <Eigen/Core>
@@ -45,6 +45,11 @@ bool is_flat(const TriangleMesh& mesh, RestPlane& plane);
 /// The rigidity of all hinges of a flat mesh together. A sheet of few cells lacks the hinges of its
 /// border.
 Rigidity rigidity_of(const TriangleMesh& mesh, const RestPlane& plane);
+
+/// The stiffness of all springs of a flat mesh in its plane, if every particle follows the strain
+/// (e11, e22, 2 e12), in units of Y [1]: `of_strip` is then Young's modulus over Y along a
+/// direction, with free sides. In a pattern whose particles all are centres of symmetry they do.
+Rigidity membrane_of(const TriangleMesh& mesh, const RestPlane& plane);
 
 /// The rigidity of the hinges around each particle, on the edges of its triangles. A local plane
 /// replaces the rest shape there. NaN for a particle with fewer than three hinges. N values.

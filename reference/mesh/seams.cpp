@@ -2,10 +2,13 @@
 
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 
+#include "reference/mesh/box_tree.h"
 #include "reference/mesh/mesh_locations.h"
 
 namespace foldproof {
@@ -86,6 +89,28 @@ TriangleSoup close_seams(TriangleSoup panels, double distance) {
   panels.rest = rest;
   panels.origin.vertex_lines = std::move(lines);
   return panels;
+}
+
+std::string open_seams_in_words(const TriangleMesh& mesh) {
+  const double distance = 1e-6 * bounds_of(mesh.rest).sizes().maxCoeff();
+  std::set<int> border;
+  for (const Edge& edge : mesh.edges)
+    if (edge.triangles[1] < 0) border.insert({edge.a, edge.b});
+  Kept kept(mesh.rest, distance);
+  int coincident = 0;
+  for (const int v : border)
+    if (kept.near(v) >= 0)
+      ++coincident;
+    else
+      kept.add(v);
+  if (coincident == 0) return "";
+  char words[200];
+  std::snprintf(
+      words, sizeof words,
+      "at %d places vertices coincide, so the cloth is cut there; seams = %.1g of [cloth], "
+      "or --seams %.1g, sews it",
+      coincident, distance, distance);
+  return words;
 }
 
 }  // namespace foldproof

@@ -1,6 +1,8 @@
 // Sewing: panels whose vertices coincide become one cloth.
 #pragma once
 
+#include <string>
+
 #include "reference/mesh/triangle_soup.h"
 
 namespace foldproof {
@@ -12,5 +14,9 @@ namespace foldproof {
 /// not > 0 or not finite, coordinates that are not finite, and a triangle with two corners that
 /// merge.
 TriangleSoup close_seams(TriangleSoup panels, double distance);
+
+/// How many vertices on the border lie within a millionth of the mesh's extent of an earlier one
+/// there, and with which distance close_seams joins them, in words; "" if none do.
+std::string open_seams_in_words(const TriangleMesh& mesh);
 
 }  // namespace foldproof

@@ -58,7 +58,7 @@ SplitMesh split_fans(TriangleSoup soup) {
   std::vector<int> copy_of = number_fans(fans, soup);
   const PerParticle3 place = pulled_apart(soup.triangles, soup.rest, copy_of);
   MeshOrigin& origin = soup.origin;
-  if (!origin.file.empty())
+  if (!origin.vertex_lines.empty())
     for (size_t i = origin.vertex_lines.size(); i < copy_of.size(); ++i)
       origin.vertex_lines.push_back(origin.vertex_lines[size_t(copy_of[i])]);
   return {make_triangle_mesh(place, std::move(soup.triangles), origin), std::move(copy_of)};

@@ -1,5 +1,6 @@
 #include "reference/mesh/text_file.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -81,6 +82,19 @@ std::string read_text_file(const std::string& path, const TextLimits& limits) {
     text.append(chunk.data(), count);
   }
   if (!file.eof()) throw InputError(path + ": cannot be read; give a regular file");
+  return text;
+}
+
+std::string plain_text(std::string text, const std::string& file) {
+  if (text.starts_with(utf8_mark)) text.erase(0, utf8_mark.size());
+  const std::string_view start = std::string_view(text).substr(0, 1 << 12);
+  if (start.starts_with("\xFF\xFE") || start.starts_with("\xFE\xFF"))
+    throw InputError(file + ":1: the file is in UTF-16; save it as UTF-8");
+  if (start.find('\0') != std::string_view::npos)
+    throw InputError(file +
+                     ":1: holds zero bytes, as UTF-16 and binary files do; give text in "
+                     "UTF-8");
+  if (text.find('\n') == std::string::npos) std::ranges::replace(text, '\r', '\n');
   return text;
 }
 

@@ -46,7 +46,7 @@ void reject_bad_sizes(const PerParticle3& rest, const std::vector<Triangle>& tri
     throw InputError(mesh_location(origin) + std::to_string(triangles.size()) +
                      " triangles are too many to count; split the mesh");
   }
-  if (origin.file.empty()) return;
+  if (origin.vertex_lines.empty() && origin.triangle_lines.empty()) return;
   if (origin.vertex_lines.size() != size_t(rest.cols()) ||
       origin.triangle_lines.size() != triangles.size()) {
     throw std::logic_error(

@@ -36,7 +36,7 @@ struct TriangleMesh {
 };
 
 /// The lines from which the parts of a mesh were read, for error messages. Empty for meshes made by
-/// code.
+/// code; binary files have a name, and no lines.
 struct MeshOrigin {
   std::string file;
   std::vector<int> vertex_lines;    // N, 1-based

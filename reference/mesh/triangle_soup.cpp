@@ -14,7 +14,7 @@ TriangleSoup without_unused_vertices(TriangleSoup soup) {
     if (place[v] < 0) continue;
     place[v] = int(kept.size());
     kept.push_back(int(v));
-    lines.push_back(soup.origin.file.empty() ? 0 : soup.origin.vertex_lines[v]);
+    if (!soup.origin.vertex_lines.empty()) lines.push_back(soup.origin.vertex_lines[v]);
     soup.origin.vertex_numbers.push_back(int(v) + 1);
   }
   soup.origin.vertex_lines = std::move(lines);

@@ -385,7 +385,7 @@ void set_key(KeyTable& root, const std::string& assignment) {
 }
 
 std::string read_text(const std::string& path) {
-  const std::string text = read_text_file(path, case_text_limits);
+  const std::string text = plain_text(read_text_file(path, case_text_limits), path);
   if (text.empty()) throw InputError(path + ": cannot be read, or is empty");
   return text;
 }

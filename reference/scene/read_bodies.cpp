@@ -6,7 +6,7 @@
 
 #include "reference/bodies/body_deformation.h"
 #include "reference/bodies/closed_mesh.h"
-#include "reference/mesh/obj.h"
+#include "reference/mesh/mesh_file.h"
 #include "reference/mesh/shapes.h"
 #include "reference/scene/key_values.h"
 #include "reference/scene/read_cloth_mesh.h"
@@ -26,7 +26,7 @@ TriangleSoup read_soup(const KeyTable& keys, const CaseContext& context, double&
     throw InputError(keys.where("shape") +
                      ": a body that deforms needs a mesh: shape = \"statue\", 'mesh' or 'frames'");
   if (keys.has("mesh")) {
-    soup = read_body_soup(mesh_file(keys, context.folder, "object"));
+    soup = without_unused_vertices(read_mesh_file(mesh_file(keys, context.folder, "object")).soup);
   } else {
     const int subdivisions = int(count_or(keys, "subdivisions", 4));
     reject_many_triangles(keys, "subdivisions", std::ldexp(20.0, 2 * subdivisions), context.limits);

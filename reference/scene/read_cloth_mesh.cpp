@@ -3,7 +3,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "reference/mesh/obj.h"
+#include "reference/mesh/mesh_file.h"
 #include "reference/mesh/seams.h"
 #include "reference/mesh/shapes.h"
 #include "reference/mesh/split_fans.h"
@@ -52,6 +52,12 @@ TriangleMesh read_sheet(const KeyTable& keys, const SceneLimits& limits) {
   // at most three in the other patterns
   const double in_a_cell = sheet.pattern == SheetPattern::criss_cross ? 4 : 3;
   reject_many_triangles(keys, "columns", in_a_cell * sheet.columns * sheet.rows, limits);
+  const bool is_jittered = sheet.pattern == SheetPattern::jittered;
+  for (const char* key : {"jitter", "seed"})
+    if (keys.has(key) && !is_jittered &&
+        (key[0] == 'j' || sheet.pattern != SheetPattern::random_delaunay))
+      throw InputError(keys.where(key) + ": '" + key + "' changes nothing in this pattern; give " +
+                       "pattern = \"jittered\", or leave it out");
   sheet.jitter = keys.number_or("jitter", 0);
   const long seed = keys.integer_or("seed", 1);
   if (!(seed >= 0 && seed <= 4294967295))
@@ -126,7 +132,7 @@ SplitMesh read_mesh(const KeyTable& keys, const std::string& folder) {
   const std::string file = mesh_file(keys, folder, "cloth");
   const auto repair = choice<ClothRepair>(
       keys, "repair", {{"refuse", ClothRepair::refuse}, {"split", ClothRepair::split}});
-  TriangleSoup soup = read_obj_soup(file);
+  TriangleSoup soup = read_mesh_file(file).soup;
   if (keys.has("seams")) soup = close_seams(std::move(soup), positive(keys, "seams"));
   if (repair == ClothRepair::refuse)
     return {make_triangle_mesh(std::move(soup.rest), std::move(soup.triangles), soup.origin), {}};
@@ -202,6 +208,11 @@ std::string mesh_file(const KeyTable& keys, const std::string& folder, const std
 }
 
 double fit_factor(const KeyTable& keys, const PerParticle3& x) {
+  if (keys.has("scale")) {
+    if (keys.has("fit"))
+      throw InputError(keys.where("scale") + ": 'fit' and 'scale' both set the size; give one");
+    return positive(keys, "scale");
+  }
   if (!keys.has("fit")) return 1;
   const double size = (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).maxCoeff();
   const double wanted = keys.number("fit");
@@ -219,7 +230,7 @@ PlacedMesh read_cloth_mesh(const KeyTable& cloth, const std::string& folder,
                            const SceneLimits& limits) {
   if (cloth.has("shape") == cloth.has("mesh"))
     throw InputError(cloth.where("mesh") +
-                     ": [cloth] needs either 'shape' or 'mesh' (an OBJ file), and not both");
+                     ": [cloth] needs either 'shape' or 'mesh' (an OBJ or PLY file), and not both");
   PlacedMesh result = read_or_make(cloth, folder, limits);
 
   const auto pleats = cloth.table("pleats");
@@ -236,8 +247,9 @@ PlacedMesh read_cloth_mesh(const KeyTable& cloth, const std::string& folder,
   if (!pleats) result.mesh.rest = result.start;
   if (const auto copies = cloth.table("copies"))
     with_error_location(cloth.where("copies"), [&] { copy(*copies, limits, result); });
-  if (pleats && cloth.has("fit"))
-    throw InputError(cloth.where("fit") + ": 'fit' does not go with pleats");
+  for (const char* key : {"fit", "scale"})
+    if (pleats && cloth.has(key))
+      throw InputError(cloth.where(key) + ": '" + key + "' does not go with pleats");
   return result;
 }
 

@@ -16,6 +16,7 @@
 #include "reference/scene/read_strain.h"
 #include "reference/scene/refine_cloth.h"
 #include "reference/scene/scene.h"
+#include "reference/scene/scene_sizes.h"
 #include "reference/scene/read_cloth_mesh.h"
 
 namespace foldproof {
@@ -199,7 +200,8 @@ void note_scales(const KeyTable& keys, double of_cloth, Scene& scene) {
     const auto is_typed = [&](const char* key) {
       return is_override(cloth.where(key)) || is_override(object.where(key));
     };
-    const bool are_meshes = cloth.has("mesh") && !object.has("shape");
+    const bool are_meshes =
+        cloth.has("mesh") && !object.has("shape") && (cloth.has("fit") || object.has("fit"));
     if (!are_meshes || !(is_typed("mesh") || is_typed("frames")) || is_typed("fit")) continue;
     if (std::abs(scale - of_cloth) <= 1e-6 * scale) continue;
     scene.warnings.push_back((object.has("fit") ? object : cloth).where("fit") +
@@ -269,6 +271,7 @@ Scene scene_from(const CaseKeys& of, const SceneLimits& limits) {
     reject_touching_start(*self, scene);
     reject_tangled_start(*self, scene);
   }
+  warn_of_sizes(*cloth, scene);
   scene.name = file.stem().string();
   scene.folder = folder;
   scene.text = of.text;

@@ -6,7 +6,7 @@
 #include <memory>
 #include <utility>
 
-#include "reference/mesh/obj.h"
+#include "reference/mesh/mesh_file.h"
 #include "reference/scene/key_values.h"
 #include "reference/scene/read_region.h"
 #include "reference/scene/read_cloth_mesh.h"
@@ -28,7 +28,7 @@ struct StickySheet {
 std::function<FaceGroups()> groups_of(const std::shared_ptr<KeyTable>& keys,
                                       const std::string& folder, const std::string& table) {
   if (!keys->has("mesh")) return {};
-  return [=] { return read_obj_groups(mesh_file(*keys, folder, table)); };
+  return [=] { return read_mesh_file(mesh_file(*keys, folder, table)).groups; };
 }
 
 /// Numbers of the triangles into which the listed ones were divided.

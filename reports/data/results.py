@@ -169,6 +169,11 @@ class Case:
             stuck[np.asarray(file["sticky/bonds"][first:ends[frame], 2], dtype=int)] = True
             return stuck
 
+    def masses(self) -> np.ndarray | None:
+        """Masses of all particles, N [kg]; None if the file has none."""
+        with h5py.File(self.path, "r") as file:
+            return numbers_of(file, "mesh/mass")
+
     def rest_positions(self) -> np.ndarray | None:
         """Rest positions of all particles, N x 3 [m]; None if the file has none."""
         with h5py.File(self.path, "r") as file:

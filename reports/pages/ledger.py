@@ -27,7 +27,9 @@ class ClaimView:
     @property
     def as_recorded(self) -> bool:
         """False if another ruling was expected."""
-        return not self.claim.recorded or self.claim.recorded == self.claim.ruling
+        claim = self.claim
+        waits = claim.ruling == "undecided" and bool(claim.missing)
+        return not claim.recorded or claim.recorded == claim.ruling or waits
 
 
 def claim_views(claims: Iterable[Claim], findings: Iterable[Finding]) -> list[ClaimView]:

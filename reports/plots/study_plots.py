@@ -63,9 +63,10 @@ def plot_study_figure(figure: StudyFigure, name: str, folder: Path) -> Plot:
 
 
 def is_geometry(figure: StudyFigure) -> bool:
-    """Whether a figure shows shapes: lengths over lengths (of m, or of a strip's
-    own L), each on a linear axis."""
-    return (figure.x_unit == figure.y_unit and figure.x_unit in ("m", "L")
+    """Whether a figure shows shapes: lengths over lengths (of m, or of a strip's own: L, or that
+    of its bending under gravity), each on a linear axis."""
+    return (figure.x_unit == figure.y_unit
+            and figure.x_unit in ("m", "L", "(B/(rho_A g))^(1/3)")
             and figure.x_scale == figure.y_scale == "linear")
 
 

@@ -21,7 +21,9 @@ import numpy as np
 
 from data.results import Column, load_case, load_run
 from data.unreadable import Unreadable
-from foldproof_results import columns_of_study, evidence_of, load_results, load_trajectory
+from foldproof_results import (
+    columns_of_study, evidence_of, findings_table, load_results, load_trajectory
+)
 from tests.made_up_run import NAMES, made_up_verdicts, put_run
 from tests.report_test import REPORTS, FolderTest
 
@@ -74,7 +76,20 @@ class ResultsInNumpy(FolderTest):
         self.assertIsNone(sheet.velocities)
         with h5py.File(path, "r+") as file:
             file["frames/velocities"] = 2 * file["frames/positions"][:]
-        np.testing.assert_array_equal(load_trajectory(path).velocities, 2 * sheet.positions)
+            file["frames/object_distance"] = np.ones((4, 4))
+            file["mesh/mass"] = np.arange(4.0)
+        full = load_trajectory(path)
+        np.testing.assert_array_equal(full.velocities, 2 * sheet.positions)
+        np.testing.assert_array_equal(full.distances, np.ones((4, 4)))
+        np.testing.assert_array_equal(full.masses, np.arange(4.0))
+        self.assertEqual(list(full.objects), [one.name for one in case.objects])
+
+    def test_findings_are_columns_of_one_length(self) -> None:
+        findings = load_results(self.root / "results").findings
+        table = findings_table(findings)
+        self.assertEqual({len(column) for column in table.values()}, {len(findings)})
+        self.assertEqual(list(table["name"]), [finding.name for finding in findings.values()])
+        self.assertEqual(table["bound"].dtype, float)
 
     def assert_rejected(self, load: Callable[[Path], object], name: str, why: str) -> None:
         """The file must be refused, in words that name it and say why."""

@@ -90,7 +90,7 @@ json chosen_of(const json& claims, const std::vector<std::string>& ids) {
 }
 
 void print_row(const json& claim) {
-  const bool differs = entry_of(claim, "ruling") != entry_of(claim, "recorded");
+  const bool differs = entry_of(claim, "outcome") == "fails";
   fmt::print("{:<7} {:<27} {}{}\n", entry_of(claim, "id"), entry_of(claim, "ruling"),
              entry_of(claim, "statement"),
              differs ? "  [recorded: " + entry_of(claim, "recorded") + "]" : "");
@@ -162,7 +162,7 @@ int show_claims(const ClaimsOptions& options) {
   return all_hold;
 }
 
-constexpr const char* below =
+constexpr const char* below_claims =
     R"(Examples:
   foldproof claims B10                                 one claim: its ruling, and the findings
   foldproof claims --paper BFA02                       the claims of one paper
@@ -175,7 +175,8 @@ Exit codes:
 
 void add_claims_command(CLI::App& app, Program& program) {
   auto [claims, options] = add_command(
-      app, program, {"claims", "Show the rulings of a finished run on the papers' claims", below},
+      app, program,
+      {"claims", "Show the rulings of a finished run on the papers' claims", below_claims},
       show_claims);
   claims->add_option(
       "ID", options.names,

@@ -5,15 +5,21 @@
 #include <nlohmann/json.hpp>
 
 #include "scripts/program/command_line/options_of_commands.h"
-#include "reference/mesh/obj.h"
+#include "reference/mesh/mesh_file.h"
+#include "reference/mesh/seams.h"
 #include "scripts/program/command_line/input_files.h"
 #include "scripts/program/json_text.h"
+#include "scripts/program/progress.h"
 #include "verification/oracles/exact_crossings.h"
 #include "verification/files/stored_run_file.h"
 
 namespace foldproof {
 
 namespace {
+
+struct CrossingsOptions : Options {
+  double seams = 0;  // distance within which vertices of meshes are joined [m]; 0: none
+};
 
 struct JudgedFrame {
   std::string file;
@@ -29,10 +35,26 @@ JudgedFrame judge_frame(const std::string& file, std::size_t frame, double time,
   return {file, frame, time, oracles::exact_crossings(x, triangles)};
 }
 
-void judge_file(const std::string& file, std::vector<JudgedFrame>& all) {
-  require_input(file, file.ends_with(".obj") ? mesh_kind : run_kind);
-  if (file.ends_with(".obj")) {
-    const TriangleSoup mesh = read_obj_soup(file);
+/// Panels that are not sewn touch, which counts as crossing.
+void warn_of_open_seams(const TriangleSoup& soup) {
+  try {
+    const std::string words =
+        open_seams_in_words(make_triangle_mesh(soup.rest, soup.triangles, soup.origin));
+    if (!words.empty()) log_line("warning: " + soup.origin.file + ": " + words);
+  } catch (const InputError&) {
+    return;  // no cloth: its triangles are judged all the same
+  }
+}
+
+void judge_file(const std::string& file, double seams, std::vector<JudgedFrame>& all) {
+  const bool is_mesh = has_ending(file, mesh_kind);
+  require_input(file, is_mesh ? mesh_kind : run_kind);
+  if (is_mesh) {
+    TriangleSoup mesh = read_mesh_file(file).soup;
+    if (seams > 0)
+      mesh = close_seams(std::move(mesh), seams);
+    else
+      warn_of_open_seams(mesh);
     all.push_back(judge_frame(file, 0, 0, mesh.rest, mesh.triangles));
     return;
   }
@@ -70,9 +92,9 @@ nlohmann::json to_json(const std::vector<JudgedFrame>& all) {
   return frames;
 }
 
-int show_crossings(const Options& options) {
+int show_crossings(const CrossingsOptions& options) {
   std::vector<JudgedFrame> all;
-  for (const std::string& file : options.names) judge_file(file, all);
+  for (const std::string& file : options.names) judge_file(file, options.seams, all);
   if (options.json)
     fmt::print("{}\n", json_text(to_json(all)));
   else
@@ -82,7 +104,7 @@ int show_crossings(const Options& options) {
   return all_hold;
 }
 
-constexpr const char* below =
+constexpr const char* below_crossings =
     R"(Examples:
   foldproof crossings results/fast.h5
   foldproof crossings cases/skirt.obj cases/robe.obj
@@ -95,11 +117,14 @@ Exit codes:
 }  // namespace
 
 void add_crossings_command(CLI::App& app, Program& program) {
-  auto [crossings, options] = add_command(
-      app, program,
-      {"crossings", "Does a cloth pass through itself in any frame? Decided exactly", below},
-      show_crossings);
-  add_input(crossings, "FILE", options.names, "Stored runs (.h5), or meshes (.obj), each a frame");
+  auto [crossings, options] =
+      add_command(app, program,
+                  {"crossings", "Does a cloth pass through itself in any frame? Decided exactly",
+                   below_crossings},
+                  show_crossings);
+  add_input(crossings, "FILE", options.names,
+            "Stored runs (.h5), or meshes (.obj, .ply), each a frame");
+  add_seams(crossings, options.seams);
   add_json(crossings, options);
 }
 

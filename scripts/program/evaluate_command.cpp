@@ -41,7 +41,7 @@ Exit codes:
   1    crossings: something disagrees with the file
   2    bad input)";
 
-constexpr const char* below_bending =
+constexpr const char* below_evaluate_bending =
     R"(Prints the bending forces of single hinges, for comparison with your code. Each row of FILE has 27
 comma-separated numbers: x1 x2 x3 x4 (12 position components [m]), v1 v2 v3 v4 (12 velocity
 components [m/s]), ke [J], kd [N s], theta0 [rad]. Output: 12 elastic and 12 damping force
@@ -55,7 +55,7 @@ Exit codes:
   0    printed
   2    bad input; the line is named)";
 
-constexpr const char* below_crossings =
+constexpr const char* below_evaluate_crossings =
     R"(A row of FILE is a point, in integers: numerator and denominator of x, y and z, then 1 if the
 features of this query meet, else 0. Eight rows are a query: four points at the start of a motion
 along straight lines, then the same four at its end. vertex-face: the vertex, then the triangle's
@@ -71,9 +71,10 @@ Exit codes:
   2    bad input; the line is named)";
 
 void add_bending(CLI::App& evaluate, Program& program) {
-  auto [bending, options] = add_command(
-      evaluate, program, {"bending", "Forces of single hinges from a CSV file", below_bending},
-      evaluate_hinges);
+  auto [bending, options] =
+      add_command(evaluate, program,
+                  {"bending", "Forces of single hinges from a CSV file", below_evaluate_bending},
+                  evaluate_hinges);
   add_input(bending, "FILE", options.file, "CSV, 27 columns");
   bending
       ->add_option("--rest", options.rest_file,
@@ -87,7 +88,7 @@ void add_queries(CLI::App& evaluate, Program& program) {
       add_command(evaluate, program,
                   {"crossings",
                    "Do moving features meet? Compare the reference and the exact judge with a file",
-                   below_crossings},
+                   below_evaluate_crossings},
                   evaluate_queries);
   add_input(queries, "FILE,--ccd-data", options.file,
             "CSV file with 7 columns and 8 rows a query, or a folder of such files")

@@ -11,8 +11,7 @@
 #include <optional>
 #include <sstream>
 
-#include "reference/mesh/obj.h"
-#include "reference/mesh/ply.h"
+#include "reference/mesh/mesh_file.h"
 #include "reference/mesh/text_file.h"
 
 namespace foldproof {
@@ -120,17 +119,13 @@ struct Frame {
 
 Frame read_frame(const fs::path& path) {
   const std::string file = path.string();
-  if (path.extension() == ".ply") {
-    PlyMesh ply = read_ply(file);
-    return {{file, 0, std::move(ply.soup.rest), std::move(ply.soup.triangles)}, ply.time};
-  }
-  TriangleSoup soup = read_obj_soup(file);
-  return {{file, 0, std::move(soup.rest), std::move(soup.triangles)}, {}};
+  MeshFile read = read_mesh_file(file);
+  return {{file, 0, std::move(read.soup.rest), std::move(read.soup.triangles)}, read.time};
 }
 
 /// Numbers, one a line; blank lines and those that begin with # do not count.
 std::vector<double> times_in(const std::string& file) {
-  std::istringstream lines(read_text_file(file, table_text_limits));
+  std::istringstream lines(plain_text(read_text_file(file, table_text_limits), file));
   std::vector<double> times;
   std::string line;
   for (int number = 1; std::getline(lines, line); ++number) {

@@ -43,7 +43,7 @@ int print_golden_values(const GoldenOptions& options) {
   return all_hold;
 }
 
-constexpr const char* below =
+constexpr const char* below_golden =
     R"(Prints a heading, then rows of numbers to 17 digits; a vector has three columns, NAME_x, NAME_y and
 NAME_z. --json adds the formula, and each column's meaning and unit. All outputs are computed with
 50 digits and rounded once. verification/GOLDEN.md has examples in Python and C++.
@@ -62,7 +62,7 @@ void add_golden_command(CLI::App& app, Program& program) {
   auto [golden, options] = add_command(
       app, program,
       {"golden", "Print inputs and correctly rounded outputs of a formula, for your unit tests",
-       below},
+       below_golden},
       print_golden_values);
   golden
       ->add_option("TABLE", options.file,

@@ -8,8 +8,9 @@
 #include <numbers>
 
 #include "reference/dynamics/system.h"
-#include "reference/mesh/obj.h"
+#include "reference/mesh/box_tree.h"
 #include "reference/mesh/rigidity_map.h"
+#include "reference/mesh/seams.h"
 #include "reference/scene/scene.h"
 #include "scripts/program/json_text.h"
 
@@ -33,8 +34,12 @@ struct PlaceOfAnisotropy {
 struct ClothInspection {
   int particles, triangles;
   bool is_flat = false;
-  // D/ke, and B/ke of a narrow strip, every 15 degrees from x; flat meshes only [1]
-  std::vector<double> by_direction = {}, of_strips = {};
+  Vector3 size = Vector3::Zero();  // m
+  double area = 0;                 // m^2
+  std::string open_seams = {};     // in words
+  // D/ke, B/ke of a narrow strip, and Young's modulus over Y, every 15 degrees from x; flat meshes
+  // only [1]
+  std::vector<double> by_direction = {}, of_strips = {}, moduli = {};
   double least = 0, greatest = 0;              // of the whole flat mesh [1]
   std::vector<PlaceOfAnisotropy> places = {};  // most anisotropic first
   double median_anisotropy = 0;                // of the places
@@ -77,13 +82,17 @@ double limit_with(const TriangleMesh& mesh, bool has_springs) {
 
 ClothInspection inspect_as_cloth(const TriangleMesh& mesh) {
   ClothInspection found{mesh.particles(), int(mesh.triangles.size())};
+  found.size = bounds_of(mesh.rest).sizes();
+  found.area = triangle_areas(mesh.triangles, mesh.rest).sum();
+  found.open_seams = open_seams_in_words(mesh);
   RestPlane plane;
   found.is_flat = is_flat(mesh, plane) && !mesh.hinges.empty();
   if (found.is_flat) {
-    const Rigidity rigidity = rigidity_of(mesh, plane);
+    const Rigidity rigidity = rigidity_of(mesh, plane), membrane = membrane_of(mesh, plane);
     for (int k = 0; k < 12; ++k) {
       found.by_direction.push_back(rigidity.along(k * std::numbers::pi / 12));
       found.of_strips.push_back(rigidity.of_strip(k * std::numbers::pi / 12));
+      found.moduli.push_back(membrane.of_strip(k * std::numbers::pi / 12));
     }
     found.least = extremes_of(rigidity).least;
     found.greatest = extremes_of(rigidity).greatest;
@@ -104,19 +113,25 @@ ClothInspection inspect_as_cloth(const TriangleMesh& mesh) {
   return found;
 }
 
-std::string point(const Vector3& p) {
-  return fmt::format("({:.4g}, {:.4g}, {:.4g})", p.x(), p.y(), p.z());
+/// "-" where a mesh of few hinges has none.
+std::string or_none(double value, const char* digits) {
+  return std::isfinite(value) ? fmt::format(fmt::runtime(digits), value) : "-";
 }
 
 void print(const std::string& file, const TriangleMesh& mesh, const ClothInspection& found) {
   fmt::print("{}: a cloth of {} particles, {} triangles, {}\n", file, found.particles,
              found.triangles, found.is_flat ? "flat" : "not flat");
+  fmt::print("size {:.3g} x {:.3g} x {:.3g} m, area {:.4g} m^2\n", found.size.x(), found.size.y(),
+             found.size.z(), found.area);
+  if (!found.open_seams.empty()) fmt::print("{}\n", found.open_seams);
   if (found.is_flat) {
-    fmt::print("rigidity D/ke by direction from x: {:.4g} to {:.4g}, ratio {:.3g}\n", found.least,
-               found.greatest, found.greatest / found.least);
+    fmt::print("rigidity D/ke by direction from x: {:.4g} to {:.4g}, ratio {}\n", found.least,
+               found.greatest, or_none(found.greatest / found.least, "{:.3g}"));
+    fmt::print("{:>11}  {:>8}  {:>22}  {:>18}\n", "direction", "D/ke", "B/ke of a narrow strip",
+               "Young's modulus/Y");
     for (size_t k = 0; k < found.by_direction.size(); ++k)
-      fmt::print("  {:>3} degrees  {:.4f}  of a narrow strip {:.4f}\n", 15 * k,
-                 found.by_direction[k], found.of_strips[k]);
+      fmt::print("{:>3} degrees  {:8.4f}  {:>22}  {:>18}\n", 15 * k, found.by_direction[k],
+                 or_none(found.of_strips[k], "{:.4f}"), or_none(found.moduli[k], "{:.4f}"));
   }
   if (!found.places.empty())
     fmt::print(
@@ -151,6 +166,10 @@ nlohmann::json to_json(const std::string& file, const ClothInspection& found) {
           {"is_flat", found.is_flat},
           {"rigidity_every_15_degrees", found.by_direction},
           {"strip_rigidity_every_15_degrees", found.of_strips},
+          {"modulus_every_15_degrees", found.moduli},
+          {"size", {found.size.x(), found.size.y(), found.size.z()}},
+          {"area", found.area},
+          {"open_seams", found.open_seams},
           {"median_anisotropy", found.median_anisotropy},
           {"most_anisotropic", places},
           {"spring_limit", found.spring_limit},
@@ -160,8 +179,13 @@ nlohmann::json to_json(const std::string& file, const ClothInspection& found) {
 
 }  // namespace
 
-int inspect_cloth(const Options& options) {
-  const TriangleMesh mesh = read_obj(options.file);
+std::string point(const Vector3& p) {
+  return fmt::format("({:.4g}, {:.4g}, {:.4g})", p.x(), p.y(), p.z());
+}
+
+int inspect_cloth(const Options& options, TriangleSoup soup) {
+  const TriangleMesh mesh =
+      make_triangle_mesh(std::move(soup.rest), std::move(soup.triangles), soup.origin);
   const ClothInspection found = inspect_as_cloth(mesh);
   if (options.json)
     fmt::print("{}\n", json_text(to_json(options.file, found)));

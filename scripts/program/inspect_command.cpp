@@ -5,7 +5,8 @@
 
 #include "scripts/program/command_line/options_of_commands.h"
 #include "reference/bodies/mesh_inspection.h"
-#include "reference/mesh/obj.h"
+#include "reference/mesh/mesh_file.h"
+#include "reference/mesh/seams.h"
 #include "scripts/program/command_line/input_files.h"
 #include "scripts/program/inspect_cloth.h"
 #include "scripts/program/json_text.h"
@@ -17,11 +18,8 @@ namespace {
 struct InspectOptions : Options {
   bool as_cloth = false;  // rather than as a body
   int cells = 64;         // along the longest side
+  double seams = 0;       // distance within which vertices are joined [m]; 0: none
 };
-
-std::string point(const Vector3& p) {
-  return fmt::format("({:.4g}, {:.4g}, {:.4g})", p.x(), p.y(), p.z());
-}
 
 void print(const std::string& file, const MeshInspection& found) {
   const bool is_solid = found.rejection.empty();
@@ -62,8 +60,11 @@ nlohmann::json to_json(const std::string& file, const MeshInspection& found) {
 
 int inspect(const InspectOptions& options) {
   require_input(options.file, mesh_kind);
-  if (options.as_cloth) return inspect_cloth(options);
-  const MeshInspection found = inspect_mesh(read_body_soup(options.file), options.cells);
+  TriangleSoup soup = read_mesh_file(options.file).soup;
+  if (options.seams > 0) soup = close_seams(std::move(soup), options.seams);
+  if (options.as_cloth) return inspect_cloth(options, std::move(soup));
+  const MeshInspection found =
+      inspect_mesh(without_unused_vertices(std::move(soup)), options.cells);
   if (options.json)
     fmt::print("{}\n", json_text(to_json(options.file, found)));
   else
@@ -71,7 +72,7 @@ int inspect(const InspectOptions& options) {
   return found.rejection.empty() && found.against_sign == 0 ? all_hold : some_fail;
 }
 
-constexpr const char* below =
+constexpr const char* below_inspect =
     R"(Examples:
   foldproof inspect cases/limb.obj --cells 100 --json
   foldproof inspect cases/skirt.obj --cloth            its rigidity by direction, its elastic limit
@@ -86,11 +87,13 @@ Exit codes:
 void add_inspect_command(CLI::App& app, Program& program) {
   auto [mesh, options] = add_command(
       app, program,
-      {"inspect", "Is a mesh valid as a body? With --cloth: how stiff is it as a cloth?", below},
+      {"inspect", "Is a mesh valid as a body? With --cloth: how stiff is it as a cloth?",
+       below_inspect},
       inspect);
-  add_input(mesh, "MESH.obj", options.file, "An OBJ file");
+  add_input(mesh, "MESH", options.file, "An OBJ or PLY file");
   mesh->add_flag("--cloth", options.as_cloth,
                  "As a cloth: rigidity by direction, elastic limit, thinnest triangles");
+  add_seams(mesh, options.seams);
   mesh->add_option("--cells", options.cells, "Grid cells along the longest side")
       ->type_name("N")
       ->check(whole_number(4, 1000))

@@ -14,7 +14,7 @@ namespace {
 void add_ruled(const Claim& claim, RunRecord& run) {
   run.claims.push_back(rule_claim(claim, run.records));
   const ClaimRecord& record = run.claims.back();
-  if (record.ruling != claim.recorded)
+  if (outcome_of(record) == Outcome::fails)
     log_line(fmt::format("  claim {}: {}, where {} is recorded", claim.id, name_of(record.ruling),
                          name_of(claim.recorded)));
 }

@@ -142,7 +142,7 @@ int list(const ListOptions& options) {
   return all_hold;
 }
 
-constexpr const char* below =
+constexpr const char* below_list =
     R"(Examples:
   foldproof list cases                                 the names of the shipped cases
   foldproof list --json                                everything, also the findings of cases
@@ -155,8 +155,8 @@ Exit codes:
 
 void add_list_command(CLI::App& app, Program& program) {
   auto [names, options] = add_command(
-      app, program, {"list", "Show what there is: checks, studies, laws, cases, claims", below},
-      list);
+      app, program,
+      {"list", "Show what there is: checks, studies, laws, cases, claims", below_list}, list);
   names->add_option("KIND", options.kind, "The names of one kind; without it, how many there are")
       ->check(CLI::IsMember(
           {"checks", "studies", "laws", "frame-laws", "cases", "claims", "integrators"}));

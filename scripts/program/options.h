@@ -20,7 +20,8 @@ struct Options {
   std::string cache;                // folder that keeps level sets; none if empty
   unsigned seed_shift = 0;          // of check, study and verify (verification/seeds.h)
   JobSettings running;              // of check, study and verify; threads: of simulate, too
-  int levels = 4;                   // of converge: runs
+  int levels = 0;                   // of converge: runs; 0: usual_levels and more
+  double budget = 30;               // of converge: for levels that are added [s]
   int mesh_levels = 2;              // of ablate: meshes
   double hours = 0;                 // of converge: of the clock, for all runs; 0: no limit
   std::string frames, times;        // of compare, judge: a folder, a file of times

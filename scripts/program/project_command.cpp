@@ -232,7 +232,7 @@ int project_run(const ProjectOptions& options) {
   return report.unfinished == 0 ? all_hold : some_fail;
 }
 
-constexpr const char* below =
+constexpr const char* below_project =
     R"(Prints how many points moved. For the last frame it also prints how much of the wrinkles is left
 before projection, after plain projection, and after the map: the standard deviation of the depths
 of points that were inside, and the peak of the spectrum of depth along a section of the cloth.
@@ -253,7 +253,7 @@ void add_project_command(CLI::App& app, Program& program) {
   auto [project, options] = add_command(
       app, program,
       {"project", "Move the cloth of a stored run out of its objects; writes NAME_projected.h5",
-       below},
+       below_project},
       project_run);
   add_input(project, "RUN.h5", options.file, "Run stored by `foldproof simulate`");
   project->add_option("--map", options.map, "Map of depth: plain, power or blend")

@@ -192,10 +192,12 @@ std::string summary(const RunRecord& run) {
                                      count(Outcome::inconclusive), count(Outcome::not_applicable));
   if (unrun > 0) findings += fmt::format(", {} did not run", unrun);
   if (run.claims.empty()) return findings;
+  const auto waiting = std::ranges::count_if(run.claims, waits_for_full_tier);
   const std::string ruled =
-      findings + fmt::format("; {} claims ruled as recorded, {} otherwise, {} undecided",
-                             claims(Outcome::holds), claims(Outcome::fails),
-                             claims(Outcome::inconclusive));
+      findings +
+      fmt::format("; {} claims ruled as recorded, {} otherwise, {} undecided{}",
+                  claims(Outcome::holds), claims(Outcome::fails), claims(Outcome::inconclusive),
+                  waiting > 0 ? fmt::format(" ({} until the full tier has run)", waiting) : "");
   if (!has_too_many_empirical_bounds(run)) return ruled;
   return ruled + fmt::format("; {:.1f} % of the bounds are empirical, more than {:.0f} %",
                              100 * empirical_share(run.records), 100 * most_empirical);

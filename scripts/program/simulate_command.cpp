@@ -6,6 +6,7 @@
 
 #include "scripts/program/command_line/options_of_commands.h"
 #include "reference/scene/field_recipe.h"
+#include "reference/scene/scene_sizes.h"
 #include "scripts/program/command_line/input_files.h"
 #include "scripts/program/interruption.h"
 #include "scripts/program/json_text.h"
@@ -90,9 +91,11 @@ int report(const CaseRun& run, const Options& options) {
   if (options.json)
     fmt::print("{}\n", json_text(to_json(run, options)));
   else
-    fmt::print("{}{}/{}: t = {:.6g} s in {} steps, {:.2f} CG iterations a solve, {:.1f} s\n",
-               listing(expected), options.out, run.record.file, run.result.last.time,
-               run.result.steps, double(work.cg_iterations) / double(std::max(1L, work.solves)),
+    fmt::print("{}{}/{}: t = {:.6g} s in {} steps{}, {:.1f} s\n", listing(expected), options.out,
+               run.record.file, run.result.last.time, run.result.steps,
+               work.solves > 0 ? fmt::format(", {:.2f} CG iterations a solve",
+                                             double(work.cg_iterations) / double(work.solves))
+                               : "",
                run.record.seconds);
   if (work.unfinished_solves > 0)
     log_line(fmt::format("warning: {} of {} solves hit the cap on iterations",
@@ -128,6 +131,11 @@ CaseRun run_of(const BuiltCase& of, const Options& options) {
                                    });
 }
 
+void warn_of_step(const Scene& scene, const System& system, const State& s) {
+  if (const std::string text = warning_of_step(scene, system, s); !text.empty())
+    log_line("warning: " + text);
+}
+
 int simulate_case(const Options& options) {
   Case input_case = read_case(case_file(options.file), options.overrides);
   const bool may_delete = options.resumes || options.restarts;
@@ -137,6 +145,8 @@ int simulate_case(const Options& options) {
   const BuiltCase of = built_with_notice(std::move(input_case), options);
   const Scene& scene = of.input_case.scene;
   log_warnings(scene);
+  warn_of_step(scene, of.built.system, of.built.start);
+  log_line(fmt::format("{}: {}", scene.name, sizes_in_words(scene)));
   log_line(
       fmt::format("{}: {}", scene.name, fmt::join(describe_parts(scene, of.built.system), "; ")));
   for (std::size_t k = 0; k < scene.objects.size(); ++k) {
@@ -149,14 +159,17 @@ int simulate_case(const Options& options) {
       log_line(fmt::format("warning: object '{}': {}", name, text));
   }
   try {
-    return report(run_of(of, options), options);
+    const CaseRun run = run_of(of, options);
+    const int code = report(run, options);
+    if (!run.record.stopped.empty()) warn_of_step(scene, of.built.system, run.result.last);
+    return code;
   } catch (const Interrupted& interrupted) {
     say_how_to_resume(scene, options);
     end_by(interrupted);
   }
 }
 
-constexpr const char* below =
+constexpr const char* below_simulate =
     R"(A checkpoint is written at every frame and removed at the end. An interrupted run prints how to
 resume it. The same command without --resume or --restart then stops, and deletes nothing.
 
@@ -174,7 +187,7 @@ Exit codes:
 
 void add_simulate_command(CLI::App& app, Program& program) {
   auto [simulate, options] = add_command(
-      app, program, {"simulate", "Simulate a case; writes NAME.h5 and NAME.xdmf", below},
+      app, program, {"simulate", "Simulate a case; writes NAME.h5 and NAME.xdmf", below_simulate},
       simulate_case);
   add_input(simulate, "CASE", options.file, case_words);
   add_overrides(simulate, options);

@@ -111,7 +111,7 @@ int smooth_run(const SmoothOptions& options) {
   return crosses ? some_fail : all_hold;
 }
 
-constexpr const char* below =
+constexpr const char* below_smooth =
     R"(Subdivides the cloth of every frame by Loop's rule, each triangle into four a level. Where the
 smooth surface would cross itself, points stop on the way there from the cloth's own triangles.
 Prints, for each frame, how many pairs of an edge and a triangle cross in the run, on Loop's surface
@@ -131,7 +131,8 @@ Exit codes:
 void add_smooth_command(CLI::App& app, Program& program) {
   auto [smooth, options] = add_command(
       app, program,
-      {"smooth", "Give the cloth of a stored run a smooth surface; writes NAME_smooth.h5", below},
+      {"smooth", "Give the cloth of a stored run a smooth surface; writes NAME_smooth.h5",
+       below_smooth},
       smooth_run);
   add_input(smooth, "RUN.h5", options.file, "Run stored by `foldproof simulate`");
   smooth->add_option("--levels", options.levels, "Levels of subdivision, 1 to 4")

@@ -26,7 +26,17 @@ std::string note_of(const Quantity& quantity, const Expectation& expectation, do
 
 }  // namespace
 
+/// Beyond 180 degrees an angle goes on from the other side, and the energy of its hinge jumps.
+void CaseJudge::watch_hinges(const State& frame) {
+  if (!case_.scene.bending || !frame.x.allFinite()) return;
+  std::vector<double> angles = hinge_angles(case_.scene.mesh, frame.x);
+  for (size_t k = 0; k < angles_.size(); ++k)
+    if (std::abs(angles[k] - angles_[k]) > pi) ++folded_through_;
+  angles_ = std::move(angles);
+}
+
 void CaseJudge::record(const State& frame) {
+  watch_hinges(frame);
   for (size_t k = 0; k < observed_.size(); ++k) {
     if (!case_.expectations[k].not_asked.empty()) continue;  // of this shape it may have no meaning
     if (const Quantity& quantity = *find_quantity(case_.expectations[k].key); !quantity.of_run)
@@ -45,7 +55,14 @@ Finding CaseJudge::finding_of(size_t k, const RunView& run) const {
   if (result.stop) note = "the run stopped: " + describe(*result.stop);
   const bool is_end = expectation.key == "runs_to_its_end";
   if (result.stop && !is_end) value = std::numeric_limits<double>::quiet_NaN();
-  return {verdict_of(quantity, expectation, value), {}, note};
+  const Verdict verdict = verdict_of(quantity, expectation, value);
+  if (expectation.key.starts_with("energy_") && folded_through_ > 0 &&
+      verdict.measured > verdict.bound)
+    note += fmt::format(
+        "{}{} times a hinge folded through 180 degrees from one frame to the next: there its angle "
+        "goes on from the other side, and the energy jumps",
+        note.empty() ? "" : "; ", folded_through_);
+  return {verdict, {}, note};
 }
 
 std::vector<Record> CaseJudge::records(const RunResult& result) const {

@@ -35,12 +35,15 @@ class CaseJudge {
 
  private:
   Finding finding_of(size_t k, const RunView& run) const;
+  void watch_hinges(const State& frame);
 
   const Case& case_;
   std::span<const Object> objects_;
   DiagnosticsSummary summary_;
   Repetition repetition_;
   std::vector<Worst> observed_;  // largest over the frames, one for each expectation
+  std::vector<double> angles_;   // of the hinges in the latest frame [rad]
+  long folded_through_ = 0;      // hinges that passed 180 degrees from one frame to the next
 };
 
 /// "reason (step n, after t = ... s, particle i)".

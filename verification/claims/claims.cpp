@@ -39,7 +39,6 @@ int count_of(const std::vector<Decider>& deciders, const std::vector<Record>& re
              Answer answer) {
   return int(std::count_if(deciders.begin(), deciders.end(), [&](const Decider& decider) {
     const Record* const record = record_named(decider.finding, records);
-    if (decider.only_in_full_tier && !record) return false;
     return decider.role == role && answer_of(record) == answer;
   }));
 }
@@ -317,10 +316,17 @@ bool is_covered(const Claim& claim, const std::vector<Record>& records) {
 
 ClaimRecord rule_claim(const Claim& claim, const std::vector<Record>& records) {
   ClaimRecord result{claim, {}, ruling(claim.decided_by, records)};
+  std::vector<Decider> others;  // than those that the run lacks because it is of the quick tier
   for (const Decider& decider : claim.decided_by) {
     const Record* record = record_named(decider.finding, records);
     result.outcomes.push_back(record ? std::string(outcome_text(*record)) : "missing");
+    if (record || !decider.only_in_full_tier) others.push_back(decider);
   }
+  if (others.size() < claim.decided_by.size() && ruling(others, records) == claim.recorded)
+    result.claim.missing = fmt::format(
+        "{} of its {} deciding findings, which only the full tier makes; the others "
+        "rule as recorded",
+        claim.decided_by.size() - others.size(), claim.decided_by.size());
   try {
     result.claim.why = fill_placeholders(claim.why, records);
     result.claim.condition = fill_placeholders(claim.condition, records);
@@ -332,13 +338,20 @@ ClaimRecord rule_claim(const Claim& claim, const std::vector<Record>& records) {
 }
 
 Outcome outcome_of(const ClaimRecord& record) {
+  if (waits_for_full_tier(record)) return Outcome::inconclusive;
   if (record.ruling != record.claim.recorded) return Outcome::fails;
   const bool is_open = record.ruling == Ruling::undecided;
   return is_open ? Outcome::inconclusive : Outcome::holds;
 }
 
 bool is_out_of_reach(const ClaimRecord& record) {
-  return record.ruling == Ruling::undecided && !record.claim.missing.empty();
+  return record.ruling == Ruling::undecided && record.claim.decided_by.empty() &&
+         !record.claim.missing.empty();
+}
+
+bool waits_for_full_tier(const ClaimRecord& record) {
+  return record.ruling == Ruling::undecided && !record.claim.decided_by.empty() &&
+         !record.claim.missing.empty();
 }
 
 }  // namespace foldproof

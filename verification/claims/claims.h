@@ -26,7 +26,7 @@ std::string_view name_of(Ruling ruling);
 struct Decider {
   std::string finding;
   Role role;
-  bool only_in_full_tier = false;  // of a long case: a run without it is ruled by the others
+  bool only_in_full_tier = false;  // of a long case: a run without it leaves the claim undecided
 };
 
 /// Where in its section the paper says it, to be found on the page.
@@ -48,7 +48,8 @@ struct Claim {
   std::string condition;  // in words, if recorded as conditional; else empty
   std::string why;        // a paragraph with placeholders for its numbers, see filled()
   Citation cited = {};
-  // recorded as undecided without deciders: what a ruling needs and this suite lacks; else empty
+  // recorded as undecided without deciders: what a ruling needs and this suite lacks. Of a ruled
+  // claim: the findings of the full tier that the run lacks. Else empty
   std::string missing = "";
   std::string paper_title = "";  // with its year
 };
@@ -94,10 +95,14 @@ bool is_covered(const Claim& claim, const std::vector<Record>& records);
 /// Throws std::runtime_error naming the claim for a placeholder that cannot be filled otherwise.
 ClaimRecord rule_claim(const Claim& claim, const std::vector<Record>& records);
 
-/// holds if the ruling is the recorded one, fails if not; inconclusive if both are undecided.
+/// holds if the ruling is the recorded one, fails if not; inconclusive if both are undecided, or if
+/// it waits for the full tier.
 Outcome outcome_of(const ClaimRecord& record);
 
 /// Undecided for a reason that the claim states: no run can decide it.
 bool is_out_of_reach(const ClaimRecord& record);
+
+/// Undecided because findings are missing that only the full tier has; the others rule as recorded.
+bool waits_for_full_tier(const ClaimRecord& record);
 
 }  // namespace foldproof

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "reference/level_set/grid.h"
-#include "reference/mesh/obj.h"
+#include "reference/mesh/mesh_file.h"
 #include "reference/scene/scene.h"
 
 using namespace foldproof;
@@ -38,7 +38,7 @@ TEST_CASE("a cloth of too many triangles, or of numbers that no double holds, is
   }
   std::string record = "g";
   for (int k = 0; k <= 100; ++k) record += " n" + std::to_string(k);
-  CHECK_THROWS_WITH(read_obj_groups_text("v 0 0 0\n" + record + "\n", "some.obj"),
+  CHECK_THROWS_WITH(read_mesh_text("v 0 0 0\n" + record + "\n", "some.obj"),
                     Contains("some.obj:2: more than 16 names"));
 }
 

@@ -336,7 +336,7 @@ int ablate(const Options& options) {
 
 namespace {
 
-constexpr const char* below =
+constexpr const char* below_ablate =
     R"(First finds the scene's own error, as converge does: that of its steps, from steps halved twice,
 and that of its mesh, from edges halved once (--mesh-levels 3: twice, in ten times the time). With
 two meshes, the error bar is three times their difference. OUT/store keeps these runs; those that
@@ -367,7 +367,8 @@ void add_ablate_command(CLI::App& app, Program& program) {
   auto [command, options] = add_command(
       app, program,
       {"ablate",
-       "Which of its parts does a case need, and which does it lack? Adds to ablation.json", below},
+       "Which of its parts does a case need, and which does it lack? Adds to ablation.json",
+       below_ablate},
       ablate);
   command
       ->add_option("CASE", options.names,

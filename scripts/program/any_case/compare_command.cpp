@@ -163,7 +163,7 @@ int compare_frames(const Options& options) {
 
 namespace {
 
-constexpr const char* below =
+constexpr const char* below_compare =
     R"(Frames that have the run's vertices and triangles are compared vertex by vertex, other meshes by
 the nearest points of both surfaces. Prints for each frame: distances, energies of stretching and
 bending computed with the run's forces, the distribution of fold angles, self-crossing pairs, and
@@ -184,7 +184,7 @@ void add_compare_command(CLI::App& app, Program& program) {
   auto [compare, options] = add_command(
       app, program,
       {"compare", "How far are frames of another program, or a captured cloth, from a stored run?",
-       below},
+       below_compare},
       compare_frames);
   add_input(compare, "RUN.h5", options.file, "Run stored by `foldproof simulate`");
   add_input(compare, "FRAMES", options.frames, "Folder of OBJ or PLY files, one a frame [m]");

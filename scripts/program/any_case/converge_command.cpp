@@ -42,6 +42,10 @@ struct Told {
   std::vector<std::pair<std::string, std::string>> mapping = {};  // of another solver
 };
 
+constexpr int usual_levels = 4, most_levels = 9;
+
+int levels_of(const Options& options) { return options.levels > 0 ? options.levels : usual_levels; }
+
 /// How the questions of one call are answered.
 struct Answering : LevelRunner {
   const Options& options;
@@ -86,28 +90,54 @@ PredictabilityAnswer run_twins(const LadderPlan& plan, const std::vector<LevelRu
   return answer;
 }
 
+/// Of positions before the horizon.
+LadderAnswer answer_until(const Predictability& twins, const LadderPlan& plan,
+                          const std::vector<LevelRun>& runs) {
+  const bool is_cut = twins.horizon < twins.end;
+  return time_answer(plan, is_cut ? frames_until(runs, twins.horizon) : runs,
+                     integrator_named(plan.input_case.scene.integrator).order);
+}
+
+/// Adds levels until the orders have settled, or the next one costs more than what is left of the
+/// budget.
+void add_levels(const LadderPlan& plan, const Predictability& twins, const Answering& by,
+                std::vector<LevelRun>& runs) {
+  double left = by.options.budget;
+  while (int(runs.size()) < most_levels && may_settle(answer_until(twins, plan, runs))) {
+    const double last = runs.back().seconds, before = runs[runs.size() - 2].seconds;
+    const double next = last * std::clamp(last / before, 1.5, 3.0);
+    if (next > left) {
+      log_line(fmt::format("a level more would take {}; --budget leaves {}", duration_text(next),
+                           duration_text(left)));
+      return;
+    }
+    left -= next;
+    const Level level = time_level(plan, int(runs.size()), runs[0].step_ends);
+    runs.push_back(run_levels({level}, {1}, "another level", by).front());
+  }
+}
+
 /// The first level, and the others, which divide its steps; positions before the horizon only.
 Told told_in_time(const LadderPlan& plan, const Answering& by) {
   const auto level = [&](int k, const std::vector<LevelRun>& runs) {
     return time_level(plan, k, k > 0 ? runs[0].step_ends : std::vector<double>());
   };
-  const LadderRuns done = run_ladder({plan.levels, level}, by, limits_of(by.options.hours));
+  LadderRuns done = run_ladder({plan.levels, level}, by, limits_of(by.options.hours));
   if (!done.refused.empty()) log_line(done.refused);
   PredictabilityAnswer twins = run_twins(plan, done.runs, by);
-  const double horizon = twins.of.horizon;
-  LadderAnswer ladder =
-      time_answer(plan, horizon < twins.of.end ? frames_until(done.runs, horizon) : done.runs,
-                  integrator_named(plan.input_case.scene.integrator).order);
+  if (by.options.levels == 0 && by.options.solver.empty() && done.refused.empty())
+    add_levels(plan, twins.of, by, done.runs);
+  LadderAnswer ladder = answer_until(twins.of, plan, done.runs);
   limit_to_horizon(plan.measurements, done.runs, twins.of, ladder);
   return {std::move(ladder), std::move(twins), {}, {}, done.runs.back()};
 }
 
 /// Another solver, which has reached the end with the case's own step: what cannot be asked of it
 /// is refused before the reference runs.
-struct OtherSolver {
+struct TriedSolver {
   /// Throws InputError if the solver cannot be started, does not offer what the case needs, or does
   /// not reach the end.
-  OtherSolver(const LadderPlan& plan, const Options& options, const LevelSetProvider& level_sets)
+  TriedSolver(const LadderPlan& plan, const Options& options, const LevelSetProvider& level_sets)
       : trial(solver_command(options)), ladder(plan, trial, level_sets), first(ladder.run(0)) {
     if (!first.stopped.empty())
       throw InputError("the solver does not reach the end with the case's own step: " +
@@ -121,7 +151,7 @@ struct OtherSolver {
 
 /// The runs of another solver, coarse to fine, one after the other. None is kept in a store: the
 /// program behind the command may change.
-std::vector<LevelRun> solver_runs(OtherSolver& other, int levels) {
+std::vector<LevelRun> solver_runs(TriedSolver& other, int levels) {
   std::vector<LevelRun> runs{std::move(other.first)};
   ProgressLine line("levels of the solver");
   const double all = std::exp2(levels) - 1;  // if each takes twice the one before
@@ -133,7 +163,7 @@ std::vector<LevelRun> solver_runs(OtherSolver& other, int levels) {
 }
 
 /// Of another solver, asked before the reference's horizon only.
-Told told_of_solver(const LadderPlan& plan, const Told& reference, OtherSolver& other) {
+Told told_of_solver(const LadderPlan& plan, const Told& reference, TriedSolver& other) {
   std::vector<LevelRun> runs = solver_runs(other, plan.levels);
   const double horizon = reference.twins->of.horizon;
   LevelRun finest = reference.finest;
@@ -150,8 +180,8 @@ Told told_of_solver(const LadderPlan& plan, const Told& reference, OtherSolver& 
 
 Told told_in_space(const CaseSource& source, const Answering& by) {
   const auto objects = by.options.refines_objects ? ObjectsToo::yes : ObjectsToo::no;
-  const SpaceRuns done =
-      run_meshes(space_ladder(source, by.options.levels, objects), by, limits_of(by.options.hours));
+  const SpaceRuns done = run_meshes(space_ladder(source, levels_of(by.options), objects), by,
+                                    limits_of(by.options.hours));
   if (!done.levels.refused.empty()) log_line(done.levels.refused);
   return {space_answer(done.ladder, done.levels.runs, done.halved), {}, {}, {}};
 }
@@ -167,14 +197,14 @@ MapAnswer map_answer(const LadderAnswer& in_time, const LadderAnswer& in_space, 
 }
 
 LadderPlan plan_of(const CaseSource& source, const Options& options) {
-  LadderPlan plan{case_of(source), options.levels, {}};
+  LadderPlan plan{case_of(source), levels_of(options), {}};
   plan.measurements = measurements_of(plan.input_case);
   require_asked_before_end(plan.measurements, plan.input_case.scene.schedule.end);
   return plan;
 }
 
 /// other: null without --solver.
-std::vector<Told> told_for(const CaseSource& source, OtherSolver* other, const Answering& by) {
+std::vector<Told> told_for(const CaseSource& source, TriedSolver* other, const Answering& by) {
   const LadderPlan plan = plan_of(source, by.options);
   std::vector<Told> all;
   if (by.options.in != "space") all.push_back(told_in_time(plan, by));
@@ -262,7 +292,7 @@ int converge(const Options& options) {
   const Scene scene = case_of(source).scene;
   build(scene, level_sets);  // refuses now what cannot be built
   source.method = methods.front();
-  std::optional<OtherSolver> other;
+  std::optional<TriedSolver> other;
   if (!options.solver.empty()) other.emplace(plan_of(source, options), options, level_sets);
   const OutFolder folder(options.out);
   require_replaceable(options.out + "/converge.h5");
@@ -304,9 +334,15 @@ void add_ladder(CLI::App* converge, Options& options) {
       ->capture_default_str();
   converge
       ->add_option("--levels", options.levels,
-                   "Runs, 3 to 12, each with half the steps, or edges half as long")
+                   "Runs, 3 to 12, each with half the steps, or edges half as long (default: 4; "
+                   "in time more, until the orders have settled or --budget is spent)")
       ->type_name("N")
-      ->check(whole_number(3, 12))
+      ->check(whole_number(3, 12));
+  converge
+      ->add_option("--budget", options.budget,
+                   "Without --levels: time for levels beyond the fourth [s]; 0: none")
+      ->type_name("S")
+      ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   add_method(converge, options, "case's own");
   converge->add_flag("--refine-objects", options.refines_objects,
@@ -341,7 +377,7 @@ void add_twins(CLI::App* converge, Options& options) {
       ->capture_default_str();
 }
 
-constexpr const char* below =
+constexpr const char* below_converge =
     R"(Runs the case as it is, then refined level by level. Prints for each quantity the order at which
 differences between levels fall, Richardson's limit, and the grid convergence index as error bar
 (safety factor 1.25 where the order has settled at the method's, else 3). Quantities are those of
@@ -387,7 +423,8 @@ void add_converge_command(CLI::App& app, Program& program) {
   auto [command, options] = add_command(
       app, program,
       {"converge",
-       "How large are the errors of a case's step and mesh? Orders, limits and error bars", below},
+       "How large are the errors of a case's step and mesh? Orders, limits and error bars",
+       below_converge},
       converge);
   add_input(command, "CASE", options.file, case_words);
   add_ladder(command, options);

@@ -46,10 +46,10 @@ void print_notes(const LadderAnswer& answer) {
       "convergence index);\n"
       "as it is: error of the case with its own {}, bar included.\n",
       in_space ? "edges" : "steps", in_space ? "mesh" : "step");
-  fmt::print("{}\n", how_to_halve(answer));
   for (const std::string& warning : answer.warnings) fmt::print("warning: {}\n", warning);
   for (size_t k = 0; k < answer.stopped.size(); ++k)
     if (!answer.stopped[k].empty()) fmt::print("level {} stopped: {}\n", k, answer.stopped[k]);
+  fmt::print("{}\n", order_in_words(answer));
 }
 
 json to_json(const QuantityOverLevels& q) {
@@ -149,6 +149,8 @@ json to_json(const LadderAnswer& answer) {
                       {"stopped", answer.stopped},
                       {"warnings", answer.warnings},
                       {"halving", how_to_halve(answer)},
+                      {"has_order", name_of(order_verdict(answer))},
+                      {"in_words", order_in_words(answer)},
                       {"quantities", json::array()}};
   if (!answer.clock.empty()) answer_json["clock"] = answer.clock;
   if (is_in_space(answer)) {

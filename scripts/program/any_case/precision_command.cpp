@@ -398,7 +398,7 @@ int precision(const Options& options) {
 
 namespace {
 
-constexpr const char* below =
+constexpr const char* below_precision =
     R"(Runs the case with every integrator, at constant steps that are halved from run to run. Prints for
 each wanted error the cheapest method and its step, and the price of each other method as a multiple
 of the cheapest. A price counts applications of force operators.
@@ -434,11 +434,12 @@ Exit codes:
 }  // namespace
 
 void add_precision_command(CLI::App& app, Program& program) {
-  auto [command, options] = add_command(
-      app, program,
-      {"precision",
-       "Which integrator is cheapest for a case at a wanted error? Writes precision.h5", below},
-      precision);
+  auto [command, options] =
+      add_command(app, program,
+                  {"precision",
+                   "Which integrator is cheapest for a case at a wanted error? Writes precision.h5",
+                   below_precision},
+                  precision);
   add_input(command, "CASE", options.file, case_words);
   add_method(command, options, "all");
   add_errors(command, options, "Wanted errors, as shares of the motion (default: 1e-2,1e-3)");

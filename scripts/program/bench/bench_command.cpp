@@ -29,7 +29,7 @@ int run_bench(const BenchOptions& options) {
   return all_hold;
 }
 
-constexpr const char* below =
+constexpr const char* below_bench =
     R"(Examples:
   foldproof bench --quick
 
@@ -41,7 +41,7 @@ Exit codes:
 
 void add_bench_command(CLI::App& app, Program& program) {
   auto [speed, options] = add_command(
-      app, program, {"bench", "Measure speed and memory; writes bench.h5", below}, run_bench);
+      app, program, {"bench", "Measure speed and memory; writes bench.h5", below_bench}, run_bench);
   add_switch(speed, "--quick", options.quick, "Up to 100k particles instead of a million");
   add_folder(speed, options, "Folder for results")->capture_default_str();
   add_json(speed, options);

@@ -13,10 +13,10 @@ namespace foldproof {
 
 namespace {
 
-constexpr int depth = 9;
+constexpr int octree_depth = 9;
 constexpr double band = 3.0 / 512;  // m
 
-MeshDistance statue() {
+MeshDistance statue_distance() {
   const TriangleMesh mesh = make_statue(1, 4);
   const Vector3 low = mesh.rest.rowwise().minCoeff(), high = mesh.rest.rowwise().maxCoeff();
   return make_mesh_distance(
@@ -41,8 +41,8 @@ std::vector<Vector3> places(const MeshDistance& mesh) {
 }  // namespace
 
 std::vector<Record> octree_rates() {
-  const MeshDistance mesh = statue();
-  const OctreeSettings settings{Vector3::Constant(-0.5),  1, depth, 4, 2e-4, band, 0.25, 0,
+  const MeshDistance mesh = statue_distance();
+  const OctreeSettings settings{Vector3::Constant(-0.5),  1, octree_depth, 4, 2e-4, band, 0.25, 0,
                                 HangingNodes::constrained};
   Octree tree;
   const double build = seconds_of(

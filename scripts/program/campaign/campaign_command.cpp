@@ -20,7 +20,7 @@ void add_campaign_work(CLI::App* command, Options& options) {
       ->check(some_text("a folder"));
 }
 
-constexpr const char* below =
+constexpr const char* below_campaign =
     R"(Examples:
   foldproof campaign plan mine.campaign.toml
   foldproof campaign run mine.campaign.toml            all cores; --on slurm: a cluster
@@ -131,8 +131,9 @@ Exit codes:
 
 void add_campaign_command(CLI::App& app, Program& program) {
   CLI::App* campaign = add_subcommand(
-      app, {"campaign",
-            "Run a case, or another command, over many parameters, here or on a cluster", below});
+      app,
+      {"campaign", "Run a case, or another command, over many parameters, here or on a cluster",
+       below_campaign});
   campaign->require_subcommand(0, 1);
   const auto add = [&](const CommandText& text, int (*run)(const Options&)) {
     const Command<Options> added = add_command(*campaign, program, text, run);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <map>
 #include <vector>
@@ -18,7 +19,7 @@ namespace fs = std::filesystem;
 
 const FileKind case_kind{".toml", "a case file"};
 const FileKind run_kind{".h5", "a stored run"};
-const FileKind mesh_kind{".obj", "a mesh"};
+const FileKind mesh_kind{".obj", "a mesh", ".ply"};
 const FileKind table_kind{".csv", "a table of numbers"};
 
 namespace {
@@ -32,7 +33,7 @@ std::map<std::string, std::string> candidates(const fs::path& typed, const FileK
   std::error_code ignored;
   const fs::path folder = typed.parent_path();
   for (const auto& entry : fs::directory_iterator(folder.empty() ? "." : folder, ignored))
-    if (entry.path().extension() == kind.ending)
+    if (has_ending(entry.path().string(), kind))
       words[entry.path().stem().string()] = (folder / entry.path().filename()).string();
   return words;
 }
@@ -54,15 +55,22 @@ std::string suggestion(const std::string& typed, const FileKind& kind) {
 
 }  // namespace
 
+bool has_ending(const std::string& path, const FileKind& kind) {
+  std::string ending = fs::path(path).extension().string();
+  for (char& c : ending) c = char(std::tolower(static_cast<unsigned char>(c)));
+  return ending == kind.ending || (ending == kind.other && !ending.empty());
+}
+
 void require_input(const std::string& path, const FileKind& kind) {
-  const std::string give = fmt::format("give {}, NAME{}", kind.what, kind.ending);
+  const std::string give = fmt::format("give {}, NAME{}{}", kind.what, kind.ending,
+                                       kind.other.empty() ? "" : " or NAME" + kind.other);
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (status.type() == fs::file_type::not_found)
     throw InputError(path + ": there is no such " + missing_text(kind) + suggestion(path, kind));
   if (fs::is_directory(status)) throw InputError(fmt::format("{}: is a folder; {}", path, give));
   for (const FileKind* other : {&case_kind, &run_kind, &mesh_kind, &table_kind})
-    if (other->ending != kind.ending && fs::path(path).extension() == other->ending)
+    if (other->ending != kind.ending && has_ending(path, *other))
       throw InputError(fmt::format("{}: is {} by its name; {}", path, other->what, give));
   if (fs::is_regular_file(status) && fs::file_size(path, error) == 0)
     throw InputError(fmt::format("{}: is empty; {}", path, give));

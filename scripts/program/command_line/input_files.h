@@ -8,10 +8,14 @@ namespace foldproof {
 /// A kind of file, known by the ending of its name.
 struct FileKind {
   std::string ending;
-  std::string what;  // with its article
+  std::string what;        // with its article
+  std::string other = "";  // another ending
 };
 
 extern const FileKind case_kind, run_kind, mesh_kind, table_kind;
+
+/// In capitals, too.
+bool has_ending(const std::string& path, const FileKind& kind);
 
 /// Throws InputError unless there is such a file: one that is not empty, is no folder, and whose
 /// name does not end as that of another kind does. Suggests names of files beside it, and of

@@ -14,6 +14,12 @@ void add_json(CLI::App* command, Options& options) {
       ->disable_flag_override();
 }
 
+void add_seams(CLI::App* command, double& distance) {
+  command->add_option("--seams", distance, "Join vertices of meshes within this distance [m]")
+      ->type_name("D")
+      ->check(positive_number());
+}
+
 CLI::Option* add_switch(CLI::App* command, const std::string& name, bool& value,
                         const std::string& what) {
   return command->add_flag(name, value, what)->disable_flag_override();

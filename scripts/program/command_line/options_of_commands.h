@@ -47,6 +47,9 @@ Command<Own> add_command(CLI::App& app, Program& program, const CommandText& tex
 
 void add_json(CLI::App* command, Options& options);
 
+/// --seams, the distance within which vertices are joined [m].
+void add_seams(CLI::App* command, double& distance);
+
 CLI::Option* add_switch(CLI::App* command, const std::string& name, bool& value,
                         const std::string& what);
 

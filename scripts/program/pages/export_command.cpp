@@ -19,7 +19,7 @@ int export_frames(const ExportOptions& options) {
                            {options.file, "--format", options.format, "--out", options.out});
 }
 
-constexpr const char* below =
+constexpr const char* below_export =
     R"(Lengths are in metres, in world coordinates; each object has files of its own.
 Needs the Debian packages python3-h5py and python3-numpy.
 
@@ -34,10 +34,10 @@ Exit codes:
 }  // namespace
 
 void add_export_command(CLI::App& app, Program& program) {
-  auto [files, options] =
-      add_command(app, program,
-                  {"export", "Write the frames of a stored run as files for other programs", below},
-                  export_frames);
+  auto [files, options] = add_command(
+      app, program,
+      {"export", "Write the frames of a stored run as files for other programs", below_export},
+      export_frames);
   add_input(files, "RUN.h5", options.file, "Run stored by `foldproof simulate`");
   files->add_option("--format", options.format, "obj, ply or xdmf")
       ->type_name("FORMAT")

@@ -24,7 +24,7 @@ int make_film(const FilmOptions& options) {
   return run_report_script("film", "make_film.py", arguments);
 }
 
-constexpr const char* below =
+constexpr const char* below_film =
     R"(Needs the Debian packages ffmpeg, python3-h5py, python3-matplotlib and python3-pil.
 
 Examples:
@@ -39,7 +39,7 @@ Exit codes:
 
 void add_film_command(CLI::App& app, Program& program) {
   auto [film, options] = add_command(
-      app, program, {"film", "Make a film of a stored run (MP4 and GIF, by ffmpeg)", below},
+      app, program, {"film", "Make a film of a stored run (MP4 and GIF, by ffmpeg)", below_film},
       make_film);
   add_input(film, "RUN.h5", options.file, "Run stored by `foldproof simulate`");
   film->add_option("--field", options.field,

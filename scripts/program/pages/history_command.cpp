@@ -18,7 +18,7 @@ int show_history(const HistoryOptions& options) {
   return run_report_script("history", "make_history.py", arguments, true);
 }
 
-constexpr const char* below =
+constexpr const char* below_history =
     R"(Needs the Debian packages python3-h5py, python3-matplotlib and python3-jinja2.
 
 Examples:
@@ -33,10 +33,10 @@ Exit codes:
 }  // namespace
 
 void add_history_command(CLI::App& app, Program& program) {
-  auto [history, options] =
-      add_command(app, program,
-                  {"history", "Show what changed over several runs, and in which run first", below},
-                  show_history);
+  auto [history, options] = add_command(
+      app, program,
+      {"history", "Show what changed over several runs, and in which run first", below_history},
+      show_history);
   history
       ->add_option("DIR", options.names, "Folders of finished runs, or their verdicts.json files")
       ->check(some_text("a file or folder"));

@@ -22,7 +22,7 @@ int make_report(const ReportOptions& options) {
   return run_report_script("report", "make_report.py", arguments);
 }
 
-constexpr const char* below =
+constexpr const char* below_report =
     R"(Needs the Debian packages python3-h5py, python3-matplotlib and python3-jinja2; --pdf also chromium.
 Folders that `judge --out` wrote become one page of laws by solvers, compare.html in the last of
 them, with its numbers in compare.json.
@@ -38,10 +38,10 @@ Exit codes:
 }  // namespace
 
 void add_report_command(CLI::App& app, Program& program) {
-  auto [report, options] =
-      add_command(app, program,
-                  {"report", "Make DIR/report.html from stored results, or compare folders", below},
-                  make_report);
+  auto [report, options] = add_command(
+      app, program,
+      {"report", "Make DIR/report.html from stored results, or compare folders", below_report},
+      make_report);
   add_input(
       report, "DIR", options.names,
       "Folder with run.h5 or case files; two of them, or several judged solvers, are compared")

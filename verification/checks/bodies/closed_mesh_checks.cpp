@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "reference/bodies/closed_mesh.h"
-#include "reference/mesh/obj.h"
+#include "reference/mesh/mesh_file.h"
 #include "reference/mesh/self_intersection.h"
 #include "reference/mesh/shapes.h"
 #include "verification/specimens/check.h"
@@ -65,7 +65,8 @@ Finding bad_solids_are_rejected() {
   Table measured{{"case", ""}, {"file or words missing from the refusal", "1"}, {"message", ""}};
   for (const BadSolid& bad : bad_solids()) {
     write_obj(path, bad.soup.rest, bad.soup.triangles);
-    const std::string message = rejection_message([&] { make_closed_mesh(read_obj_soup(path)); });
+    const std::string message =
+        rejection_message([&] { make_closed_mesh(read_mesh_file(path).soup); });
     const int missing = !message.starts_with(path + ":") + count_missing(message, bad.parts);
     const size_t folder_size = path.size() - std::string("bad.obj").size();
     measured.row(bad.name, missing, message.substr(std::min(message.size(), folder_size)));

@@ -2,7 +2,7 @@
 #include <filesystem>
 
 #include "reference/bodies/level_set_provider.h"
-#include "reference/mesh/obj.h"
+#include "reference/mesh/mesh_file.h"
 #include "reference/mesh/shapes.h"
 #include "verification/specimens/check.h"
 #include "verification/specimens/random.h"

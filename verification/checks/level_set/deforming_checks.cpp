@@ -4,7 +4,7 @@
 #include "reference/level_set/mesh_distance.h"
 #include "reference/level_set/object.h"
 #include "reference/level_set/octree_nodes.h"
-#include "reference/mesh/obj.h"
+#include "reference/mesh/mesh_file.h"
 #include "reference/mesh/shapes.h"
 #include "verification/checks/level_set/octree_samples.h"
 #include "verification/specimens/check.h"

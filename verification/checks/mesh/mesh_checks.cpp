@@ -3,7 +3,7 @@
 #include <map>
 #include <utility>
 
-#include "reference/mesh/obj.h"
+#include "reference/mesh/mesh_file.h"
 #include "reference/mesh/shapes.h"
 #include "verification/seeds.h"
 #include "verification/specimens/check.h"
@@ -150,7 +150,7 @@ Finding obj_round_trip_is_exact() {
     x *= random.log_uniform(1e-9, 1e7);
     const std::string path = folder.file(shape.name + ".obj");
     write_obj(path, x, shape.mesh.triangles);
-    const TriangleMesh back = read_obj(path);
+    const TriangleMesh back = read_mesh(path);
     int fallback =
         int(back.triangles != shape.mesh.triangles) + 1000 * int(back.rest.cols() != x.cols());
     for (Eigen::Index k = 0; k < std::min(x.size(), back.rest.size()); ++k) {

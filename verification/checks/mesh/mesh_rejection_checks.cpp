@@ -1,6 +1,6 @@
 #include <fstream>
 
-#include "reference/mesh/obj.h"
+#include "reference/mesh/mesh_file.h"
 #include "reference/mesh/shapes.h"
 #include "verification/specimens/check.h"
 #include "verification/specimens/scratch_folder.h"
@@ -33,7 +33,7 @@ std::vector<BadFile> bad_files() {
       {"an index too large", four + "f 1 2 3\nf 1 3 5\n", 6, "out of range"},
       {"a negative index too large", four + "f 1 2 3\nf 1 3 -5\n", 6, "out of range"},
       {"an index that is a word", four + "f 1 2 three\n", 5, "no corner of a face"},
-      {"a corner with a bad slash", four + "f 1/ 2 3\n", 5, "no corner of a face"},
+      {"a corner with a bad slash", four + "f 1/x 2 3\n", 5, "no corner of a face"},
       {"an unused vertex", four + "f 1 2 3\n", 4, "unused"},
       {"a face without area", "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nf 1 2 4\nf 1 2 3\n", 6,
        "no area"},
@@ -58,7 +58,7 @@ void try_bad_files(Table& measured) {
   const ScratchFolder folder;
   const auto observe = [&](const std::string& name, const std::string& path,
                            std::vector<std::string> parts) {
-    const std::string message = rejection_message([&] { read_obj(path); });
+    const std::string message = rejection_message([&] { read_mesh(path); });
     measured.row("file with " + name, count_missing(message, parts), without_folder(message));
   };
   for (const BadFile& bad : bad_files()) {

@@ -2,7 +2,7 @@
 #include <fstream>
 #include <random>
 
-#include "reference/mesh/obj.h"
+#include "reference/mesh/mesh_file.h"
 #include "reference/mesh/seams.h"
 #include "reference/mesh/shapes.h"
 #include "verification/seeds.h"

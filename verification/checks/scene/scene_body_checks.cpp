@@ -4,7 +4,7 @@
 
 #include "reference/bodies/level_set_provider.h"
 #include "reference/level_set/mesh_distance.h"
-#include "reference/mesh/obj.h"
+#include "reference/mesh/mesh_file.h"
 #include "reference/mesh/shapes.h"
 #include "verification/specimens/check.h"
 #include "verification/specimens/random.h"

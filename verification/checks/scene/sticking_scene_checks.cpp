@@ -1,7 +1,7 @@
 // Sticking in case files: regions, groups of OBJ files, refusals.
 #include <fstream>
 
-#include "reference/mesh/obj.h"
+#include "reference/mesh/mesh_file.h"
 #include "verification/specimens/check.h"
 #include "verification/specimens/scratch_folder.h"
 #include "verification/specimens/trial_cases.h"
@@ -116,7 +116,7 @@ Finding groups_finding() {
   const std::string file = folder.file("grouped.obj");
   std::ofstream(file) << grouped;
   Differences differences;
-  const FaceGroups groups = read_obj_groups(file);
+  const FaceGroups groups = read_mesh_file(file).groups;
   differences.is(
       "groups",
       groups == FaceGroups{{"back", {1}}, {"front", {0}}, {"left", {0, 1}}, {"right", {0, 1}}});

@@ -1,7 +1,7 @@
 // [expect] and [ablation] of a case: read with their places, added to, judged as they say.
 #include <catch2/catch.hpp>
 
-#include "reference/mesh/obj.h"
+#include "reference/mesh/mesh_file.h"
 #include "reference/mesh/shapes.h"
 #include "verification/cases/judge.h"
 #include "verification/cases/replaced_shape.h"

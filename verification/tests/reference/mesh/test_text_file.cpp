@@ -1,7 +1,7 @@
 // Whole text files, at the very bounds of what is read.
 #include <catch2/catch.hpp>
 
-#include "reference/mesh/obj.h"
+#include "reference/mesh/mesh_file.h"
 #include "reference/mesh/text_file.h"
 #include "verification/specimens/scratch_folder.h"
 

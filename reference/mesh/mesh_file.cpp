@@ -1,0 +1,117 @@
+#include "reference/mesh/mesh_file.h"
+
+#include <algorithm>
+#include <charconv>
+#include <fstream>
+#include <utility>
+
+#include "reference/mesh/mesh_locations.h"
+#include "reference/mesh/mesh_reading.h"
+#include "reference/mesh/polygon.h"
+#include "reference/mesh/text_file.h"
+
+namespace foldproof {
+
+std::errc read_number(std::string_view word, double& value) {
+  // from_chars knows no plus sign
+  const size_t plus = word.size() > 1 && word[0] == '+' && word[1] != '-' ? 1 : 0;
+  const char *begin = word.data() + plus, *end = word.data() + word.size();
+  std::from_chars_result result = std::from_chars(begin, end, value);
+  if (result.ec == std::errc::result_out_of_range) {
+    long double wide = 0;  // of a larger range: whether the number is large or small
+    const std::errc error = std::from_chars(begin, end, wide).ec;
+    if (error == std::errc() && std::abs(wide) < 1) value = double(wide), result.ec = error;
+  }
+  if (result.ec == std::errc() && result.ptr != end) return std::errc::invalid_argument;
+  return result.ec;
+}
+
+bool FaceList::add(int vertex) {
+  corners_.push_back(vertex);
+  if (corners() > 2) ++triangles_;
+  return triangles_ <= most_triangles;
+}
+
+std::vector<int> FaceList::cut_into(TriangleSoup& soup, int first_vertex) const {
+  const int vertices = int(soup.rest.cols());
+  std::vector<int> face_of_triangle;
+  for (size_t f = 0; f < starts_.size(); ++f) {
+    const auto reject = [&](const std::string& reason) {
+      const std::string where =
+          lines_[f] > 0 ? ":" + std::to_string(lines_[f]) : ": face " + std::to_string(f);
+      throw InputError(soup.origin.file + where + ": " + reason);
+    };
+    const size_t end = f + 1 < starts_.size() ? starts_[f + 1] : corners_.size();
+    const std::span<const int> corners(corners_.data() + starts_[f], end - starts_[f]);
+    for (const int v : corners) {
+      if (v < 0 || v >= vertices)
+        reject("index " + std::to_string(v + first_vertex) + " is out of range; the file has " +
+               std::to_string(vertices) + " vertices");
+      if (!soup.rest.col(v).allFinite())
+        throw InputError(vertex_location(soup.origin, v) +
+                         "a coordinate is not finite; give numbers in m");
+    }
+    const std::vector<Triangle> cut = triangles_of_polygon(corners, soup.rest);
+    if (cut.empty())
+      reject("a polygon of " + std::to_string(corners.size()) +
+             " corners whose sides cross, or a concave one with more than " +
+             std::to_string(most_concave_corners) + "; cut it into triangles");
+    for (const Triangle& triangle : cut) {
+      soup.triangles.push_back(triangle);
+      face_of_triangle.push_back(int(f));
+      if (lines_[f] > 0) soup.origin.triangle_lines.push_back(lines_[f]);
+    }
+  }
+  return face_of_triangle;
+}
+
+MeshFile read_mesh_text(std::string text, const std::string& file) {
+  const std::string_view start = std::string_view(text).substr(0, 8);
+  const size_t mark = start.starts_with(utf8_mark) ? utf8_mark.size() : 0;
+  const std::string_view line = start.substr(mark, 4);
+  if (line.starts_with("ply") && (line.size() < 4 || line[3] <= ' '))
+    return read_ply_text(std::string_view(text).substr(mark), file);
+  return read_obj_text(plain_text(std::move(text), file), file);
+}
+
+MeshFile read_mesh_file(const std::string& path) {
+  return read_mesh_text(read_text_file(path, mesh_limits), path);
+}
+
+TriangleMesh read_mesh(const std::string& path) {
+  TriangleSoup soup = read_mesh_file(path).soup;
+  return make_triangle_mesh(std::move(soup.rest), std::move(soup.triangles), soup.origin);
+}
+
+void write_obj(const std::string& path, const PerParticle3& positions,
+               const std::vector<Triangle>& triangles) {
+  std::string text = "# written by foldproof; lengths in m\n";
+  char digits[32];
+  for (Eigen::Index v = 0; v < positions.cols(); ++v) {
+    text += 'v';
+    for (int k = 0; k < 3; ++k) {
+      // as %.17g, but the same in every locale
+      const std::to_chars_result end = std::to_chars(
+          digits, digits + sizeof digits, positions(k, v), std::chars_format::general, 17);
+      text.append(1, ' ').append(digits, end.ptr);
+    }
+    text += '\n';
+  }
+  for (size_t t = 0; t < triangles.size(); ++t) {
+    text += 'f';
+    for (int v : triangles[t]) {
+      if (v < 0 || v >= positions.cols()) {
+        throw InputError("write_obj: triangle " + std::to_string(t) + ": vertex index " +
+                         std::to_string(v) + " is out of range; there are " +
+                         std::to_string(positions.cols()) + " positions");
+      }
+      text.append(1, ' ').append(std::to_string(v + 1));
+    }
+    text += '\n';
+  }
+  std::ofstream file(path, std::ios::binary);
+  file << text << std::flush;
+  if (!file) throw InputError(path + ": cannot be written; check the folder and the space left");
+}
+
+}  // namespace foldproof

@@ -1,0 +1,49 @@
+// What the readers of mesh files share; mesh_file.h is what others include.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include "reference/mesh/mesh_file.h"
+
+namespace foldproof {
+
+// Twice the largest cloth in the speed measurements.
+constexpr size_t most_vertices = 2'000'000, most_triangles = 4'000'000;
+
+/// Reads a whole word as a number, with or without a plus sign. What is too small for a double is
+/// 0. invalid_argument: it is none; result_out_of_range: it is too large.
+std::errc read_number(std::string_view word, double& value);
+
+/// The faces of a file, until all its vertices are known.
+class FaceList {
+ public:
+  /// line: of the file; 0 in a binary one.
+  void begin(int line) {
+    starts_.push_back(corners_.size());
+    lines_.push_back(line);
+  }
+  /// Adds a corner to the last face; false if that makes more than most_triangles.
+  bool add(int vertex);
+  /// Corners of the last face.
+  size_t corners() const { return corners_.size() - starts_.back(); }
+  bool empty() const { return starts_.empty(); }
+
+  /// Cuts the faces into triangles over the vertices of `soup`, and returns the face of each.
+  /// first_vertex: the number of the first vertex in the file, for messages. Throws InputError for
+  /// indices out of range, used vertices that are not finite, and faces that cannot be cut.
+  std::vector<int> cut_into(TriangleSoup& soup, int first_vertex) const;
+
+ private:
+  std::vector<int> corners_;    // of all faces, one after the other
+  std::vector<size_t> starts_;  // the first corner of each
+  std::vector<int> lines_;
+  size_t triangles_ = 0;
+};
+
+MeshFile read_obj_text(std::string_view text, const std::string& file);
+MeshFile read_ply_text(std::string_view text, const std::string& file);
+
+}  // namespace foldproof

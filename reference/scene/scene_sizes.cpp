@@ -1,0 +1,98 @@
+#include "reference/scene/scene_sizes.h"
+
+#include <cmath>
+#include <sstream>
+
+#include "reference/dynamics/integrator.h"
+#include "reference/forces/degenerate.h"
+#include "reference/mesh/box_tree.h"
+#include "reference/mesh/seams.h"
+
+namespace foldproof {
+
+namespace {
+
+constexpr double longest_cloth = 20, shortest_cloth = 0.005;  // m
+constexpr double heaviest = 5, lightest = 0.01;               // kg/m^2
+constexpr double other_unit = 7;  // of two lengths: beyond it, one may be in another unit [1]
+
+std::string digits(double value) {
+  std::ostringstream text;
+  text.precision(3);
+  text << value;
+  return text.str();
+}
+
+double length_of(const PerParticle3& x) { return bounds_of(x).sizes().maxCoeff(); }
+
+std::string extent_of(const PerParticle3& x) {
+  const Vector3 size = bounds_of(x).sizes();
+  return digits(size.x()) + " x " + digits(size.y()) + " x " + digits(size.z()) + " m";
+}
+
+/// The factor that brings a length nearest to another, of those between m, cm and mm.
+std::string likely_scale(double length, double other) {
+  const double decades = std::clamp(std::round(std::log10(other / length)), -3.0, 3.0);
+  return digits(std::pow(10, decades));
+}
+
+void warn_of_bodies(const std::string& where, Scene& scene) {
+  const double cloth = length_of(scene.x);
+  for (const SceneObject& part : scene.objects) {
+    if (!part.field || part.vertices.cols() == 0) continue;
+    const double body = length_of(part.vertices);
+    if (!(std::max(cloth / body, body / cloth) >= other_unit)) continue;
+    scene.warnings.push_back(
+        where + ": the cloth is " + digits(cloth) + " m long and object '" + part.object.name +
+        "' " + digits(body) + " m; if a file is in another unit, give [cloth] scale = " +
+        likely_scale(cloth, body) + " or [[object]] scale = " + likely_scale(body, cloth));
+  }
+}
+
+}  // namespace
+
+std::string sizes_in_words(const Scene& scene) {
+  const double mass = lumped_masses(scene.mesh, scene.density).sum();
+  std::string words = "cloth " + extent_of(scene.x) + ", " + digits(mass / scene.density) +
+                      " m^2, " + digits(mass) + " kg";
+  for (const SceneObject& part : scene.objects)
+    if (part.field && part.vertices.cols() > 0)
+      words += "; object '" + part.object.name + "' " + extent_of(part.vertices);
+  return words;
+}
+
+void warn_of_sizes(const KeyTable& cloth, Scene& scene) {
+  const double length = length_of(scene.x);
+  const std::string where = cloth.where(cloth.has("mesh") ? "mesh" : "shape");
+  if (length > longest_cloth || length < shortest_cloth)
+    scene.warnings.push_back(where + ": the cloth is " + digits(length) +
+                             " m long; if its file is in cm, give scale = 0.01, if in mm, 0.001");
+  warn_of_bodies(where, scene);
+  const double density = scene.density;
+  if (density > heaviest || density < lightest)
+    scene.warnings.push_back(cloth.where("density") + ": a density of " + digits(density) +
+                             " kg/m^2; cloth has 0.05 to 0.8" +
+                             (density > heaviest
+                                  ? "; " + digits(density) + " g/m^2 are " + digits(density / 1000)
+                                  : ""));
+  if (!cloth.has("mesh") || cloth.has("seams")) return;
+  if (const std::string words = open_seams_in_words(scene.mesh); !words.empty())
+    scene.warnings.push_back(where + ": " + words);
+}
+
+std::string warning_of_step(const Scene& scene, const System& system, const State& s) {
+  const double step = scene.schedule.step.fixed;
+  if (!(step > 0) || integrator_named(scene.integrator).family == Family::fully_implicit) return "";
+  double limit = 0;
+  try {
+    limit = elastic_limit(system, s);
+  } catch (const DegenerateElement&) {
+    return "";
+  }
+  if (!(step > limit)) return "";
+  return "a step of " + digits(step) + " s is " + digits(step / limit) +
+         " times the elastic limit here, " + digits(limit) + " s, below which " + scene.integrator +
+         " is known to be stable; step = \"automatic\" keeps to it";
+}
+
+}  // namespace foldproof
