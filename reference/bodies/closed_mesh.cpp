@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "reference/mesh/self_intersection.h"
-#include "reference/bodies/winding.h"
+#include "reference/level_set/winding.h"
 #include "reference/mesh/mesh_locations.h"
 
 namespace foldproof {

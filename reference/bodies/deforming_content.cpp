@@ -77,6 +77,7 @@ std::string input_key(const MeshSequence& sequence, const OctreeSettings& settin
     key.add(x.data(), std::size_t(x.size()));
   }
   add_settings(key, settings);
+  if (sequence.inside != Inside::normals) key.add(int(sequence.inside));
   return key.text();
 }
 

@@ -53,11 +53,10 @@ LevelSetProvider computing_provider(const Team& team) {
           }};
 }
 
-std::shared_ptr<const Octree> make_octree(const LevelSetProvider& provider, const PerParticle3& x,
-                                          const std::vector<Triangle>& triangles,
+std::shared_ptr<const Octree> make_octree(const LevelSetProvider& provider,
+                                          const MeshSequence& mesh,
                                           const OctreeSettings& settings) {
-  const auto body =
-      provider.make_deforming_body({triangles, {0}, {x}}, settings, BetweenFrames::blended);
+  const auto body = provider.make_deforming_body(mesh, settings, BetweenFrames::blended);
   return {body, &body->frames.front().field};
 }
 

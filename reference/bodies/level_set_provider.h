@@ -27,9 +27,8 @@ LevelSetProvider computing_provider(const Team& team = {});
 /// thread. Copies share the stored results for as long as one of them exists.
 LevelSetProvider memoizing_provider(const LevelSetProvider& provider);
 
-/// The octree of one mesh, built as a one-frame animation.
-std::shared_ptr<const Octree> make_octree(const LevelSetProvider& provider, const PerParticle3& x,
-                                          const std::vector<Triangle>& triangles,
-                                          const OctreeSettings& settings);
+/// The octree of a sequence of one frame.
+std::shared_ptr<const Octree> make_octree(const LevelSetProvider& provider,
+                                          const MeshSequence& mesh, const OctreeSettings& settings);
 
 }  // namespace foldproof

@@ -5,6 +5,7 @@
 #include "reference/bodies/closed_mesh.h"
 #include "reference/bodies/ray_parity.h"
 #include "reference/bodies/repair.h"
+#include "reference/bodies/thin_parts.h"
 
 namespace foldproof {
 
@@ -38,11 +39,14 @@ MeshInspection inspect_mesh(const TriangleSoup& soup, int cells) {
   found.bounds = bounds_of(soup.rest);
   look_for_solid(soup, found);
   const GridMethod method{cells, 4, 3, MarchingOrder::second};
+  const Repair repair = found.rejection.empty() ? Repair::refuse : Repair::winding;
   try {
-    count_nodes(
-        soup,
-        *make_level_set(soup, method, found.rejection.empty() ? Repair::refuse : Repair::winding),
-        found);
+    const auto grid = make_level_set(soup, method, repair);
+    count_nodes(soup, *grid, found);
+    const auto thin = find_thin_parts(
+        soup.rest, repair == Repair::refuse ? soup.triangles : outward_patches(soup).triangles,
+        *grid);
+    if (thin) found.thin_parts = describe(*thin, *grid, found.bounds.sizes().maxCoeff(), repair);
   } catch (const InputError& error) {
     found.repair_failure = error.what();
   }

@@ -2,12 +2,13 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <utility>
 
 #include "reference/bodies/closed_mesh.h"
-#include "reference/bodies/winding.h"
+#include "reference/level_set/winding.h"
 #include "reference/fast/loops.h"
 #include "reference/mesh/mesh_locations.h"
 
@@ -35,7 +36,18 @@ struct Neighbour {
   bool opposed;
 };
 
-std::vector<std::vector<Neighbour>> neighbours_of(const std::vector<Triangle>& triangles) {
+/// For each vertex the first one at its place: doubled vertices, of a seam, are one here.
+std::vector<int> welded(const PerParticle3& x) {
+  std::map<std::array<double, 3>, int> first;
+  std::vector<int> vertex(size_t(x.cols()));
+  for (int v = 0; v < int(x.cols()); ++v)
+    vertex[size_t(v)] = first.try_emplace({x(0, v), x(1, v), x(2, v)}, v).first->second;
+  return vertex;
+}
+
+std::vector<std::vector<Neighbour>> neighbours_of(const PerParticle3& x,
+                                                  const std::vector<Triangle>& triangles) {
+  const std::vector<int> vertex = welded(x);
   struct Side {
     int triangle;
     bool rising;  // from the smaller number to the larger
@@ -43,7 +55,7 @@ std::vector<std::vector<Neighbour>> neighbours_of(const std::vector<Triangle>& t
   std::map<std::pair<int, int>, std::vector<Side>> sides;
   for (int t = 0; t < int(triangles.size()); ++t) {
     for (int k = 0; k < 3; ++k) {
-      const int a = triangles[t][k], b = triangles[t][(k + 1) % 3];
+      const int a = vertex[triangles[t][k]], b = vertex[triangles[t][(k + 1) % 3]];
       sides[std::minmax(a, b)].push_back({t, a < b});
     }
   }
@@ -93,36 +105,52 @@ void measure(const MeshDistance& mesh, const Lattice& lattice, Seeds& seeds, con
   });
 }
 
+[[noreturn]] void reject_without_inside(const TriangleSoup& soup, const OrientedPatches& of) {
+  const auto largest = std::ranges::max_element(
+      of.patches, {}, [](const std::vector<int>& patch) { return patch.size(); });
+  throw InputError(triangle_location(soup.origin, of.numbers[size_t(largest->front())]) +
+                   "repair finds no inside: the winding number of the piece of " +
+                   std::to_string(largest->size()) + " triangles that begins here, one of " +
+                   std::to_string(of.patches.size()) +
+                   ", is below 1/2 at every node; close it, or give a finer grid");
+}
+
 }  // namespace
 
-std::vector<Triangle> orient_triangles(const TriangleSoup& soup) {
-  std::vector<Triangle> triangles;
-  std::copy_if(soup.triangles.begin(), soup.triangles.end(), std::back_inserter(triangles),
-               [&](const Triangle& t) { return has_area(soup.rest, t); });
-  const std::vector<std::vector<Neighbour>> neighbours = neighbours_of(triangles);
+OrientedPatches oriented_patches(const TriangleSoup& soup) {
+  OrientedPatches all;
+  for (int t = 0; t < int(soup.triangles.size()); ++t) {
+    if (!has_area(soup.rest, soup.triangles[t])) continue;
+    all.triangles.push_back(soup.triangles[t]);
+    all.numbers.push_back(t);
+  }
+  std::vector<Triangle>& triangles = all.triangles;
+  const std::vector<std::vector<Neighbour>> neighbours = neighbours_of(soup.rest, triangles);
   std::vector<int> flip_state(triangles.size(), -1);
   for (int first = 0; first < int(triangles.size()); ++first) {
     if (flip_state[first] >= 0) continue;
-    const std::vector<int> patch = collect_patch(first, neighbours, flip_state);
+    all.patches.push_back(collect_patch(first, neighbours, flip_state));
+    const std::vector<int>& patch = all.patches.back();
     double area[2] = {0, 0};
     for (const int t : patch) area[flip_state[t]] += area_of(soup.rest, triangles[t]);
     const int minority = area[1] > area[0] ? 0 : 1;
     for (const int t : patch)
       if (flip_state[t] == minority) std::swap(triangles[t][1], triangles[t][2]);
   }
-  return triangles;
+  return all;
+}
+
+std::vector<Triangle> orient_triangles(const TriangleSoup& soup) {
+  return oriented_patches(soup).triangles;
 }
 
 std::shared_ptr<const Grid> make_repaired_grid(const TriangleSoup& soup, const GridMethod& method,
                                                const Team& team) {
-  const MeshDistance mesh = make_mesh_distance(soup.rest, orient_triangles(soup));
+  const OrientedPatches outward = outward_patches(soup);
+  const MeshDistance mesh = make_mesh_distance(soup.rest, outward.triangles);
   const Lattice lattice = lattice_about(mesh.tree.nodes[0].bounds, method.cells, method.margin);
   Seeds seeds = seeds_from_sides(lattice, sides_of(mesh, lattice, team));
-  if (seeds.nodes.empty())
-    throw InputError(
-        mesh_location(soup.origin) + "repair finds no inside: the winding number of its " +
-        std::to_string(soup.triangles.size()) +
-        " triangles is below 1/2 at every node; turn them outward, or give a finer grid");
+  if (seeds.nodes.empty()) reject_without_inside(soup, outward);
   measure(mesh, lattice, seeds, team);
   return std::make_shared<const Grid>(march(lattice, seeds, method.order));
 }

@@ -11,10 +11,25 @@
 namespace foldproof {
 
 /// The triangles with nonzero area, oriented consistently across edges that two triangles share; in
-/// each patch, the larger part of the area keeps its orientation.
+/// each patch, the larger part of the area keeps its orientation. Vertices at one place are one.
 std::vector<Triangle> orient_triangles(const TriangleSoup& soup);
 
-/// repair = "winding". Inside is where the generalised winding number of the oriented triangles is
+/// The same, with the number in the soup of each triangle, and the patches: lists of places in
+/// `triangles`.
+struct OrientedPatches {
+  std::vector<Triangle> triangles;
+  std::vector<int> numbers;
+  std::vector<std::vector<int>> patches;
+};
+OrientedPatches oriented_patches(const TriangleSoup& soup);
+
+/// The same, with normals outward: a patch within which the winding number would be negative, for
+/// lack of another around it, is turned, together with the patches that it encloses. A cavity stays
+/// one, also in a body that is inside out as a whole. Flat patches, which have no inside alone, are
+/// decided together.
+OrientedPatches outward_patches(const TriangleSoup& soup);
+
+/// repair = "winding". Inside is where the generalised winding number of the outward triangles is
 /// at least 1/2, at every node. A node with a neighbour on the other side gets its exact distance
 /// to the triangles if that is at most one cell. Otherwise no triangle separates the two, and it
 /// gets the distance to where the winding number, taken as linear along the axes, crosses 1/2: a

@@ -258,6 +258,15 @@ PairSearch counted_near_pairs(const ClothTree& cloth, const PerParticle3& x,
   return done;
 }
 
+std::vector<FeaturePair> touching_pairs(const ClothTree& cloth, const PerParticle3& x,
+                                        double distance) {
+  std::vector<FeaturePair> pairs = near_pairs(cloth, x, x, distance);
+  std::erase_if(pairs, [&](const FeaturePair& pair) {
+    return !(nearness(pair.kind, corners_of(pair, x)).distance < distance);
+  });
+  return pairs;
+}
+
 PairsAhead pairs_ahead(const ClothTree& cloth, const PerParticle3& x, double margin) {
   return {particle_boxes(x, x, margin, cloth.team), near_pairs(cloth, x, x, margin), cloth.team};
 }

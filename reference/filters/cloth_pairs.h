@@ -38,6 +38,10 @@ std::vector<FeaturePair> near_pairs(const ClothTree& cloth, const PerParticle3& 
                                     const PerParticle3& end, double margin,
                                     const std::vector<char>& moved = {});
 
+/// Pairs nearer than `distance` [m] at x.
+std::vector<FeaturePair> touching_pairs(const ClothTree& cloth, const PerParticle3& x,
+                                        double distance);
+
 /// Pairs found by one search with an enlarged margin: while the particles stay inside these boxes,
 /// later searches only select from these pairs.
 struct PairsAhead {

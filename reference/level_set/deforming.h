@@ -14,12 +14,20 @@
 
 namespace foldproof {
 
-/// A closed mesh in motion: the same triangles at every frame. Between frames each vertex moves
-/// straight and evenly; it is at rest before the first and after the last.
+/// How a frame tells inside from outside.
+enum class Inside {
+  normals,  // by the normal of the nearest feature: closed meshes without intersections
+  // where the winding number is at least 1/2: any triangles whose normals point outward
+  winding
+};
+
+/// A mesh in motion: the same triangles at every frame. Between frames each vertex moves straight
+/// and evenly; it is at rest before the first and after the last.
 struct MeshSequence {
   std::vector<Triangle> triangles;      // M
   std::vector<double> times;            // F, rising [s]
   std::vector<PerParticle3> positions;  // F of 3 x N [m]
+  Inside inside = Inside::normals;
 };
 
 /// Position at time t [s] of the point whose rest position is X.
@@ -33,9 +41,11 @@ MeshSequence deformed_mesh(const TriangleMesh& mesh, const Deformation& deformat
 PerParticle3 positions_at(const MeshSequence& sequence, double t);
 
 /// All files *.obj of a folder in the order of their names, `interval` [s] apart from time 0 on.
-/// Throws InputError naming the file: no file, more than `most`, triangles that differ from the
-/// first file's, or a file that read_mesh refuses.
-MeshSequence read_obj_sequence(const std::string& folder, double interval, long most = 1000);
+/// Vertices that no triangle uses are left out. Throws InputError naming the file: no file, more
+/// than `most`, triangles that differ from the first file's, or a file that read_mesh refuses; with
+/// Inside::winding only one that read_mesh_file refuses.
+MeshSequence read_obj_sequence(const std::string& folder, double interval, long most = 1000,
+                               Inside inside = Inside::normals);
 
 /// A frame's level set. A node has the displacement of the nearest surface point, so it is constant
 /// along N.
@@ -70,6 +80,11 @@ struct DeformingBody {
 /// allowed error, beyond (|phi| - band)/2, and the displacement is the reused point's. Throws what
 /// make_octree throws, and InputError for a sequence without frames, with times that do not rise or
 /// numbers of vertices that differ. The same bits for every team.
+///
+/// Inside::winding: the distance is to the triangles that have an inside and an outside, those that
+/// lie within the body left out; no node reuses anything. Outside it is the distance to the union;
+/// inside it may be too small near triangles that others cross, by their size at most. Throws
+/// InputError for a frame without a node inside.
 DeformingBody make_deforming_body(const MeshSequence& sequence, const OctreeSettings& settings,
                                   BetweenFrames between, const Team& team = {});
 

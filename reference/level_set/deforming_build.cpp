@@ -4,12 +4,15 @@
 #include <bit>
 #include <cstdint>
 #include <filesystem>
+#include <numeric>
+#include <optional>
 
 #include "reference/fast/shared_map.h"
 #include "reference/fast/loops.h"
 #include "reference/level_set/deforming.h"
 #include "reference/level_set/mesh_distance.h"
 #include "reference/level_set/octree_nodes.h"
+#include "reference/level_set/winding.h"
 #include "reference/mesh/mesh_file.h"
 
 namespace foldproof {
@@ -46,6 +49,42 @@ struct NodeValue {
 /// The fraction of a cell's allowed error beyond the band by which a kept value may be too large.
 constexpr double kept_share = 0.5;
 
+[[noreturn]] void reject_without_inside(std::size_t frame) {
+  throw InputError("mesh sequence: frame " + std::to_string(frame) +
+                   ": repair finds no inside: the winding number is below 1/2 at every node; close "
+                   "the mesh, or give finer cells");
+}
+
+/// A frame's triangles, for their winding number.
+struct WindingMesh {
+  MeshDistance mesh;
+  std::vector<Dipole> dipoles;
+
+  double at(const Vector3& p) const { return winding_number(mesh, dipoles, p, 2); }
+};
+
+WindingMesh winding_mesh(const MeshSequence& sequence, std::size_t frame) {
+  WindingMesh of{make_mesh_distance(sequence.positions[frame], sequence.triangles), {}};
+  of.dipoles = make_dipoles(of.mesh);
+  return of;
+}
+
+/// The triangles that have the inside behind them and not before them.
+std::vector<int> bounding_triangles(const WindingMesh& of, const Team& team) {
+  std::vector<char> bounds(of.mesh.triangles.size());
+  for_each_item(team, of.mesh.triangles, [&](const Triangle& t, std::size_t k) {
+    const Vector3 a = of.mesh.x.col(t[0]), b = of.mesh.x.col(t[1]) - a, c = of.mesh.x.col(t[2]) - a;
+    const Vector3 n = b.cross(c);
+    if (!(n.norm() > 0)) return;
+    const double before = of.at(a + (b + c) / 3 + 1e-6 * n / std::sqrt(n.norm()));
+    bounds[k] = before < 0.5 && before >= -0.5;
+  });
+  std::vector<int> kept;
+  for (std::size_t k = 0; k < bounds.size(); ++k)
+    if (bounds[k]) kept.push_back(int(k));
+  return kept;
+}
+
 /// The values at the nodes of a frame's octree, each computed once: every cell around a node
 /// requests it, and so do the displacements once the octree is complete.
 ///
@@ -55,9 +94,22 @@ constexpr double kept_share = 0.5;
 /// the surface was farther away than it has moved. Several threads may query at once.
 class NodeValues {
  public:
-  NodeValues(const MeshSequence& sequence, std::size_t frame, const OctreeSettings& settings)
-      : mesh_(make_mesh_distance(sequence.positions[frame], sequence.triangles)),
-        settings_(settings) {}
+  NodeValues(const MeshSequence& sequence, std::size_t frame, const OctreeSettings& settings,
+             const Team& team)
+      : settings_(settings) {
+    std::vector<Triangle> surface = sequence.triangles;
+    if (sequence.inside == Inside::winding) {
+      winding_ = winding_mesh(sequence, frame);
+      numbers_ = bounding_triangles(*winding_, team);
+      if (numbers_.empty()) reject_without_inside(frame);
+      surface.clear();
+      for (const int t : numbers_) surface.push_back(sequence.triangles[std::size_t(t)]);
+    } else {
+      numbers_.resize(surface.size());
+      std::iota(numbers_.begin(), numbers_.end(), 0);
+    }
+    mesh_ = make_mesh_distance(sequence.positions[frame], std::move(surface));
+  }
 
   /// displacement: the farthest that any vertex has moved since the frame before [m].
   void follow(const NodeValues& before, double displacement) {
@@ -86,13 +138,14 @@ class NodeValues {
 
   NodeValue value_at(const Vector3& p, const NearestFeature& nearest) {
     ++searches_;
-    const double phi = signed_distance(mesh_, nearest, p).phi;
-    return {phi, std::abs(phi), mesh_.tree.order[nearest.triangle],
+    double phi = signed_distance(mesh_, nearest, p).phi;
+    if (winding_) phi = std::copysign(phi, 0.5 - winding_->at(p));
+    return {phi, std::abs(phi), numbers_[mesh_.tree.order[nearest.triangle]],
             barycentric(mesh_.corners[nearest.triangle], nearest.point)};
   }
 
   NodeValue found(const Vector3& p, const Position& position) {
-    const NodeValue* old = before_ ? before_->find(position) : nullptr;
+    const NodeValue* old = before_ && !winding_ ? before_->find(position) : nullptr;
     if (old && old->least > displacement_) return kept_or_nearer(p, *old);
     return value_at(p, nearest_feature(mesh_, p, std::numeric_limits<double>::infinity()));
   }
@@ -111,6 +164,8 @@ class NodeValues {
 
   using Known = SharedMap<Position, NodeValue, Hash>;
   MeshDistance mesh_;
+  std::vector<int> numbers_;            // of the mesh's triangles in the sequence
+  std::optional<WindingMesh> winding_;  // of all triangles, where that decides
   const OctreeSettings& settings_;
   const Known* before_ = nullptr;
   double displacement_ = 0;  // m
@@ -147,6 +202,11 @@ DeformingFrame make_frame(const MeshSequence& sequence, std::size_t k, NodeValue
     frame.to_next = node_displacements(frame.field, values, sequence, k, k + 1, team);
   if (k > 0)
     frame.from_previous = node_displacements(frame.field, values, sequence, k - 1, k, team);
+  const auto has_inside = [](const auto& nodes) {
+    return std::ranges::any_of(nodes, [](double phi) { return phi < 0; });
+  };
+  if (sequence.inside == Inside::winding && std::ranges::none_of(frame.field.phi, has_inside))
+    reject_without_inside(k);
   frame.nodes = values.nodes();
   frame.searches = values.searches();
   return frame;
@@ -192,7 +252,8 @@ PerParticle3 positions_at(const MeshSequence& sequence, double t) {
   return (1 - part) * sequence.positions[k - 1] + part * sequence.positions[k];
 }
 
-MeshSequence read_obj_sequence(const std::string& folder, double interval, long most) {
+MeshSequence read_obj_sequence(const std::string& folder, double interval, long most,
+                               Inside inside) {
   std::vector<std::string> files;
   std::error_code error;
   for (const auto& entry : std::filesystem::directory_iterator(folder, error))
@@ -204,9 +265,10 @@ MeshSequence read_obj_sequence(const std::string& folder, double interval, long 
                      std::to_string(most) + " frames are read, for each is a level set");
   if (!(interval > 0)) throw InputError(folder + ": the time between two frames must be positive");
   std::sort(files.begin(), files.end());
-  MeshSequence sequence;
+  MeshSequence sequence{{}, {}, {}, inside};
   for (std::size_t k = 0; k < files.size(); ++k) {
-    TriangleMesh mesh = read_mesh(files[k]);
+    TriangleSoup mesh = without_unused_vertices(read_mesh_file(files[k]).soup);
+    if (inside == Inside::normals) make_triangle_mesh(mesh.rest, mesh.triangles, mesh.origin);
     if (k == 0) sequence.triangles = mesh.triangles;
     if (mesh.triangles != sequence.triangles)
       throw InputError(files[k] + ": its triangles are not those of " + files[0] +
@@ -223,7 +285,7 @@ DeformingBody make_deforming_body(const MeshSequence& sequence, const OctreeSett
   DeformingBody body{{}, between};
   std::unique_ptr<NodeValues> before;
   for (std::size_t k = 0; k < sequence.times.size(); ++k) {
-    auto values = std::make_unique<NodeValues>(sequence, k, settings);
+    auto values = std::make_unique<NodeValues>(sequence, k, settings, team);
     if (before)
       values->follow(*before,
                      largest_displacement(sequence.positions[k - 1], sequence.positions[k]));

@@ -30,7 +30,8 @@ std::string mesh_location(const MeshOrigin& origin) {
 
 std::string vertex_name(const MeshOrigin& origin, int v) {
   if (origin.vertex_lines.empty()) return "vertex " + std::to_string(v);
-  return "vertex " + std::to_string(v + 1) + " (line " + std::to_string(origin.vertex_lines[v]) +
+  const int number = origin.vertex_numbers.empty() ? v + 1 : origin.vertex_numbers[v];
+  return "vertex " + std::to_string(number) + " (line " + std::to_string(origin.vertex_lines[v]) +
          ")";
 }
 

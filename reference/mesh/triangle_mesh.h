@@ -41,6 +41,8 @@ struct MeshOrigin {
   std::string file;
   std::vector<int> vertex_lines;    // N, 1-based
   std::vector<int> triangle_lines;  // M, 1-based
+  // N, in the file, 1-based, if vertices were left out; empty: each its own
+  std::vector<int> vertex_numbers = {};
 };
 
 /// Finds edges and hinges of the triangles over the N rest positions (3 x N [m]).

@@ -13,4 +13,8 @@ struct TriangleSoup {
   MeshOrigin origin;
 };
 
+/// The soup without the vertices that no triangle uses. A body needs none of them; as cloth they
+/// would have no mass, and are refused.
+TriangleSoup without_unused_vertices(TriangleSoup soup);
+
 }  // namespace foldproof

@@ -2,11 +2,27 @@
 
 #include <cmath>
 
+#include "reference/bodies/thin_parts.h"
 #include "reference/scene/field_accuracy.h"
 
 namespace foldproof {
 
 namespace {
+
+struct LostParts {
+  double fraction = 0;  // of the surface
+  std::string text;
+};
+
+LostParts lost_parts(const GridRecipe& recipe, const Grid& grid) {
+  const TriangleSoup& soup = recipe.soup;
+  const bool is_repaired = recipe.repair == Repair::winding;
+  const auto found = find_thin_parts(
+      soup.rest, is_repaired ? outward_patches(soup).triangles : soup.triangles, grid);
+  if (!found) return {};
+  return {found->lost,
+          describe(*found, grid, bounds_of(soup.rest).sizes().maxCoeff(), recipe.repair)};
+}
 
 /// Makes one kind of field and puts it into the body.
 struct FieldMaker {
@@ -15,12 +31,17 @@ struct FieldMaker {
   double accuracy;  // m; 0: none
 
   void operator()(const GridRecipe& grid) const {
-    if (accuracy > 0) return put(with_accuracy(grid.soup.rest, grid.soup.triangles, grid));
-    put(GridSolid{level_sets.make_level_set(grid.soup, grid.method, grid.repair)});
+    Solid solid = accuracy > 0
+                      ? with_accuracy(grid.soup.rest, grid.soup.triangles, grid)
+                      : GridSolid{level_sets.make_level_set(grid.soup, grid.method, grid.repair)};
+    const LostParts lost = lost_parts(grid, *std::get<GridSolid>(solid).grid);
+    if (lost.fraction > 0.5) throw InputError("grid: the body is too thin for it: " + lost.text);
+    put(std::move(solid));
   }
   void operator()(const OctreeRecipe& octree) const {
     if (accuracy > 0) return put(with_accuracy(octree.x, octree.triangles, octree));
-    put(OctreeSolid{make_octree(level_sets, octree.x, octree.triangles, octree.settings)});
+    put(OctreeSolid{make_octree(level_sets, {octree.triangles, {0}, {octree.x}, octree.inside},
+                                octree.settings)});
   }
   void operator()(const ExactRecipe& exact) const {
     put(MeshSolid{
@@ -39,7 +60,7 @@ struct FieldMaker {
     const Bounds bounds = bounds_of(octree.x);
     const OctreeSettings settings =
         octree_about(bounds, bounds.sizes().maxCoeff() / cells, accuracy / 2);
-    return OctreeSolid{make_octree(level_sets, octree.x, octree.triangles, settings)};
+    return OctreeSolid{make_octree(level_sets, {octree.triangles, {0}, {octree.x}}, settings)};
   }
 
   template <class Recipe>
@@ -71,10 +92,17 @@ void make_field(const FieldRecipe& recipe, const LevelSetProvider& level_sets, B
   } catch (const InputError& error) {
     const std::string message = error.what();
     if (!message.starts_with("grid: ") && !message.starts_with("octree: ") &&
-        !message.starts_with("'cells' ") && !message.starts_with("an error of "))
+        !message.starts_with("mesh sequence: ") && !message.starts_with("'cells' ") &&
+        !message.starts_with("an error of "))
       throw;
     throw InputError(recipe.where + ": " + message);
   }
+}
+
+std::string lost_parts_report(const FieldRecipe& recipe, const Body& body) {
+  const auto* grid = std::get_if<GridRecipe>(&recipe.of);
+  return grid ? lost_parts(*grid, *std::get<GridSolid>(std::get<RigidObject>(body).solid).grid).text
+              : "";
 }
 
 std::string accuracy_report(const FieldRecipe& recipe, const Body& body) {

@@ -22,6 +22,7 @@ struct OctreeRecipe {
   PerParticle3 x;  // 3 x V, in the body's frame [m]
   std::vector<Triangle> triangles;
   OctreeSettings settings;
+  Inside inside = Inside::normals;
 };
 
 /// The exact distance to the triangles.
@@ -50,8 +51,12 @@ struct FieldRecipe {
 OctreeSettings octree_about(const Bounds& bounds, double cell, double tolerance);
 
 /// Gives the body the field that the recipe describes. Throws InputError with the recipe's place
-/// for a field that is too fine or an accuracy out of reach, and anything that the provider throws.
+/// for a field that is too fine or an accuracy out of reach, for a grid without an inside behind
+/// half of the surface, and anything that the provider throws.
 void make_field(const FieldRecipe& recipe, const LevelSetProvider& level_sets, Body& body);
+
+/// What a grid loses of the body (bodies/thin_parts.h), in words; "" for other fields.
+std::string lost_parts_report(const FieldRecipe& recipe, const Body& body);
 
 /// Cells, measured error and bytes of a field built for an accuracy; "" for others.
 std::string accuracy_report(const FieldRecipe& recipe, const Body& body);

@@ -374,6 +374,12 @@ void set_key(KeyTable& root, const std::string& assignment) {
   const auto written = table->entries.find(path.back());
   if (written != table->entries.end() && !is_override(written->second.where))
     table->replaced.insert(*written);
+  if (equals + 1 == assignment.size()) {
+    if (written == table->entries.end())
+      throw InputError("--set " + assignment + ": there is no key '" + path.back() + "' to unset");
+    table->entries.erase(written);
+    return;
+  }
   table->entries.insert_or_assign(
       path.back(), parsed_value(assignment.substr(equals + 1), "--set " + assignment));
 }

@@ -78,8 +78,8 @@ std::shared_ptr<KeyTable> parse_keys(const std::string& text, const std::string&
 bool is_override(const std::string& where);
 
 /// Overrides "a.b.c=value" (value as in TOML, or else a string; a number in the path picks an entry
-/// of a list, and a single entry needs none). Missing tables are created. Throws InputError for an
-/// override without '=' or a path through a value.
+/// of a list, and a single entry needs none). Missing tables are created. "a.b.c=" unsets the key.
+/// Throws InputError for an override without '=', a path through a value, or no key to unset.
 void set_key(KeyTable& root, const std::string& assignment);
 
 /// The whole file. Throws InputError if it cannot be read, is empty, or is longer than

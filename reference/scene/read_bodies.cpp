@@ -15,13 +15,18 @@ namespace foldproof {
 
 namespace {
 
-TriangleSoup read_soup(const KeyTable& keys, const CaseContext& context) {
+Repair read_repair(const KeyTable& keys) {
+  return choice<Repair>(keys, "repair", {{"refuse", Repair::refuse}, {"winding", Repair::winding}});
+}
+
+/// scale: set to the factor of 'fit'.
+TriangleSoup read_soup(const KeyTable& keys, const CaseContext& context, double& scale) {
   TriangleSoup soup;
   if (keys.has("shape") && keys.text("shape") != "statue")
     throw InputError(keys.where("shape") +
                      ": a body that deforms needs a mesh: shape = \"statue\", 'mesh' or 'frames'");
   if (keys.has("mesh")) {
-    soup = read_mesh_file(mesh_file(keys, context.folder, "object")).soup;
+    soup = without_unused_vertices(read_mesh_file(mesh_file(keys, context.folder, "object")).soup);
   } else {
     const int subdivisions = int(count_or(keys, "subdivisions", 4));
     reject_many_triangles(keys, "subdivisions", std::ldexp(20.0, 2 * subdivisions), context.limits);
@@ -29,7 +34,7 @@ TriangleSoup read_soup(const KeyTable& keys, const CaseContext& context) {
         keys.where("shape"), [&] { return make_statue(positive(keys, "height"), subdivisions); });
     soup = {std::move(statue.rest), std::move(statue.triangles), {}};
   }
-  scale_to_fit(keys, soup.rest);
+  scale = scale_to_fit(keys, soup.rest);
   return soup;
 }
 
@@ -57,16 +62,16 @@ double read_accuracy(const KeyTable& keys, bool is_stored, Repair repair) {
   return positive(keys, "accuracy");
 }
 
-/// The refusal of make_closed_mesh, with the name of the frame and a different remedy: no repair is
-/// offered here.
-void reject_open_frame(const MeshSequence& animation, size_t k, const std::string& where) {
+/// The refusal of make_closed_mesh, with the name of the frame and its own remedy.
+void reject_open_frame(const MeshSequence& animation, size_t k, const std::string& where,
+                       const std::string& remedy) {
   try {
     make_closed_mesh({animation.positions[k], animation.triangles, {}});
   } catch (const InputError& error) {
     const std::string message = error.what();
-    throw InputError(
-        where + ": frame " + std::to_string(k) + " (" + std::to_string(animation.times[k]) +
-        " s): " + message.substr(0, message.rfind(';')) + "; mend it, or give a smaller amplitude");
+    throw InputError(where + ": frame " + std::to_string(k) + " (" +
+                     std::to_string(animation.times[k]) +
+                     " s): " + message.substr(0, message.rfind(';')) + "; " + remedy);
   }
 }
 
@@ -85,19 +90,24 @@ std::shared_ptr<const FieldRecipe> recipe_of(const KeyTable& keys, Recipe of, do
   return std::make_shared<const FieldRecipe>(FieldRecipe{std::move(of), where, accuracy});
 }
 
-MeshSequence read_frames(const KeyTable& keys, const CaseContext& context) {
+MeshSequence read_frames(const KeyTable& keys, const CaseContext& context, Repair repair,
+                         double& scale) {
   const std::string where = keys.where("frames");
   const std::string folder = path_of(keys, "frames", context.folder);
   if (!is_override(where)) reject_links_outside(folder, context.folder, where);
   const double interval = positive_or(keys, "interval", 1.0 / 30);
   MeshSequence animation;
   try {
-    animation = read_obj_sequence(folder, interval, long(context.limits.frames));
+    animation = read_obj_sequence(folder, interval, long(context.limits.frames),
+                                  repair == Repair::winding ? Inside::winding : Inside::normals);
   } catch (const InputError& error) {
     throw InputError(where + ": " + error.what());
   }
-  const double scale = fit_factor(keys, animation.positions.front());
+  scale = fit_factor(keys, animation.positions.front());
   for (PerParticle3& x : animation.positions) x *= scale;
+  if (repair == Repair::winding)
+    animation.triangles =
+        outward_patches({animation.positions.front(), animation.triangles, {}}).triangles;
   return animation;
 }
 
@@ -129,13 +139,19 @@ void transform_positions(const Pose& place, PerParticle3& x) {
 }
 
 /// The body in its place, carried through its deformations.
-MeshSequence read_deformed(const KeyTable& keys, const Pose& place, const CaseContext& context) {
-  TriangleMesh mesh = make_closed_mesh(read_soup(keys, context));
+MeshSequence read_deformed(const KeyTable& keys, const Pose& place, const CaseContext& context,
+                           Repair repair, double& scale) {
+  TriangleSoup soup = read_soup(keys, context, scale);
+  TriangleMesh mesh = repair == Repair::winding
+                          ? TriangleMesh{soup.rest, outward_patches(soup).triangles, {}, {}}
+                          : make_closed_mesh(std::move(soup));
   transform_positions(place, mesh.rest);
   std::vector<BodyDeformation> parts;
   for (const auto& part : keys.tables("deform")) parts.push_back(read_deformation(*part));
-  return deformed_mesh(mesh, deformation_of(std::move(parts), bounds_of(mesh.rest)),
-                       read_times(keys, context));
+  MeshSequence sequence = deformed_mesh(
+      mesh, deformation_of(std::move(parts), bounds_of(mesh.rest)), read_times(keys, context));
+  if (repair == Repair::winding) sequence.inside = Inside::winding;
+  return sequence;
 }
 
 }  // namespace
@@ -144,33 +160,37 @@ bool is_deforming(const KeyTable& keys) { return keys.has("frames") || keys.has(
 
 BodyShape read_mesh_body(const KeyTable& keys, const CaseContext& context) {
   enum class Field { grid, octree, exact };
-  TriangleSoup soup = read_soup(keys, context);
+  double scale = 1;
+  TriangleSoup soup = read_soup(keys, context, scale);
   const auto field = choice<Field>(
       keys, "field", {{"grid", Field::grid}, {"octree", Field::octree}, {"exact", Field::exact}});
-  const auto repair =
-      choice<Repair>(keys, "repair", {{"refuse", Repair::refuse}, {"winding", Repair::winding}});
+  const Repair repair = read_repair(keys);
   const double accuracy = read_accuracy(keys, field != Field::exact, repair);
   // known to all kinds of field, so that one --set can switch between them
   const int cells = int(count_or(keys, "cells", 64));
   ObjectSurface surface{soup.rest, soup.triangles};
+  if (repair == Repair::refuse) make_closed_mesh(soup);  // to refuse a mesh that is not closed
   if (field == Field::grid) {
-    if (repair == Repair::refuse) make_closed_mesh(soup);  // to refuse a mesh that is not closed
     const GridMethod method{cells, 4, 3, MarchingOrder::second};
     return {GridSolid{}, std::move(surface),
-            recipe_of(keys, GridRecipe{std::move(soup), method, repair}, accuracy)};
+            recipe_of(keys, GridRecipe{std::move(soup), method, repair}, accuracy), scale};
   }
-  if (repair != Repair::refuse)
-    throw InputError(
-        keys.where("repair") +
-        ": 'repair' needs field = \"grid\": over holes the distance is marched from node to node");
-  const TriangleMesh mesh = make_closed_mesh(std::move(soup));
+  if (field == Field::exact && repair != Repair::refuse)
+    throw InputError(keys.where("repair") +
+                     ": 'repair' needs field = \"grid\" or \"octree\": the exact distance has no "
+                     "sign where triangles are missing or cross");
   if (field == Field::octree) {
     const OctreeSettings settings =
-        read_octree(keys, bounds_of(mesh.rest), read_cell(keys, mesh.rest));
-    return {OctreeSolid{}, std::move(surface),
-            recipe_of(keys, OctreeRecipe{mesh.rest, mesh.triangles, settings}, accuracy)};
+        read_octree(keys, bounds_of(soup.rest), read_cell(keys, soup.rest));
+    OctreeRecipe recipe{soup.rest, soup.triangles, settings};
+    if (repair == Repair::winding) {
+      recipe.triangles = outward_patches(soup).triangles;
+      recipe.inside = Inside::winding;
+    }
+    return {OctreeSolid{}, std::move(surface), recipe_of(keys, std::move(recipe), accuracy), scale};
   }
-  return {MeshSolid{}, std::move(surface), recipe_of(keys, ExactRecipe{mesh.rest, mesh.triangles})};
+  return {MeshSolid{}, std::move(surface), recipe_of(keys, ExactRecipe{soup.rest, soup.triangles}),
+          scale};
 }
 
 DeformingShape read_deforming_body(const KeyTable& keys, const Pose& place,
@@ -180,22 +200,28 @@ DeformingShape read_deforming_body(const KeyTable& keys, const Pose& place,
   const auto between = choice<BetweenFrames>(
       keys, "interpolation",
       {{"carried", BetweenFrames::carried}, {"blended", BetweenFrames::blended}});
+  const Repair repair = read_repair(keys);
   const bool is_read = keys.has("frames");
   if (is_read && keys.has("deform"))
     throw InputError(keys.where("deform") +
                      ": 'frames' are an animation; they do not go with [[object.deform]]");
-  auto animation = is_read ? read_frames(keys, context) : read_deformed(keys, place, context);
+  double scale = 1;
+  auto animation = is_read ? read_frames(keys, context, repair, scale)
+                           : read_deformed(keys, place, context, repair, scale);
   if (is_read)
     for (PerParticle3& x : animation.positions) transform_positions(place, x);
   Bounds bounds;
   for (size_t k = 0; k < animation.times.size(); ++k) {
-    reject_open_frame(animation, k, keys.where(is_read ? "frames" : "deform"));
+    if (repair == Repair::refuse)
+      reject_open_frame(animation, k, keys.where(is_read ? "frames" : "deform"),
+                        is_read ? "mend it, or set repair = \"winding\""
+                                : "give a smaller amplitude, or set repair = \"winding\"");
     bounds.extend(bounds_of(animation.positions[k]));
   }
   const OctreeSettings settings =
       read_octree(keys, bounds, read_cell(keys, animation.positions.front()));
   const auto shared = std::make_shared<const MeshSequence>(std::move(animation));
-  return {shared, recipe_of(keys, AnimationRecipe{shared, settings, between})};
+  return {shared, recipe_of(keys, AnimationRecipe{shared, settings, between}), scale};
 }
 
 }  // namespace foldproof

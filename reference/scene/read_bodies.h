@@ -26,6 +26,7 @@ struct BodyShape {
   Solid solid;  // lacks its field if there is a recipe for it
   ObjectSurface surface;
   std::shared_ptr<const FieldRecipe> field = {};
+  double scale = 1;  // by 'fit'
 };
 
 /// True if the body deforms: `frames` or [[object.deform]].
@@ -39,6 +40,7 @@ BodyShape read_mesh_body(const KeyTable& keys, const CaseContext& context);
 struct DeformingShape {
   std::shared_ptr<const MeshSequence> animation;
   std::shared_ptr<const FieldRecipe> field;
+  double scale = 1;  // by 'fit'
 };
 
 /// `frames` or [[object.deform]] of a body of triangles, in its place before it deforms. Throws

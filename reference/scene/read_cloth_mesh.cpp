@@ -151,9 +151,8 @@ PlacedMesh read_or_make(const KeyTable& cloth, const std::string& folder,
   return {with_error_location(cloth.where("shape"), [&] { return make_shape(cloth, limits); }), {}};
 }
 
-/// Scales, rotates and translates the positions, in this order.
+/// Rotates and translates the positions, in this order.
 void place(const KeyTable& keys, PerParticle3& x) {
-  scale_to_fit(keys, x);
   if (keys.has("turn")) {
     const PerParticle3 rotated = read_turn(keys).toRotationMatrix() * x;
     x = rotated;
@@ -221,7 +220,11 @@ double fit_factor(const KeyTable& keys, const PerParticle3& x) {
   return wanted / size;
 }
 
-void scale_to_fit(const KeyTable& keys, PerParticle3& x) { x *= fit_factor(keys, x); }
+double scale_to_fit(const KeyTable& keys, PerParticle3& x) {
+  const double factor = fit_factor(keys, x);
+  x *= factor;
+  return factor;
+}
 
 PlacedMesh read_cloth_mesh(const KeyTable& cloth, const std::string& folder,
                            const SceneLimits& limits) {
@@ -239,6 +242,7 @@ PlacedMesh read_cloth_mesh(const KeyTable& cloth, const std::string& folder,
     });
     if (!pleats->flag_or("start_flat", true)) result.start = result.mesh.rest;
   }
+  result.scale = scale_to_fit(cloth, result.start);
   place(cloth, result.start);
   if (!pleats) result.mesh.rest = result.start;
   if (const auto copies = cloth.table("copies"))

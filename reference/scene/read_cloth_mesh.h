@@ -14,6 +14,7 @@ struct PlacedMesh {
   TriangleMesh mesh;              // with the rest shape
   PerParticle3 start;             // 3 x N [m]
   std::vector<int> copy_of = {};  // as Scene::copy_of
+  double scale = 1;               // by 'fit'
 };
 
 /// Reads the keys of [cloth] for shape and place. folder: base of relative paths in the case.
@@ -27,6 +28,7 @@ std::string mesh_file(const KeyTable& keys, const std::string& folder, const std
 double fit_factor(const KeyTable& keys, const PerParticle3& x);
 
 /// Scales the positions x (3 x N [m]) so that their largest extent is 'fit', if that is given.
-void scale_to_fit(const KeyTable& keys, PerParticle3& x);
+/// Returns the factor.
+double scale_to_fit(const KeyTable& keys, PerParticle3& x);
 
 }  // namespace foldproof

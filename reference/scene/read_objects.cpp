@@ -73,6 +73,7 @@ void read_rigid(const KeyTable& keys, const Pose& place, const CaseContext& cont
   for (Eigen::Index i = 0; i < part.vertices.cols(); ++i)
     part.vertices.col(i) = to_world(place, shape.surface.vertices.col(i));
   part.triangles = std::move(shape.surface.triangles);
+  part.scale = shape.scale;
   part.object.body = RigidObject{std::move(shape.solid), place, read_rigid_motion(keys)};
   part.field = std::move(shape.field);
 }
@@ -83,6 +84,7 @@ void read_deforming(const KeyTable& keys, const Pose& place, const CaseContext& 
   part.vertices = shape.animation->positions.front();
   part.triangles = shape.animation->triangles;
   part.animation = std::move(shape.animation);
+  part.scale = shape.scale;
   part.object.body = DeformingObject{};
   part.field = std::move(shape.field);
 }

@@ -1,7 +1,9 @@
 #include "reference/scene/read_self_collision.h"
 
 #include <cstdio>
+#include <limits>
 
+#include "reference/filters/cloth_pairs.h"
 #include "reference/mesh/self_intersection.h"
 #include "reference/scene/key_values.h"
 
@@ -24,6 +26,24 @@ SelfCollisionSettings read_self_collision(const KeyTable& keys, const TriangleMe
     throw InputError(keys.where("thickness") + message);
   }
   return settings;
+}
+
+void reject_touching_start(const KeyTable& keys, Scene& scene) {
+  const PerParticle3 x = start_state(scene).x;
+  const double least = 8 * std::numeric_limits<double>::epsilon() * x.cwiseAbs().maxCoeff();
+  const std::vector<FeaturePair> touching = touching_pairs(make_cloth_tree(scene.mesh), x, least);
+  if (touching.empty()) return;
+  const auto [a, b, c, d] = touching.front().particles;
+  char message[400];
+  std::snprintf(message, sizeof message,
+                ": layers of the cloth touch at the start, %zu pairs of features, the first at "
+                "particles %d, %d, %d and %d: nearer than %.2g m, a few roundings of their places, "
+                "nothing tells which lies on which side; start them farther apart, best by the "
+                "thickness, or sew them by 'seams'",
+                touching.size(), a, b, c, d, least);
+  const size_t crossing = self_intersections(x, scene.mesh.triangles).size();
+  if (crossing == 0) throw InputError(keys.where() + message);
+  if (touching.size() > crossing) scene.warnings.push_back(keys.where() + message);
 }
 
 void reject_tangled_start(const KeyTable& keys, const Scene& scene) {

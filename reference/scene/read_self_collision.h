@@ -12,6 +12,10 @@ namespace foldproof {
 /// least height of a triangle or more: neighbours would repel each other at rest.
 SelfCollisionSettings read_self_collision(const KeyTable& keys, const TriangleMesh& mesh);
 
+/// Throws InputError for a start at which layers are nearer than a few roundings of their places,
+/// so that no motion is safe. If some cross exactly, which is reported, it is a warning at most.
+void reject_touching_start(const KeyTable& keys, Scene& scene);
+
 /// With untangle = false, throws InputError naming the first triangles of a start that
 /// crosses itself.
 void reject_tangled_start(const KeyTable& keys, const Scene& scene);

@@ -31,6 +31,7 @@ struct SceneObject {
   PerParticle3 vertices;  // 3 x V, before its motion, or in its first frame if it deforms [m]
   std::vector<Triangle> triangles;                // outward
   std::shared_ptr<const MeshSequence> animation;  // if the body deforms
+  double scale = 1;                               // of its mesh, by 'fit'
 };
 
 /// The surface's vertices at time t [s], 3 x V [m].
@@ -65,6 +66,7 @@ struct Scene {
   std::optional<BendingMaterial> bending;
   std::vector<double> rest_angles;  // one per hinge [rad], if there is bending
   std::vector<PrescribedParticle> prescribed;
+  std::vector<std::string> notes;     // of how input is taken; a sentence each
   std::vector<std::string> warnings;  // input that is allowed, but seldom meant; a sentence each
   std::vector<SceneObject> objects;
   CollisionSettings collision;

@@ -32,6 +32,7 @@ void print(const std::string& file, const MeshInspection& found) {
   else
     fmt::print("no solid: {}\n", found.rejection);
   if (!found.repair_failure.empty()) fmt::print("no repair: {}\n", found.repair_failure);
+  if (!found.thin_parts.empty()) fmt::print("too thin for the grid: {}\n", found.thin_parts);
   if (found.nodes > 0)
     fmt::print(
         "second opinion: at {} of {} nodes rays contradict the {} about inside and outside; at {} "
@@ -51,6 +52,7 @@ nlohmann::json to_json(const std::string& file, const MeshInspection& found) {
           {"pieces", found.pieces},
           {"volume", found.volume},
           {"no_repair", found.repair_failure},
+          {"thin_parts", found.thin_parts},
           {"nodes", found.nodes},
           {"against_sign", found.against_sign},
           {"among_rays", found.among_rays}};
@@ -61,7 +63,8 @@ int inspect(const InspectOptions& options) {
   TriangleSoup soup = read_mesh_file(options.file).soup;
   if (options.seams > 0) soup = close_seams(std::move(soup), options.seams);
   if (options.as_cloth) return inspect_cloth(options, std::move(soup));
-  const MeshInspection found = inspect_mesh(soup, options.cells);
+  const MeshInspection found =
+      inspect_mesh(without_unused_vertices(std::move(soup)), options.cells);
   if (options.json)
     fmt::print("{}\n", json_text(to_json(options.file, found)));
   else

@@ -143,6 +143,7 @@ BuiltCase built_case(Case input_case, const LevelSetProvider& level_sets) {
 }
 
 void log_warnings(const Scene& scene) {
+  for (const std::string& note : scene.notes) log_line(note);
   for (const std::string& warning : scene.warnings) log_line("warning: " + warning);
 }
 

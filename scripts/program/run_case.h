@@ -36,7 +36,7 @@ struct BuiltCase {
 /// level_sets: who makes those of its bodies.
 BuiltCase built_case(Case input_case, const LevelSetProvider& level_sets);
 
-/// A line on standard error for each warning of the scene.
+/// A line on standard error for each note and warning of the scene.
 void log_warnings(const Scene& scene);
 
 /// Simulates the case and writes <folder>/<name>.h5 and .xdmf.

@@ -149,10 +149,15 @@ int simulate_case(const Options& options) {
   log_line(fmt::format("{}: {}", scene.name, sizes_in_words(scene)));
   log_line(
       fmt::format("{}: {}", scene.name, fmt::join(describe_parts(scene, of.built.system), "; ")));
-  for (std::size_t k = 0; k < scene.objects.size(); ++k)
-    if (const auto& field = scene.objects[k].field)
-      if (const std::string text = accuracy_report(*field, of.built.objects[k].body); !text.empty())
-        log_line(fmt::format("object '{}': {}", scene.objects[k].object.name, text));
+  for (std::size_t k = 0; k < scene.objects.size(); ++k) {
+    if (!scene.objects[k].field) continue;
+    const FieldRecipe& field = *scene.objects[k].field;
+    const std::string& name = scene.objects[k].object.name;
+    if (const auto text = accuracy_report(field, of.built.objects[k].body); !text.empty())
+      log_line(fmt::format("object '{}': {}", name, text));
+    if (const auto text = lost_parts_report(field, of.built.objects[k].body); !text.empty())
+      log_line(fmt::format("warning: object '{}': {}", name, text));
+  }
   try {
     const CaseRun run = run_of(of, options);
     const int code = report(run, options);

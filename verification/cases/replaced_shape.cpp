@@ -32,7 +32,9 @@ void look_at(const KeyTable& keys, const std::filesystem::path& folder, Replaced
     const auto found = keys.replaced.find(key);
     if (found == keys.replaced.end()) continue;
     const auto* written = std::get_if<std::string>(&found->second.data);
-    const std::string used = keys.text(key);
+    std::string used;  // under another key, if this one was unset
+    for (const char* now : {"mesh", "shape", "frames", key})
+      if (keys.is_text(now)) used = keys.text(now);
     const bool is_file = std::string(key) != "shape";
     if (!written || (is_file ? is_one_file(folder, *written, used) : *written == used)) continue;
     all.add(*written, used);

@@ -41,7 +41,8 @@ void add_tier(CLI::App* command, Options& options) {
 void add_overrides(CLI::App* command, Options& options) {
   command
       ->add_option("--set", options.overrides,
-                   "Override a key of the case file, such as time.end=2; may be given again")
+                   "Override a key of the case file, such as time.end=2, or unset it, such as "
+                   "object.fit=; may be given again")
       ->type_name("TABLE.KEY=VALUE")
       ->check(some_text("table.key=value"))
       ->allow_extra_args(false);

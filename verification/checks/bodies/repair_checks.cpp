@@ -4,7 +4,7 @@
 #include "reference/bodies/mesh_inspection.h"
 #include "reference/bodies/ray_parity.h"
 #include "reference/bodies/repair.h"
-#include "reference/bodies/winding.h"
+#include "reference/level_set/winding.h"
 #include "reference/level_set/mesh_grid.h"
 #include "reference/mesh/shapes.h"
 #include "verification/specimens/check.h"

@@ -243,7 +243,7 @@ std::vector<RejectedCase> rejections(const ScratchFolder& folder) {
   const std::string frames = "[[object]]\nframes = \"" + written_frames(folder) + "\"\n";
   return {{body("field = \"octre\""), {"unknown field 'octre'", "octree", "exact"}},
           {body("field = \"octree\"\ntolerance = 0"), {"'tolerance' must be > 0"}},
-          {body("field = \"octree\"\nrepair = \"winding\""), {"'repair' needs field = \"grid\""}},
+          {body("field = \"exact\"\nrepair = \"winding\""), {"'repair' needs field = \"grid\""}},
           {body("tolerance = 1e-3"), {"unknown key 'tolerance'"}},
           {sphere + twist, {"needs a mesh", "statue"}},
           {body("interval = 0.2\nvelocity = [0, 0, 1]\n" + twist), {"unknown key 'velocity'"}},

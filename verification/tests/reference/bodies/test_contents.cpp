@@ -27,6 +27,8 @@ TEST_CASE("content keys are FNV-1a of the bytes, with the published values") {
   const PerParticle3 x = PerParticle3::Zero(3, 4);
   CHECK(input_key(MeshSequence{{}, {}, {x}}, coarse) !=
         input_key(MeshSequence{{}, {}, {x.leftCols(1), x.leftCols(3)}}, coarse));
+  CHECK(input_key(MeshSequence{{}, {}, {x}}, coarse) !=
+        input_key(MeshSequence{{}, {}, {x}, Inside::winding}, coarse));
 }
 
 TEST_CASE("a branch that is nobody's child is refused, though the numbers add up") {

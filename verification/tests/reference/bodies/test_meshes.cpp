@@ -74,6 +74,53 @@ TEST_CASE("a piece turned inward within a cavity has nothing around it to be hol
                     Contains("triangle 160: "));
 }
 
+TEST_CASE("pieces inside out are turned for a repair, each with those that it encloses") {
+  const auto check = [](const std::vector<Ball>& given, const std::vector<bool>& turned) {
+    std::vector<Ball> right = given;
+    for (size_t k = 0; k < given.size(); ++k) right[k].turned = turned[k];
+    CHECK(outward_patches(soup_of(given)).triangles == soup_of(right).triangles);
+  };
+  const auto ball = [](double radius, bool turned, const Vector3& centre = here) {
+    return Ball{radius, centre, turned};
+  };
+  check({ball(1, true)}, {false});
+  check({ball(1, false, there), ball(2, true), ball(1, true, there / 2)}, {false, false, false});
+  check({ball(2, true), ball(3, false)}, {true, false});  // a cavity stays one
+  check({ball(2, false), ball(3, true)}, {true, false});  // all inside out
+  check({ball(2, true), ball(3, true)}, {false, false});
+  check({ball(3, false), ball(2, true), ball(1, true)}, {false, true, false});
+  check({ball(1, true), ball(2, false), ball(3, true)}, {false, true, false});
+  check({ball(1, false), ball(1, true, here + Vector3(1.7, 0, 0))}, {false, false});  // overlap
+
+  TriangleSoup open = soup_of({ball(1, true)}), right = soup_of({ball(1, false)}), apart = open;
+  for (TriangleSoup* bowl : {&open, &right})
+    std::erase_if(bowl->triangles, [&](const Triangle& t) { return bowl->rest(2, t[0]) > 2.3; });
+  CHECK(open.triangles.size() < 50);
+  CHECK(outward_patches(open).triangles == right.triangles);
+  // triangles without a common vertex or place
+  apart.rest.resize(3, 240);
+  for (int t = 0; t < 80; ++t) {
+    const Triangle corners = apart.triangles[size_t(t)];
+    for (int k = 0; k < 3; ++k)
+      apart.rest.col(3 * t + k) = 1.001 * soup_of({ball(1, true)}).rest.col(corners[size_t(k)]) -
+                                  0.001 * here - 0.002 * (k - 1) * Vector3(0.3, 0.1, 0.2);
+    apart.triangles[size_t(t)] = {3 * t, 3 * t + 1, 3 * t + 2};
+  }
+  for (const Triangle& t : outward_patches(apart).triangles) CHECK(t[1] == t[0] + 2);
+}
+
+TEST_CASE("doubled vertices of a seam join the triangles of a piece") {
+  TriangleSoup soup = soup_of({{1, here, false}}), seam = soup;
+  seam.rest.conservativeResize(3, 84);
+  seam.rest.rightCols(42) = soup.rest;
+  for (size_t t = 0; t < 80; t += 2)
+    for (int& v : seam.triangles[t]) v += 42;
+  const std::vector<Triangle> right = seam.triangles;
+  for (const size_t t : {3, 8, 9, 40}) std::swap(seam.triangles[t][1], seam.triangles[t][2]);
+  CHECK(orient_triangles(seam) == right);
+  CHECK(oriented_patches(seam).patches.size() == 1);
+}
+
 TEST_CASE("bodies bend along an arc, twist with the height and breathe at mid-height, in turn") {
   const Bounds box(Vector3(-0.7, 0.4, -1.1), Vector3(0.9, 2.9, 0.5));
   const auto deformed = [&](std::vector<BodyDeformation> parts, const Vector3& X, double t) {

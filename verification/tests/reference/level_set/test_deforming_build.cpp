@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "reference/level_set/deforming.h"
+#include "reference/mesh/shapes.h"
 
 using namespace foldproof;
 using Catch::Contains;
@@ -46,4 +47,42 @@ TEST_CASE("a mesh sequence has frames of equally many vertices at times that ris
   refused({0.3, 0.5, NAN}, 4, "frame 2: the times must rise");
   refused({0.3, 0.5, 1.1}, 3, "frame 2: it must have as many vertices as the first");
   refused({0.3, 0.5, 1.1}, 5, "frame 2: it must have as many vertices as the first");
+}
+
+TEST_CASE("frames that intersect themselves are the union, by their winding number") {
+  const TriangleMesh ball = make_icosphere(0.15, 3);
+  const auto frame = [&](double apart) {
+    PerParticle3 x(3, 2 * ball.particles());
+    x << ball.rest.colwise() + Vector3(0.5 - apart / 2, 0.5, 0.5),
+        ball.rest.colwise() + Vector3(0.5 + apart / 2, 0.5, 0.5);
+    return x;
+  };
+  MeshSequence balls{ball.triangles, {0, 0.5}, {frame(0.15), frame(0.4)}, Inside::winding};
+  for (const Triangle& t : ball.triangles)
+    balls.triangles.push_back(
+        {t[0] + ball.particles(), t[1] + ball.particles(), t[2] + ball.particles()});
+  OctreeSettings fine = sampling;
+  fine.depth = 5;
+  const DeformingBody body = make_deforming_body(balls, fine, BetweenFrames::carried);
+  for (const int k : {0, 1}) {
+    const double apart = k == 0 ? 0.15 : 0.4;
+    int within = 0;
+    for (int i = 0; i < 1000; ++i) {
+      const Vector3 p(0.15 + 0.07 * (i % 10), 0.2 + 0.06 * (i / 10 % 10), 0.21 + 0.06 * (i / 100));
+      const auto from = [&](double side) {
+        return (p - Vector3(0.5 + side * apart / 2, 0.5, 0.5)).norm() - 0.15;
+      };
+      const double phi = deforming_at(body, p, 0.5 * k).phi, truth = std::min(from(1), from(-1));
+      if (truth > 0) CHECK(std::abs(phi - truth) < 0.02);
+      // inside both, no surface is nearer than the circle in which the balls meet
+      if (truth < -0.02) CHECK(phi < (std::max(from(1), from(-1)) < 0 ? -0.03 : -0.005));
+      within += truth < -0.02;
+    }
+    CHECK(within > 20);
+  }
+  balls.triangles = four_faces;
+  balls.positions = {irregular(), irregular()};
+  for (Triangle& t : balls.triangles) std::swap(t[0], t[1]);
+  CHECK_THROWS_WITH(make_deforming_body(balls, fine, BetweenFrames::carried),
+                    Contains("frame 0: repair finds no inside"));
 }

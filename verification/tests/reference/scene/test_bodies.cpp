@@ -104,3 +104,65 @@ TEST_CASE("a wrong interval of frames is refused with one place", "[scene]") {
   const Bodies bodies;
   CHECK(bodies.refusal(frames + "interval = 0\n") == "8: 'interval' must be > 0");
 }
+
+TEST_CASE("a body's vertices that no triangle uses are ignored, as are those of frames",
+          "[scene]") {
+  const Bodies bodies;
+  bodies.folder.write("spare.obj",
+                      "v 9 9 9\nv nan 0 0\nv 0 1 5\nv 1 1 5\nv 0 1 5.5\nv 0.25 3 5\n"
+                      "f 3 4 5\nf 3 6 4\nf 4 6 5\nf 5 6 3\nv inf 0 0\n");
+  const SceneObject part = bodies.object("mesh = \"spare.obj\"\n"), without = bodies.object(body);
+  CHECK(part.vertices == without.vertices);
+  CHECK(part.triangles == without.triangles);
+  bodies.folder.write("open.obj",
+                      "v 9 9 9\nv 0 1 5\nv 1 1 5\nv 0 1 5.5\nv 0.25 3 5\n"
+                      "f 2 3 4\nf 2 5 3\nf 3 5 4\n");
+  CHECK_THAT(
+      bodies.refusal("mesh = \"open.obj\"\n"),
+      Contains("open.obj:6: a hole: the edge between vertex 2 (line 2) and vertex 4 (line 4)"));
+  for (const char* k : {"0", "1"})
+    bodies.folder.write("frames/" + std::string(k) + ".obj",
+                        "v 0 0 5\nv 1 0 5\nv 0 1 5\nv 0 0 7\nv nan 0 0\n" + faces);
+  CHECK(bodies.object(frames).vertices.cols() == 4);
+}
+
+TEST_CASE("frames that are no solids are refused by name, or repaired", "[scene]") {
+  const Bodies bodies;
+  const std::string open = faces.substr(0, faces.size() - 8), apex = "v 0 0 5\nv 1 0 5\nv 0 1 5\n";
+  bodies.folder.write("frames/0.obj", apex + "v 0 0 7\n" + open);
+  bodies.folder.write("frames/1.obj", apex + "v 0 0 9\n" + open);
+  CHECK_THAT(bodies.refusal(frames), StartsWith("7: frame 0 (0.000000 s): ") &&
+                                         Contains("a hole") &&
+                                         Contains("; mend it, or set repair = \"winding\""));
+  const auto animation = recipe<AnimationRecipe>(bodies.object(frames + "repair = \"winding\"\n"));
+  CHECK(animation.animation->inside == Inside::winding);
+  CHECK(animation.animation->triangles.size() == 3);
+  const auto octree =
+      recipe<OctreeRecipe>(bodies.object(body + "field = \"octree\"\nrepair = \"winding\"\n"));
+  CHECK(octree.inside == Inside::winding);
+}
+
+TEST_CASE("how 'fit' scales is noted, and warned of where meshes of --set come apart", "[scene]") {
+  const Bodies bodies;
+  const auto scene = [&](const std::string& cloth_keys, const std::string& object_keys,
+                         const std::vector<std::string>& overrides) {
+    return read_scene_text("[cloth]\ndensity = 0.2\nmesh = \"body.obj\"\n" + cloth_keys +
+                               "[[object]]\n" + body + object_keys + "[time]\nend = 0.7\n",
+                           bodies.folder.file("some.toml"), overrides);
+  };
+  const std::string typed = "object.mesh=" + bodies.folder.file("body.obj");
+  const Scene shrunk = scene("", "name = \"doll\"\nfit = 0.5\n", {typed});
+  REQUIRE(shrunk.notes.size() == 1);
+  CHECK(shrunk.notes[0] == "object 'doll': fit = 0.5 m scales the mesh by 0.25");
+  REQUIRE(shrunk.warnings.size() == 1);
+  CHECK_THAT(shrunk.warnings[0], Contains("some.toml:7: 'fit' scales the mesh of object 'doll' by "
+                                          "0.25, that of the cloth by 1; --set object.fit="));
+  CHECK(scene("fit = 0.5\n", "", {typed}).warnings.size() == 1);
+  CHECK(scene("fit = 0.5\n", "fit = 0.5\n", {typed}).warnings.empty());
+  CHECK(scene("", "fit = 0.5\n", {}).warnings.empty());  // as the case has it
+  CHECK(scene("", "", {typed, "object.fit=0.5"}).warnings.empty());
+  const Scene unset = scene("", "fit = 0.5\n", {typed, "object.fit="});
+  CHECK(unset.warnings.empty());
+  CHECK(unset.notes.empty());
+  CHECK(unset.objects[0].vertices.row(1).maxCoeff() == 3);
+}

@@ -143,3 +143,13 @@ TEST_CASE("each letter outside ASCII stands in texts, and 127 is inside", "[scen
   CHECK_THROWS_WITH(parse_keys("\xC3\x80", "some.toml"), "some.toml:1" + outside);
   CHECK(parse_keys("\xEF\xBB\xBF'a' = '\xC3\x80'", "some.toml")->text("a") == "\xC3\x80");
 }
+
+TEST_CASE("an override without a value unsets a key, which must be there", "[scene]") {
+  const auto root = with("cloth.width=");
+  CHECK(!root->table("cloth")->has("width"));
+  CHECK(root->table("cloth")->replaced.contains("width"));
+  CHECK(with("hold.0.top=")->tables("hold")[0]->entries.empty());
+  CHECK(!with("only=")->has("only"));
+  CHECK(with("title=''")->text("title").empty());
+  check_refused(with, {{"cloth.widht=", "--set cloth.widht=: there is no key 'widht' to unset"}});
+}

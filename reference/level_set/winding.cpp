@@ -1,4 +1,4 @@
-#include "reference/bodies/winding.h"
+#include "reference/level_set/winding.h"
 
 #include <algorithm>
 #include <cmath>
