@@ -3,14 +3,13 @@
 #include <atomic>
 #include <bit>
 #include <cstdint>
-#include <filesystem>
 
 #include "reference/fast/shared_map.h"
 #include "reference/fast/loops.h"
 #include "reference/level_set/deforming.h"
 #include "reference/level_set/mesh_distance.h"
 #include "reference/level_set/octree_nodes.h"
-#include "reference/mesh/obj.h"
+#include "reference/mesh/mesh_frames.h"
 
 namespace foldproof {
 
@@ -192,27 +191,34 @@ PerParticle3 positions_at(const MeshSequence& sequence, double t) {
   return (1 - part) * sequence.positions[k - 1] + part * sequence.positions[k];
 }
 
-MeshSequence read_obj_sequence(const std::string& folder, double interval, long most) {
-  std::vector<std::string> files;
-  std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, error))
-    if (entry.path().extension() == ".obj") files.push_back(entry.path().string());
-  if (files.empty())
-    throw InputError(folder + ": no folder with *.obj files; a mesh sequence is one file a frame");
-  if (long(files.size()) > most)
-    throw InputError(folder + ": " + std::to_string(files.size()) + " *.obj files; at most " +
-                     std::to_string(most) + " frames are read, for each is a level set");
-  if (!(interval > 0)) throw InputError(folder + ": the time between two frames must be positive");
-  std::sort(files.begin(), files.end());
+MeshSequence read_mesh_sequence(const SequenceSource& source) {
+  if (!(source.interval >= 0))
+    throw InputError(source.path + ": the time between two frames must be positive");
+  std::vector<MeshFrame> frames =
+      read_mesh_frames({.path = source.path,
+                        .remedy = "frames that are an interval apart need even numbers",
+                        .most = std::size_t(source.most)});
+  const Eigen::Index vertices = frames.front().x.cols();
   MeshSequence sequence;
-  for (std::size_t k = 0; k < files.size(); ++k) {
-    TriangleMesh mesh = read_obj(files[k]);
-    if (k == 0) sequence.triangles = mesh.triangles;
-    if (mesh.triangles != sequence.triangles)
-      throw InputError(files[k] + ": its triangles are not those of " + files[0] +
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    MeshFrame& frame = frames[k];
+    if (!frame.triangles.empty() && !source.triangles.empty())
+      throw InputError(frame.file +
+                       ": has triangles of its own; give 'mesh' or 'frames', and not both");
+    if (frame.triangles.empty()) frame.triangles = source.triangles;
+    if (k == 0) sequence.triangles = frame.triangles;
+    if (frame.triangles.empty())
+      throw InputError(frame.file + ": has no triangles; name a file that has them by 'mesh'");
+    if (frame.triangles != sequence.triangles || frame.x.cols() != vertices)
+      throw InputError(frame.file + ": its triangles are not those of " + frames[0].file +
                        "; all frames must share them");
-    sequence.times.push_back(double(k) * interval);
-    sequence.positions.push_back(std::move(mesh.rest));
+    for (const Triangle& t : frame.triangles)
+      if (*std::ranges::max_element(t) >= vertices)
+        throw InputError(frame.file + ": has fewer vertices than the triangles of 'mesh'");
+    const double interval = source.interval > 0 ? source.interval : 1.0 / 30;
+    const double counted = (frame.number - frames[0].number) * interval;
+    sequence.times.push_back(frame.time && source.interval == 0 ? *frame.time : counted);
+    sequence.positions.push_back(std::move(frame.x));
   }
   return sequence;
 }

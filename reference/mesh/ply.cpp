@@ -314,23 +314,36 @@ void read_element_data(Reader& reader, const Element& element, TriangleSoup& sou
   }
 }
 
-}  // namespace
-
-PlyMesh read_ply_text(std::string_view text, const std::string& file) {
-  Reader reader{text, file};
+PlyMesh mesh_of(Reader& reader) {
   const Header header = read_header(reader);
   reader.form = header.form;
   PlyMesh mesh;
   mesh.time = header.time;
-  mesh.soup.origin.file = file;
+  mesh.soup.origin.file = reader.file;
   mesh.soup.rest.resize(3, 0);
   for (const Element& element : header.elements) read_element_data(reader, element, mesh.soup);
+  return mesh;
+}
+
+}  // namespace
+
+PlyMesh read_ply_text(std::string_view text, const std::string& file) {
+  Reader reader{text, file};
+  PlyMesh mesh = mesh_of(reader);
   if (mesh.soup.triangles.empty()) reject(reader, "the file has no face; give a mesh of triangles");
   return mesh;
 }
 
 PlyMesh read_ply(const std::string& path) {
   return read_ply_text(read_text_file(path, ply_limits), path);
+}
+
+PlyMesh read_ply_or_points(const std::string& path) {
+  const std::string text = read_text_file(path, ply_limits);
+  Reader reader{text, path};
+  PlyMesh mesh = mesh_of(reader);
+  if (mesh.soup.rest.cols() == 0) reject(reader, "the file has no vertex; give a mesh or points");
+  return mesh;
 }
 
 }  // namespace foldproof

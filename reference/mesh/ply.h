@@ -24,6 +24,9 @@ struct PlyMesh {
 /// million triangles, or 64 elements and properties.
 PlyMesh read_ply(const std::string& path);
 
+/// The same of a file that may also hold vertices without a face: points.
+PlyMesh read_ply_or_points(const std::string& path);
+
 /// The same for a file's bytes; `file` names it in messages.
 PlyMesh read_ply_text(std::string_view text, const std::string& file);
 
