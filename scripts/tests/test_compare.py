@@ -49,6 +49,35 @@ class Compare(ProgramCase):
         self.assertIn("knows its times",
                       self.assert_rejected("compare", self.run_file, self.run_file, "--rate", "5"))
 
+    def test_arrays_of_any_kind_are_read_and_damaged_archives_are_refused(self) -> None:
+        with h5py.File(self.run_file) as file:
+            arrays = {"vertices": file["frames/positions"][:], "faces": file["mesh/triangles"][:],
+                      "times": self.times}
+        for how, save in (("any", np.savez), ("packed", np.savez_compressed)):
+            others = {"vertices": np.asfortranarray(arrays["vertices"]),
+                      "faces": arrays["faces"].astype(">u8")}
+            save(self.path / f"{how}.npz", **(arrays | others))
+            told = self.compare(str(self.path / f"{how}.npz"))
+            self.assertEqual(max(frame["largest"] for frame in told["frames"]), 0)
+        whole = (self.path / "any.npz").read_bytes()
+        hurt = bytearray(whole)
+        hurt[whole.index(b"NUMPY") + 200] ^= 1  # of the vertices
+        (self.path / "hurt.npz").write_bytes(hurt)
+        (self.path / "cut.npz").write_bytes(whole[:-30])
+        for name, change in (("poses", {"vertices": None}), ("flat", {"vertices": np.ones(3)}),
+                             ("words", {"vertices": np.array([[["a"] * 3]])}),
+                             ("faces", {"faces": arrays["faces"] + 2}),
+                             ("times", {"times": [0, 1]}), ("fps", {"times": None, "fps": 0})):
+            kept = {key: value for key, value in (arrays | change).items() if value is not None}
+            np.savez(self.path / f"{name}.npz", **kept)
+        for name, said in (
+            ("hurt", "checksum"), ("cut", "no ZIP archive"), ("poses", "no array 'vertices'"),
+            ("flat", "of shape [F, N, 3]"), ("words", "holds no numbers"),
+            ("faces", "names no vertex from 0 to"), ("times", "2 values for"), ("fps", "'fps'")
+        ):
+            told = self.assert_rejected("compare", self.run_file, str(self.path / f"{name}.npz"))
+            self.assertIn(said, told)
+
     def test_points_without_faces_are_compared_one_sided(self) -> None:
         head = "ply\nformat ascii 1.0\nelement vertex 2\n"
         axes = "".join(f"property float {axis}\n" for axis in "xyz")

@@ -55,54 +55,6 @@ std::string pc2(float rate = 2, std::int32_t version = 1) {
   return bytes;
 }
 
-std::uint32_t checksum(const std::string& bytes) {
-  std::uint32_t sum = 0xffffffff;
-  for (const char c : bytes) {
-    sum ^= std::uint8_t(c);
-    for (int bit = 0; bit < 8; ++bit) sum = (sum >> 1) ^ (sum & 1 ? 0xedb88320 : 0);
-  }
-  return ~sum;
-}
-
-template <class Number>
-std::string npy(const std::string& type, const std::string& shape,
-                const std::vector<Number>& values, const std::string& fortran = "False") {
-  const std::string header =
-      "{'descr': '" + type + "', 'fortran_order': " + fortran + ", 'shape': " + shape + ", }\n";
-  std::string bytes = "\x93NUMPY" + std::string("\1\0", 2) + bytes_of(std::uint16_t(header.size()));
-  bytes += header;
-  for (const Number value : values) bytes += bytes_of(value);
-  return bytes;
-}
-
-using Files = std::vector<std::pair<std::string, std::string>>;  // names and contents
-
-/// An archive; deflated: each as a block that is stored, as RFC 1951 3.2.4 has it.
-std::string zip(const Files& files, std::uint16_t method = 0) {
-  std::string bytes, directory;
-  for (const auto& [name, content] : files) {
-    const auto size = std::uint16_t(content.size());
-    const std::string data =
-        method == 0 ? content : "\1" + bytes_of(size) + bytes_of(std::uint16_t(~size)) + content;
-    const std::string about = bytes_of<std::uint16_t>(0) + bytes_of(method) +
-                              bytes_of<std::uint32_t>(0) + bytes_of(checksum(content)) +
-                              bytes_of(std::uint32_t(data.size())) + bytes_of(std::uint32_t(size)) +
-                              bytes_of(std::uint16_t(name.size())) + bytes_of<std::uint16_t>(0);
-    const std::string version = bytes_of<std::uint16_t>(20);
-    directory += "PK\1\2" + version + version + about + std::string(10, '\0') +
-                 bytes_of(std::uint32_t(bytes.size())) + name;
-    bytes += "PK\3\4" + version + about + name + data;
-  }
-  const auto place = std::uint32_t(bytes.size());
-  const std::string count = bytes_of(std::uint16_t(files.size()));
-  return bytes + directory + "PK\5\6" + std::string(4, '\0') + count + count +
-         bytes_of(std::uint32_t(directory.size())) + bytes_of(place) + std::string(2, '\0');
-}
-
-const std::string vertices =
-    npy<float>("<f4", "(2, 3, 3)", {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17});
-const std::string faces = npy<std::int64_t>("<i8", "(1, 3)", {0, 2, 1});
-
 const std::string usda = R"(#usda 1.0
 (
     "a comment with ) and }"
@@ -204,46 +156,6 @@ TEST_CASE("PC2: a body takes its triangles from a mesh, and times from the inter
                read_mesh_sequence({file, 0.1, {{0, 1, 2}}});
              }),
              Contains("fewer vertices"));
-}
-
-TEST_CASE("NPZ: stored and deflated arrays are read, of any order and width") {
-  const std::string fps = npy<double>("<f8", "()", {40});
-  for (const std::uint16_t method : {0, 8}) {
-    const Files files = {{"vertices.npy", vertices}, {"faces.npy", faces}, {"fps.npy", fps}};
-    const std::vector<MeshFrame> frames = read_npz_bytes(zip(files, method), "t.npz");
-    CHECK(frames.size() == 2);
-    CHECK(frames[1].x.col(2) == Vector3(15, 16, 17));
-    CHECK(frames[1].time == 1.0 / 40);
-    CHECK(frames[0].triangles == std::vector<Triangle>{{0, 2, 1}});
-  }
-  const std::string turned =
-      npy<double>("<f8", "(1, 2, 3)", {0.5, 3.5, 1.5, 4.5, 2.5, 5.5}, "True");
-  const std::string times = npy<double>("<f8", "(1,)", {0.7});
-  const auto frames = read_npz_bytes(zip({{"vertices.npy", turned}, {"times.npy", times}}), "t");
-  CHECK(frames[0].x.col(1) == Vector3(3.5, 4.5, 5.5));
-  CHECK(frames[0].time == 0.7);
-  CHECK(frames[0].triangles.empty());
-}
-
-TEST_CASE("NPZ: damaged archives and wrong arrays are refused") {
-  const auto said = [](const std::string& bytes) {
-    return complaint([&] { read_npz_bytes(bytes, "t.npz"); });
-  };
-  const std::string whole = zip({{"vertices.npy", vertices}, {"faces.npy", faces}});
-  CHECK(said(whole) == "");
-  CHECK_THAT(said(replaced(whole, bytes_of(17.f), bytes_of(18.f))), Contains("checksum"));
-  CHECK_THAT(said(whole.substr(0, whole.size() - 30)), Contains("t.npz: is no ZIP archive"));
-  CHECK_THAT(said(whole.substr(9)), Contains("t.npz: "));
-  CHECK_THAT(said(zip({{"poses.npy", vertices}})), Contains("no array 'vertices'"));
-  CHECK_THAT(said(zip({{"vertices.npy", replaced(vertices, "(2, 3, 3)", "(3, 3, 3)")}})),
-             Contains("another size than its shape"));
-  CHECK_THAT(said(zip({{"vertices.npy", replaced(vertices, "<f4", "|O4")}})),
-             Contains("holds no numbers"));
-  CHECK_THAT(said(zip({{"vertices.npy", vertices},
-                       {"faces.npy", npy<std::int32_t>("<i4", "(1, 3)", {0, 1, 3})}})),
-             Contains("names no vertex from 0 to 2"));
-  CHECK_THAT(said(zip({{"vertices.npy", vertices}, {"fps.npy", npy<double>("<f8", "()", {0})}})),
-             Contains("'fps'"));
 }
 
 TEST_CASE("USD: a mesh with time samples, its units, axis and times") {
