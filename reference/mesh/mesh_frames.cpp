@@ -30,7 +30,7 @@ std::string ending_of(const fs::path& file) {
 }
 
 bool is_cache(const std::string& ending) {
-  return ending == ".pc2" || ending == ".npz" || ending == ".usda";
+  return ending == ".pc2" || ending == ".npz" || ending.starts_with(".usd");
 }
 
 /// A file of a sequence, by the last digits of its name without the ending.
@@ -59,8 +59,8 @@ Sequences sequences_in(const std::string& folder) {
   std::error_code error;
   if (!fs::is_directory(folder, error))
     throw InputError(folder +
-                     ": there is no such folder; give one with OBJ or PLY frames, or a .pc2, .npz "
-                     "or .usda file");
+                     (fs::exists(folder, error) ? ": is no folder" : ": there is no such folder") +
+                     "; give one with OBJ or PLY frames, or a .pc2, .npz or .usda file");
   Sequences all;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error)) {
