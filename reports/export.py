@@ -1,16 +1,19 @@
 #!/usr/bin/python3
-"""Writes a simulation for other programs: a file for each frame (OBJ, PLY), or
-one XDMF for all, with its HDF5.
+"""Writes a simulation for other programs: a file for each frame (OBJ, PLY), one for all frames
+(PC2, NPZ, USD as text), or one XDMF with its HDF5.
 
     reports/export.py results/grab.h5 --format ply --out grab_ply     -> grab.0000.ply, ...,
                                                                  and grab-object-0.0000.ply, ...
 
 Cloth and objects are written in world coordinates [m], each object to files of its own. PLY and
 XDMF hold, for each particle, the velocity [m/s] and the fields that the report can colour the cloth
-by: speed [m/s], strain [1], angle [rad], phi [m].
+by: speed [m/s], strain [1], angle [rad], phi [m]. USD holds the velocity.
 """
 from __future__ import annotations
 
+import io
+import re
+import struct
 import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -84,8 +87,7 @@ def write_obj(case: Case, bodies: list[Body], folder: Path) -> list[Path]:
         yield f"o {body.name}"
         yield from (f"v {x:.17g} {y:.17g} {z:.17g}" for x, y, z in body.x[frame].tolist())
         yield from (f"f {a} {b} {c}" for a, b, c in (body.triangles + 1).tolist())
-    times = "".join(f"{time:.17g}\n" for time in case.frame_times)
-    return [_write(folder / "times.txt", f"# s, one a frame\n{times}".encode("ascii"))] + [
+    return [_write_times(case, folder)] + [
         _write(
             folder / f"{body.name}.{frame:04d}.obj",
             ("\n".join(lines(body, frame)) + "\n").encode("utf-8"),
@@ -125,6 +127,63 @@ def write_ply(case: Case, bodies: list[Body], folder: Path) -> list[Path]:
                 )
             )
     return files
+
+
+def write_pc2(case: Case, bodies: list[Body], folder: Path) -> list[Path]:
+    """3ds Max point caches: float32 points of all frames, without faces; times.txt for the times.
+    """
+    return [_write_times(case, folder)] + [
+        _write(
+            folder / f"{body.name}.pc2",
+            struct.pack("<12siiffi", b"POINTCACHE2", 1, body.x.shape[1], 0, 1, len(body.x))
+            + body.x.astype("<f4").tobytes(),
+        )
+        for body in bodies
+    ]
+
+
+def write_npz(case: Case, bodies: list[Body], folder: Path) -> list[Path]:
+    """NumPy archives, stored: vertices [F, N, 3] [m], faces [M, 3], fps, and times [F] [s]."""
+    files = []
+    for body in bodies:
+        content = io.BytesIO()
+        np.savez(
+            content, vertices=body.x, faces=body.triangles.astype("<i4"), fps=_rate_of(case),
+            times=case.frame_times
+        )
+        files.append(_write(folder / f"{body.name}.npz", content.getvalue()))
+    return files
+
+
+def write_usda(case: Case, bodies: list[Body], folder: Path) -> list[Path]:
+    """USD as text: a Mesh with time samples of its points, float32, a time code a frame."""
+    rate = _rate_of(case)
+    codes = [round(code) if abs(code - round(code)) < 1e-6 else code
+             for code in (case.frame_times * rate).tolist()]
+
+    def samples(kind: str, name: str, values: np.ndarray) -> Iterator[str]:
+        yield f"    {kind}[] {name}.timeSamples = {{"
+        for code, rows in zip(codes, values.astype("<f4").astype(str).tolist()):
+            points = ", ".join(f"({x}, {y}, {z})" for x, y, z in rows)
+            yield f"        {code:.17g}: [{points}],"
+        yield "    }"
+
+    def lines(body: Body) -> Iterator[str]:
+        prim = re.sub(r"\W|^(?=\d)", "_", body.name, flags=re.ASCII)
+        yield f'#usda 1.0\n(\n    defaultPrim = "{prim}"\n    endTimeCode = {codes[-1]:.17g}'
+        yield f"    framesPerSecond = {rate:.17g}\n    metersPerUnit = 1\n    startTimeCode = 0"
+        yield f'    timeCodesPerSecond = {rate:.17g}\n    upAxis = "Y"\n)\n\ndef Mesh "{prim}"\n{{'
+        yield f"    int[] faceVertexCounts = [{', '.join('3' for _ in body.triangles)}]"
+        yield f"    int[] faceVertexIndices = [{', '.join(map(str, body.triangles.ravel()))}]"
+        yield from samples("point3f", "points", body.x)
+        yield '    uniform token subdivisionScheme = "none"'
+        if "velocity" in body.values:
+            yield from samples("vector3f", "velocities", body.values["velocity"])
+        yield "}"
+    return [
+        _write(folder / f"{body.name}.usda", ("\n".join(lines(body)) + "\n").encode("ascii"))
+        for body in bodies
+    ]
 
 
 def write_xdmf(case: Case, bodies: list[Body], folder: Path) -> list[Path]:
@@ -186,12 +245,26 @@ def _xdmf_grid(body: Body, place: str, frame: int, time: float) -> str:
     )
 
 
+def _rate_of(case: Case) -> float:
+    """Frames a second, on average."""
+    times = case.frame_times
+    return round((len(times) - 1) / (times[-1] - times[0]), 9) if len(times) > 1 else 1.0
+
+
+def _write_times(case: Case, folder: Path) -> Path:
+    times = "".join(f"{time:.17g}\n" for time in case.frame_times)
+    return _write(folder / "times.txt", f"# s, one a frame\n{times}".encode("ascii"))
+
+
 def _write(path: Path, content: bytes) -> Path:
     write_whole(path, content)
     return path
 
 
-WRITERS = {"obj": write_obj, "ply": write_ply, "xdmf": write_xdmf}
+WRITERS = {
+    "obj": write_obj, "ply": write_ply, "pc2": write_pc2, "npz": write_npz, "usda": write_usda,
+    "xdmf": write_xdmf
+}
 
 if __name__ == "__main__":
     sys.exit(main())

@@ -40,12 +40,19 @@ MeshSequence deformed_mesh(const TriangleMesh& mesh, const Deformation& deformat
 /// The vertices at time t [s], 3 x N [m].
 PerParticle3 positions_at(const MeshSequence& sequence, double t);
 
-/// All files *.obj of a folder in the order of their names, `interval` [s] apart from time 0 on.
-/// Vertices that no triangle uses are left out. Throws InputError naming the file: no file, more
-/// than `most`, triangles that differ from the first file's, or a file that read_mesh refuses; with
-/// Inside::winding only one that read_mesh_file refuses.
-MeshSequence read_obj_sequence(const std::string& folder, double interval, long most = 1000,
-                               Inside inside = Inside::normals);
+struct SequenceSource {
+  std::string path;     // as in mesh/mesh_frames.h
+  double interval = 0;  // between two frames [s]; 0: the times of a file that has them, or 1/30 s
+  std::vector<Triangle> triangles = {};  // M, of frames that have none
+  long most = 1000;                      // frames
+  Inside inside = Inside::normals;
+};
+
+/// The frames of a folder or a cache, from time 0 on, or at the times that it states. Throws
+/// InputError naming the file: what read_mesh_frames refuses, a gap in the numbers of files, frames
+/// without triangles, triangles that differ from the first frame's, or, with Inside::normals, what
+/// make_triangle_mesh refuses. Vertices that no triangle uses are left out.
+MeshSequence read_mesh_sequence(const SequenceSource& source);
 
 /// A frame's level set. A node has the displacement of the nearest surface point, so it is constant
 /// along N.

@@ -3,7 +3,6 @@
 #include <atomic>
 #include <bit>
 #include <cstdint>
-#include <filesystem>
 #include <numeric>
 #include <optional>
 
@@ -13,7 +12,8 @@
 #include "reference/level_set/mesh_distance.h"
 #include "reference/level_set/octree_nodes.h"
 #include "reference/level_set/winding.h"
-#include "reference/mesh/mesh_file.h"
+#include "reference/mesh/mesh_frames.h"
+#include "reference/mesh/triangle_soup.h"
 
 namespace foldproof {
 
@@ -252,28 +252,36 @@ PerParticle3 positions_at(const MeshSequence& sequence, double t) {
   return (1 - part) * sequence.positions[k - 1] + part * sequence.positions[k];
 }
 
-MeshSequence read_obj_sequence(const std::string& folder, double interval, long most,
-                               Inside inside) {
-  std::vector<std::string> files;
-  std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, error))
-    if (entry.path().extension() == ".obj") files.push_back(entry.path().string());
-  if (files.empty())
-    throw InputError(folder + ": no folder with *.obj files; a mesh sequence is one file a frame");
-  if (long(files.size()) > most)
-    throw InputError(folder + ": " + std::to_string(files.size()) + " *.obj files; at most " +
-                     std::to_string(most) + " frames are read, for each is a level set");
-  if (!(interval > 0)) throw InputError(folder + ": the time between two frames must be positive");
-  std::sort(files.begin(), files.end());
-  MeshSequence sequence{{}, {}, {}, inside};
-  for (std::size_t k = 0; k < files.size(); ++k) {
-    TriangleSoup mesh = without_unused_vertices(read_mesh_file(files[k]).soup);
-    if (inside == Inside::normals) make_triangle_mesh(mesh.rest, mesh.triangles, mesh.origin);
+MeshSequence read_mesh_sequence(const SequenceSource& source) {
+  if (!(source.interval >= 0))
+    throw InputError(source.path + ": the time between two frames must be positive");
+  std::vector<MeshFrame> frames =
+      read_mesh_frames({.path = source.path,
+                        .remedy = "frames that are an interval apart need even numbers",
+                        .most = std::size_t(source.most)});
+  const Eigen::Index vertices = frames.front().x.cols();
+  MeshSequence sequence{{}, {}, {}, source.inside};
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    MeshFrame& frame = frames[k];
+    if (!frame.triangles.empty() && !source.triangles.empty())
+      throw InputError(frame.file +
+                       ": has triangles of its own; give 'mesh' or 'frames', and not both");
+    if (frame.triangles.empty()) frame.triangles = source.triangles;
+    if (frame.triangles.empty())
+      throw InputError(frame.file + ": has no triangles; name a file that has them by 'mesh'");
+    for (const Triangle& t : frame.triangles)
+      if (*std::ranges::max_element(t) >= vertices)
+        throw InputError(frame.file + ": has fewer vertices than the triangles of 'mesh'");
+    TriangleSoup mesh = without_unused_vertices({frame.x, frame.triangles, {frame.file, {}, {}}});
+    if (source.inside == Inside::normals)
+      make_triangle_mesh(mesh.rest, mesh.triangles, mesh.origin);
     if (k == 0) sequence.triangles = mesh.triangles;
-    if (mesh.triangles != sequence.triangles)
-      throw InputError(files[k] + ": its triangles are not those of " + files[0] +
+    if (mesh.triangles != sequence.triangles || frame.x.cols() != vertices)
+      throw InputError(frame.file + ": its triangles are not those of " + frames[0].file +
                        "; all frames must share them");
-    sequence.times.push_back(double(k) * interval);
+    const double interval = source.interval > 0 ? source.interval : 1.0 / 30;
+    const double counted = (frame.number - frames[0].number) * interval;
+    sequence.times.push_back(frame.time && source.interval == 0 ? *frame.time : counted);
     sequence.positions.push_back(std::move(mesh.rest));
   }
   return sequence;

@@ -65,17 +65,17 @@ std::vector<int> FaceList::cut_into(TriangleSoup& soup, int first_vertex) const 
   return face_of_triangle;
 }
 
-MeshFile read_mesh_text(std::string text, const std::string& file) {
+MeshFile read_mesh_text(std::string text, const std::string& file, Needs needs) {
   const std::string_view start = std::string_view(text).substr(0, 8);
   const size_t mark = start.starts_with(utf8_mark) ? utf8_mark.size() : 0;
   const std::string_view line = start.substr(mark, 4);
   if (line.starts_with("ply") && (line.size() < 4 || line[3] <= ' '))
-    return read_ply_text(std::string_view(text).substr(mark), file);
-  return read_obj_text(plain_text(std::move(text), file), file);
+    return read_ply_text(std::string_view(text).substr(mark), file, needs);
+  return read_obj_text(plain_text(std::move(text), file), file, needs);
 }
 
-MeshFile read_mesh_file(const std::string& path) {
-  return read_mesh_text(read_text_file(path, mesh_limits), path);
+MeshFile read_mesh_file(const std::string& path, Needs needs) {
+  return read_mesh_text(read_text_file(path, mesh_limits), path, needs);
 }
 
 TriangleMesh read_mesh(const std::string& path) {

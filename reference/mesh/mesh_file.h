@@ -22,6 +22,9 @@ struct MeshFile {
   std::optional<double> time;  // if a comment of a PLY file says "time T s", as exports do [s]
 };
 
+/// What a file must hold: points alone are a mesh without faces.
+enum class Needs { faces, vertices };
+
 /// Reads vertices [m] and faces; all else is ignored. A file that begins with the line "ply" is
 /// PLY, ASCII or binary of either byte order, with x, y, z of the element `vertex` and the list
 /// vertex_indices, or vertex_index, of `face` or of `tristrips` (strips parted by -1); every other
@@ -36,10 +39,10 @@ struct MeshFile {
 /// coordinates are not finite; a file beyond the limits of text_file.h, of more than 2 million
 /// vertices or 4 million triangles, with faces of more than 16 groups of one letter, or with a PLY
 /// header of more than 64 elements and properties.
-MeshFile read_mesh_file(const std::string& path);
+MeshFile read_mesh_file(const std::string& path, Needs needs = Needs::faces);
 
 /// The same for a file's bytes; `file` names it in messages.
-MeshFile read_mesh_text(std::string text, const std::string& file);
+MeshFile read_mesh_text(std::string text, const std::string& file, Needs needs = Needs::faces);
 
 /// The file's mesh. Throws InputError also for anything that make_triangle_mesh refuses.
 TriangleMesh read_mesh(const std::string& path);

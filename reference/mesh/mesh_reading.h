@@ -43,7 +43,7 @@ class FaceList {
   size_t triangles_ = 0;
 };
 
-MeshFile read_obj_text(std::string_view text, const std::string& file);
-MeshFile read_ply_text(std::string_view text, const std::string& file);
+MeshFile read_obj_text(std::string_view text, const std::string& file, Needs needs = Needs::faces);
+MeshFile read_ply_text(std::string_view text, const std::string& file, Needs needs = Needs::faces);
 
 }  // namespace foldproof

@@ -185,7 +185,7 @@ void begin_group(Contents& contents, size_t letter, Names names) {
 }
 
 /// Reads all records of a file.
-Contents contents_of(std::string_view text, const std::string& file) {
+Contents contents_of(std::string_view text, const std::string& file, Needs needs) {
   if (text.empty()) reject(file, 1, "the file is empty; give v and f records");
   Contents contents;
   Cursor cursor{text, file};
@@ -197,7 +197,7 @@ Contents contents_of(std::string_view text, const std::string& file) {
     if (record == "o") begin_group(contents, 1, read_names(cursor));
     skip_rest_of_record(cursor);
   }
-  if (contents.faces.empty())
+  if (contents.faces.empty() && (needs == Needs::faces || contents.vertices.empty()))
     reject(file, cursor.line - 1, "the file ends without a face; give f records");
   return contents;
 }
@@ -219,8 +219,8 @@ FaceGroups groups_of(const Contents& contents, const std::vector<int>& face_of_t
 
 }  // namespace
 
-MeshFile read_obj_text(std::string_view text, const std::string& file) {
-  Contents contents = contents_of(text, file);
+MeshFile read_obj_text(std::string_view text, const std::string& file, Needs needs) {
+  Contents contents = contents_of(text, file, needs);
   MeshFile mesh;
   mesh.soup.rest.resize(3, Eigen::Index(contents.vertices.size()));
   for (size_t v = 0; v < contents.vertices.size(); ++v)

@@ -337,7 +337,7 @@ void read_element_data(Reader& reader, const Element& element, TriangleSoup& sou
 
 }  // namespace
 
-MeshFile read_ply_text(std::string_view text, const std::string& file) {
+MeshFile read_ply_text(std::string_view text, const std::string& file, Needs needs) {
   Reader reader{text, file};
   const Header header = read_header(reader);
   reader.form = header.form;
@@ -348,7 +348,9 @@ MeshFile read_ply_text(std::string_view text, const std::string& file) {
   FaceList faces;
   for (const Element& element : header.elements)
     read_element_data(reader, element, mesh.soup, faces);
-  if (faces.empty()) reject(reader, "the file has no face; give a mesh of triangles");
+  if (faces.empty() && needs == Needs::faces)
+    reject(reader, "the file has no face; give a mesh of triangles");
+  if (mesh.soup.rest.cols() == 0) reject(reader, "the file has no vertex; give a mesh or points");
   faces.cut_into(mesh.soup, 0);
   return mesh;
 }

@@ -7,6 +7,13 @@
 
 namespace foldproof {
 
+/// The numbering of a mesh before its seams were closed.
+struct UnsewnMesh {
+  std::vector<Triangle> triangles;  // M, in the order of the sewn ones; empty: nothing was sewn
+  Eigen::Index vertices = 0;
+  double distance = 0;  // of vertices that were merged, at most [m]
+};
+
 /// Merges every vertex that lies within `distance` [m] of an earlier vertex that is not merged
 /// itself into the first such vertex. So no vertex moves farther than `distance`, nor twice.
 /// Triangles keep their numbers and places in the file; the remaining vertices keep their places in

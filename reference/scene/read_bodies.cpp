@@ -75,11 +75,11 @@ void reject_open_frame(const MeshSequence& animation, size_t k, const std::strin
   }
 }
 
-/// The folder lies within the case file's folder; so must the targets of its links.
-void reject_links_outside(const std::string& folder, const std::string& case_folder,
+/// A folder of frames lies within the case file's folder; so must the targets of its links.
+void reject_links_outside(const std::string& path, const std::string& case_folder,
                           const std::string& where) {
   std::error_code none;  // its reader refuses a missing folder
-  for (const auto& entry : std::filesystem::directory_iterator(folder, none))
+  for (const auto& entry : std::filesystem::directory_iterator(path, none))
     reject_outside(entry.path().string(), case_folder, where);
 }
 
@@ -90,19 +90,21 @@ std::shared_ptr<const FieldRecipe> recipe_of(const KeyTable& keys, Recipe of, do
   return std::make_shared<const FieldRecipe>(FieldRecipe{std::move(of), where, accuracy});
 }
 
+/// The triangles of frames that have none, such as PC2's.
+std::vector<Triangle> read_triangles(const KeyTable& keys, const CaseContext& context) {
+  if (!keys.has("mesh")) return {};
+  return read_mesh_file(mesh_file(keys, context.folder, "object")).soup.triangles;
+}
+
 MeshSequence read_frames(const KeyTable& keys, const CaseContext& context, Repair repair,
                          double& scale) {
   const std::string where = keys.where("frames");
-  const std::string folder = path_of(keys, "frames", context.folder);
-  if (!is_override(where)) reject_links_outside(folder, context.folder, where);
-  const double interval = positive_or(keys, "interval", 1.0 / 30);
-  MeshSequence animation;
-  try {
-    animation = read_obj_sequence(folder, interval, long(context.limits.frames),
-                                  repair == Repair::winding ? Inside::winding : Inside::normals);
-  } catch (const InputError& error) {
-    throw InputError(where + ": " + error.what());
-  }
+  const std::string path = path_of(keys, "frames", context.folder);
+  if (!is_override(where)) reject_links_outside(path, context.folder, where);
+  const SequenceSource source{path, keys.has("interval") ? positive(keys, "interval") : 0,
+                              read_triangles(keys, context), long(context.limits.frames),
+                              repair == Repair::winding ? Inside::winding : Inside::normals};
+  MeshSequence animation = with_error_location(where, [&] { return read_mesh_sequence(source); });
   scale = fit_factor(keys, animation.positions.front());
   for (PerParticle3& x : animation.positions) x *= scale;
   if (repair == Repair::winding)

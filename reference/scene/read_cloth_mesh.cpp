@@ -127,27 +127,31 @@ TriangleMesh make_shape(const KeyTable& keys, const SceneLimits& limits) {
 
 /// Reads the mesh file, sews its panels together if `seams` is given, and with `repair` splits
 /// vertices that connect parts in a single point.
-SplitMesh read_mesh(const KeyTable& keys, const std::string& folder) {
+PlacedMesh read_mesh(const KeyTable& keys, const std::string& folder) {
   enum class ClothRepair { refuse, split };
   const std::string file = mesh_file(keys, folder, "cloth");
   const auto repair = choice<ClothRepair>(
       keys, "repair", {{"refuse", ClothRepair::refuse}, {"split", ClothRepair::split}});
   TriangleSoup soup = read_mesh_file(file).soup;
-  if (keys.has("seams")) soup = close_seams(std::move(soup), positive(keys, "seams"));
+  UnsewnMesh unsewn;
+  if (keys.has("seams")) {
+    unsewn = {soup.triangles, soup.rest.cols(), positive(keys, "seams")};
+    soup = close_seams(std::move(soup), unsewn.distance);
+  }
   if (repair == ClothRepair::refuse)
-    return {make_triangle_mesh(std::move(soup.rest), std::move(soup.triangles), soup.origin), {}};
+    return {make_triangle_mesh(std::move(soup.rest), std::move(soup.triangles), soup.origin),
+            {},
+            {},
+            std::move(unsewn)};
   const Eigen::Index vertices = soup.rest.cols();
   SplitMesh split = split_fans(std::move(soup));
   if (split.mesh.particles() == vertices) split.copy_of.clear();
-  return split;
+  return {std::move(split.mesh), {}, std::move(split.copy_of), std::move(unsewn)};
 }
 
 PlacedMesh read_or_make(const KeyTable& cloth, const std::string& folder,
                         const SceneLimits& limits) {
-  if (cloth.has("mesh")) {
-    SplitMesh read = read_mesh(cloth, folder);
-    return {std::move(read.mesh), {}, std::move(read.copy_of)};
-  }
+  if (cloth.has("mesh")) return read_mesh(cloth, folder);
   return {with_error_location(cloth.where("shape"), [&] { return make_shape(cloth, limits); }), {}};
 }
 
@@ -243,6 +247,7 @@ PlacedMesh read_cloth_mesh(const KeyTable& cloth, const std::string& folder,
     if (!pleats->flag_or("start_flat", true)) result.start = result.mesh.rest;
   }
   result.scale = scale_to_fit(cloth, result.start);
+  result.unsewn.distance *= result.scale;
   place(cloth, result.start);
   if (!pleats) result.mesh.rest = result.start;
   if (const auto copies = cloth.table("copies"))

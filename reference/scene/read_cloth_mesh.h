@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "reference/mesh/seams.h"
 #include "reference/mesh/triangle_mesh.h"
 #include "reference/scene/key_file.h"
 #include "reference/scene/scene_limits.h"
@@ -14,7 +15,8 @@ struct PlacedMesh {
   TriangleMesh mesh;              // with the rest shape
   PerParticle3 start;             // 3 x N [m]
   std::vector<int> copy_of = {};  // as Scene::copy_of
-  double scale = 1;               // by 'fit'
+  UnsewnMesh unsewn = {};         // as Scene::unsewn
+  double scale = 1;               // by 'fit' or 'scale'
 };
 
 /// Reads the keys of [cloth] for shape and place. folder: base of relative paths in the case.

@@ -90,8 +90,8 @@ void read_deforming(const KeyTable& keys, const Pose& place, const CaseContext& 
 }
 
 SceneObject read_object(const KeyTable& keys, const CaseContext& context, size_t number) {
-  const bool is_shape = keys.has("shape"), is_mesh = keys.has("mesh"),
-             is_animation = keys.has("frames");
+  const bool is_shape = keys.has("shape"), is_animation = keys.has("frames"),
+             is_mesh = keys.has("mesh") && !is_animation;  // frames without triangles have a mesh
   if (int(is_shape) + int(is_mesh) + int(is_animation) != 1)
     throw InputError(keys.where("mesh") +
                      ": [[object]] needs either 'shape' or 'mesh' (an OBJ file) or 'frames' (a "

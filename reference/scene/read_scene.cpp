@@ -241,6 +241,7 @@ Scene scene_from(const CaseKeys& of, const SceneLimits& limits) {
   Scene scene = scene_at_rest(std::move(placed.mesh), density);
   scene.x = std::move(placed.start);
   scene.copy_of = std::move(placed.copy_of);
+  scene.unsewn = std::move(placed.unsewn);
   scene.title = keys.text_or("title", "");
   scene.about = keys.text_or("about", "");
 

@@ -12,6 +12,7 @@
 #include "reference/filters/self_collision.h"
 #include "reference/filters/strain_limit.h"
 #include "reference/forces/force.h"
+#include "reference/mesh/seams.h"
 #include "reference/mesh/triangle_mesh.h"
 #include "reference/motion/motion.h"
 #include "reference/scene/scene_limits.h"
@@ -60,6 +61,7 @@ struct Scene {
   // N: the original of each particle whose vertex was split, else the particle itself
   // (mesh/split_fans.h); empty without splits
   std::vector<int> copy_of = {};
+  UnsewnMesh unsewn = {};  // of a mesh file whose `seams` were closed, and of one copy
 
   std::optional<Vector3> gravity;  // m/s^2
   std::optional<StretchMaterial> stretch;

@@ -4,6 +4,7 @@ from __future__ import annotations
 import importlib
 import json
 import shutil
+import struct
 import subprocess
 import sys
 import unittest
@@ -128,6 +129,39 @@ class ExportedFiles(WithCase):
                 )
                 for name in ("speed", "strain", "angle", "phi"):
                     np.testing.assert_array_equal(of_points[name], values[name][frame])
+
+    def test_caches_hold_all_points_faces_and_times(self) -> None:
+        case = self.case()
+        points = [case.every_frame("positions"),
+                  np.stack([case.objects[0].positions(frame) for frame in range(4)])]
+        for name, x in zip(("fold", "fold-object-0"), points):
+            with np.load(self.exported("npz") / f"{name}.npz") as npz:
+                np.testing.assert_array_equal(npz["vertices"], x)
+                np.testing.assert_array_equal(npz["times"], case.frame_times)
+                self.assertAlmostEqual(float(npz["fps"]), 3 / np.ptp(case.frame_times), 6)
+            pc2 = (self.exported("pc2") / f"{name}.pc2").read_bytes()
+            self.assertEqual(struct.unpack("<12siiffi", pc2[:32]),
+                             (b"POINTCACHE2\0", 1, x.shape[1], 0, 1, 4))
+            np.testing.assert_array_equal(np.frombuffer(pc2[32:], "<f4"), x.astype("<f4").ravel())
+            np.testing.assert_array_equal(np.loadtxt(self.root / "pc2/times.txt"), case.frame_times)
+        with np.load(self.root / "npz/fold.npz") as npz:
+            np.testing.assert_array_equal(npz["faces"], TWO)
+
+    @unittest.skipUnless(reader("pxr.UsdGeom"), "not installed: usd-core of PyPI reads USD")
+    def test_usd_reads_all_points_velocities_and_times(self) -> None:
+        case, path = self.case(), self.exported("usda") / "fold.usda"
+        stage = reader("pxr.Usd").Stage.Open(str(path))
+        mesh = reader("pxr.UsdGeom").Mesh(stage.GetDefaultPrim())
+        self.assertEqual(reader("pxr.UsdGeom").GetStageMetersPerUnit(stage), 1)
+        codes = mesh.GetPointsAttr().GetTimeSamples()
+        np.testing.assert_allclose(np.array(codes) / stage.GetTimeCodesPerSecond(),
+                                   case.frame_times, atol=1e-9)
+        np.testing.assert_array_equal(
+            np.reshape(mesh.GetFaceVertexIndicesAttr().Get(), (-1, 3)), TWO)
+        for attribute, field in ((mesh.GetPointsAttr(), "positions"),
+                                 (mesh.GetVelocitiesAttr(), "velocities")):
+            read = np.array([attribute.Get(code) for code in codes])
+            np.testing.assert_array_equal(read, case.every_frame(field).astype("f4"))
 
     @unittest.skipUnless(
         shutil.which("pvpython"), "no pvpython: the package python3-paraview has it"

@@ -1,4 +1,4 @@
-// A folder of frames that another program wrote, or a camera: which files they are, and when.
+// Frames that another program wrote, or a camera, and their times.
 #pragma once
 
 #include <string>
@@ -8,18 +8,18 @@
 
 namespace foldproof {
 
-/// As typed; the first that is given counts, else times.txt in the folder, else what PLY files say.
+/// As typed; the first that is given counts, else what a cache says, else times.txt beside the
+/// frames, else what PLY files say.
 struct FrameTimes {
   std::string file;            // of times [s], one a line
   double rate = 0, start = 0;  // frames a second, from `start` on [s]; 0: not given
 };
 
-/// The frames in FOLDER/NAME*.obj or .ply, in the order of the numbers that their names end
-/// with. Of several sequences the one called `preferred` is read. Throws InputError in one line
-/// for a folder without frames, several sequences, missing times, as many times as there are no
-/// frames, times that do not ascend, a gap in the numbers that a rate counts, and a frame that
-/// cannot be read.
-std::vector<TimedMesh> read_frames(const std::string& folder, const FrameTimes& times,
+/// The frames of a folder or a cache (reference/mesh/mesh_frames.h). Of several sequences the one
+/// called `preferred` is read. Throws InputError in one line for what read_mesh_frames refuses,
+/// missing times, another number of times than of frames, times that do not ascend, and a gap in
+/// the numbers that a rate counts.
+std::vector<TimedMesh> read_frames(const std::string& path, const FrameTimes& times,
                                    const std::string& preferred);
 
 }  // namespace foldproof

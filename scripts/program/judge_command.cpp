@@ -246,10 +246,11 @@ int serve(const ServeOptions& options) {
 
 /// Frames instead of a solver.
 void add_judged_frames(CLI::App* judge, CLI::Option* solver, Options& options) {
-  CLI::Option* frames =
-      judge->add_option("--frames", options.frames,
-                        "Instead of a solver: folder of its OBJ or PLY files, one a frame");
-  frames->type_name("DIR")->check(some_text("a folder"))->excludes(solver);
+  CLI::Option* frames = judge->add_option(
+      "--frames", options.frames,
+      "Instead of a solver: folder of its OBJ or PLY files, one a frame, or a cache "
+      "of all frames (.pc2, .npz, .usda)");
+  frames->type_name("FRAMES")->check(some_text("a folder or a cache"))->excludes(solver);
   CLI::Option* of = judge->add_option("--case", options.file,
                                       std::string("The case of the frames. ") + case_words);
   of->type_name("CASE")->check(some_text("a case"))->needs(frames);

@@ -10,6 +10,7 @@
 #include "scripts/program/provenance.h"
 #include "scripts/program/run_case.h"
 #include "scripts/program/trial_output.h"
+#include "verification/cases/frames_of_case.h"
 #include "verification/cases/judged_frames.h"
 
 namespace foldproof {
@@ -20,15 +21,20 @@ namespace {
 struct ReadMotion {
   Case of;
   std::vector<TimedMesh> frames;
+  std::string seams;  // as CaseFrames::seams
 };
 
 ReadMotion read_motion(const Options& options) {
   if (options.file.empty())
     throw InputError("--frames needs --case CASE: a case file, or a shipped case");
   Case of = with_usual_expectations(read_case(case_file(options.file), options.overrides));
-  std::vector<TimedMesh> frames =
-      read_frames(options.frames, {options.times, options.rate, options.first_time}, of.scene.name);
-  return {std::move(of), std::move(frames)};
+  CaseFrames read = frames_of_case(
+      of.scene, read_frames(options.frames, {options.times, options.rate, options.first_time},
+                            of.scene.name));
+  if (matching_of(of.scene.mesh, read.frames) == Matching::points)
+    throw InputError(mesh_difference(of.scene.mesh, read.frames) +
+                     "; give as many points as the cloth has, or faces");
+  return {std::move(of), std::move(read.frames), std::move(read.seams)};
 }
 
 std::string span_text(const std::vector<TimedMesh>& frames) {
@@ -42,8 +48,8 @@ std::string subject_name(const Options& options) {
 
 std::string vertices_text(const ReadMotion& motion, Matching matching) {
   const std::string difference = mesh_difference(motion.of.scene.mesh, motion.frames);
-  return fmt::format("compared {}{}{}", name_of(matching), difference.empty() ? "" : ": ",
-                     difference);
+  return fmt::format("compared {}{}{}{}{}", name_of(matching), difference.empty() ? "" : ": ",
+                     difference, motion.seams.empty() ? "" : "; ", motion.seams);
 }
 
 /// The keys of a judged solver's file: frames are of level 0, and say nothing of their solver.
@@ -86,8 +92,9 @@ RunRecord run_of(const ReadMotion& motion, FramesJudgement judged, const Options
 
 std::string heading(const ReadMotion& motion, Matching matching, const Options& options) {
   const std::string difference = mesh_difference(motion.of.scene.mesh, motion.frames);
-  return fmt::format("{}: {}, of case {}, {}\n{}", options.frames, span_text(motion.frames),
-                     motion.of.scene.name, name_of(matching),
+  return fmt::format("{}: {}, of case {}, {}\n{}{}{}", options.frames, span_text(motion.frames),
+                     motion.of.scene.name, name_of(matching), motion.seams,
+                     motion.seams.empty() ? "" : "\n",
                      difference.empty() ? "" : difference + ": judged as another mesh\n");
 }
 

@@ -93,8 +93,8 @@ std::string listing_row(const Record& record, long count, const std::vector<std:
   if (did_not_run(record) || record.outcome == Outcome::not_applicable)
     return row(record.name, finding.note);
   std::string text = row(record.name, measured(record));
-  const bool is_undecided =
-      record.outcome == Outcome::inconclusive && std::isnan(finding.verdict.measured);
+  const bool is_undecided = record.outcome == Outcome::inconclusive &&
+                            (std::isnan(finding.verdict.measured) || !finding.note.empty());
   if (record.outcome == Outcome::fails || is_undecided) text += details(record, others);
   return text;
 }

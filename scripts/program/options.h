@@ -24,7 +24,7 @@ struct Options {
   double budget = 30;               // of converge: for levels that are added [s]
   int mesh_levels = 2;              // of ablate: meshes
   double hours = 0;                 // of converge: of the clock, for all runs; 0: no limit
-  std::string frames, times;        // of compare, judge: a folder, a file of times
+  std::string frames, times;        // of compare, judge: folder or cache, a file of times
   double rate = 0, first_time = 0;  // of compare, judge: frames a second, time of the first one [s]
   double fraction = 0.1;            // of converge: of the motion, at which twin runs have parted
   int ensemble = 4;                 // of converge: runs with disturbed starts; 0: none

@@ -5,6 +5,7 @@ import shutil
 import unittest
 
 import h5py
+import numpy as np
 
 from file_tests import SMALL_CASE
 from program_case import ProgramCase, run
@@ -29,8 +30,63 @@ class Compare(ProgramCase):
         self.assertEqual(told["matching"], "vertex by vertex")
         self.assertEqual([frame["time"] for frame in told["frames"]], list(self.times))
         for frame in told["frames"]:
-            self.assertEqual((frame["rms"], frame["largest"], frame["weighted"]), (0, 0, 0))
+            self.assertEqual((frame["rms"], frame["largest"]), (0, 0))
             self.assertEqual(frame["run"], frame["frame"])
+
+    def test_every_format_and_a_stored_run_are_compared(self) -> None:
+        for form, most in (("pc2", 1e-7), ("npz", 0), ("usda", 1e-7)):
+            self.assert_holds(run("export", self.run_file, "--format", form, "--out",
+                                  self.path / form))
+            told = self.compare(str(self.path / form))
+            self.assertEqual(told["matching"], "vertex by vertex")
+            np.testing.assert_allclose([frame["time"] for frame in told["frames"]], self.times)
+            self.assertLessEqual(max(frame["largest"] for frame in told["frames"]), most)
+        half = str(1 / (self.times[1] - self.times[0]) / 2)
+        told = self.compare(str(self.path / "pc2/small.pc2"), "--rate", half)
+        self.assertGreater(told["left_out"], 0)
+        told = self.compare(self.run_file)
+        self.assertEqual(max(frame["largest"] for frame in told["frames"]), 0)
+        self.assertIn("knows its times",
+                      self.assert_rejected("compare", self.run_file, self.run_file, "--rate", "5"))
+
+    def test_arrays_of_any_kind_are_read_and_damaged_archives_are_refused(self) -> None:
+        with h5py.File(self.run_file) as file:
+            arrays = {"vertices": file["frames/positions"][:], "faces": file["mesh/triangles"][:],
+                      "times": self.times}
+        for how, save in (("any", np.savez), ("packed", np.savez_compressed)):
+            others = {"vertices": np.asfortranarray(arrays["vertices"]),
+                      "faces": arrays["faces"].astype(">u8")}
+            save(self.path / f"{how}.npz", **(arrays | others))
+            told = self.compare(str(self.path / f"{how}.npz"))
+            self.assertEqual(max(frame["largest"] for frame in told["frames"]), 0)
+        whole = (self.path / "any.npz").read_bytes()
+        hurt = bytearray(whole)
+        hurt[whole.index(b"NUMPY") + 200] ^= 1  # of the vertices
+        (self.path / "hurt.npz").write_bytes(hurt)
+        (self.path / "cut.npz").write_bytes(whole[:-30])
+        for name, change in (("poses", {"vertices": None}), ("flat", {"vertices": np.ones(3)}),
+                             ("words", {"vertices": np.array([[["a"] * 3]])}),
+                             ("faces", {"faces": arrays["faces"] + 2}),
+                             ("times", {"times": [0, 1]}), ("fps", {"times": None, "fps": 0})):
+            kept = {key: value for key, value in (arrays | change).items() if value is not None}
+            np.savez(self.path / f"{name}.npz", **kept)
+        for name, said in (
+            ("hurt", "checksum"), ("cut", "no ZIP archive"), ("poses", "no array 'vertices'"),
+            ("flat", "of shape [F, N, 3]"), ("words", "holds no numbers"),
+            ("faces", "names no vertex from 0 to"), ("times", "2 values for"), ("fps", "'fps'")
+        ):
+            told = self.assert_rejected("compare", self.run_file, str(self.path / f"{name}.npz"))
+            self.assertIn(said, told)
+
+    def test_points_without_faces_are_compared_one_sided(self) -> None:
+        head = "ply\nformat ascii 1.0\nelement vertex 2\n"
+        axes = "".join(f"property float {axis}\n" for axis in "xyz")
+        self.write("scan/s1.ply", f"{head}{axes}end_header\n0 0 0\n0 0 1\n")
+        scan = str(self.path / "scan")
+        told = self.compare(scan, "--rate", "30")
+        self.assertEqual(told["matching"], "one-sided, points to the run's surface")
+        self.assertIsNone(told["frames"][0]["frame"]["crossings"])
+        self.assertIn("one-sided", run("compare", self.run_file, scan, "--rate", "30").stdout)
 
     def test_times_come_from_a_file_a_rate_or_the_folder(self) -> None:
         obj, times = str(self.path / "obj"), "".join(f"{time}\n" for time in self.times)

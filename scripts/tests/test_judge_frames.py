@@ -11,10 +11,17 @@ import shutil
 import subprocess
 import unittest
 
+import h5py
+import numpy as np
+
 from program_case import ProgramCase, run
 
 CASE = "drape_sphere"
 RATE = ("--rate", "30")
+FORMS = ("obj", "ply", "pc2", "npz", "usda")
+# shipped cases of some seconds, among them the one that rests within 1e-12 m on a slope, the one
+# that slides there, and the one whose folds turn fastest between two frames
+QUICK_CASES = ("incline", "incline_slides", "spinning_sphere", "hanging_sheet", "hinge", "pinch")
 
 
 class JudgeFrames(ProgramCase):
@@ -33,10 +40,19 @@ class JudgeFrames(ProgramCase):
         return {row["name"]: row["outcome"] for row in json.loads(done.stdout)["findings"]}
 
     def test_frames_of_the_reference_meet_every_law(self) -> None:
-        for form in ("ply", "obj"):
+        for form in FORMS:
+            run("export", f"{self.out}/{CASE}.h5", "--format", form, "--out", self.path / form)
             outcomes = self.judge(form)
             self.assertLessEqual(set(outcomes.values()), {"holds", "not applicable"})
-            self.assertEqual(outcomes["frames.never-cross-themselves"], "holds")
+            for law in ("never-cross-themselves", "energy-stays-in-budget"):  # of its particles
+                self.assertEqual(outcomes[f"frames.{law}"], "holds")
+
+    def test_a_stray_file_and_frames_of_upper_case_endings(self) -> None:
+        for frame in (self.path / "obj").glob(f"{CASE}.*.obj"):
+            frame.rename(frame.with_suffix(".OBJ"))
+        self.assertEqual(self.judge("obj", *RATE)["frames.end-is-reached"], "holds")
+        shutil.copy(self.path / f"obj/{CASE}.0003.OBJ", self.path / f"obj/{CASE}.OBJ")
+        self.assert_refused(self.run_judge("obj", *RATE), f"{CASE}.OBJ: has no number")
 
     def test_a_damaged_frame_is_found_and_both_stand_on_one_page(self) -> None:
         shutil.copytree(self.path / "obj", self.path / "bad")
@@ -107,6 +123,94 @@ class JudgeFrames(ProgramCase):
             (("--solver", "x", "--set", "time.end=1"), "--frames"), ((), "--solver")
         ):
             self.assertIn(said, self.assert_rejected("judge", *typed))
+
+
+class ExportedCases(ProgramCase):
+    def write_text(self, case: str, form: str) -> None:
+        """OBJ frames with another format of their numbers."""
+        with h5py.File(f"{self.out}/{case}.h5") as file:
+            frames, times = file["frames/positions"][:], file["frames/time"][:]
+            faces = [f"f {a} {b} {c}" for a, b, c in file["mesh/triangles"][:] + 1]
+        self.write("frames/times.txt", "".join(f"{time:.9g}\n" for time in times))
+        for number, frame in enumerate(frames):
+            rows = ["v " + " ".join(form % x for x in row) for row in frame]
+            self.write(f"frames/{case}_{number}.obj", "\n".join(rows + faces) + "\n")
+
+    def write_single(self, case: str) -> None:
+        """An archive of float32, deflated."""
+        with h5py.File(f"{self.out}/{case}.h5") as file:
+            np.savez_compressed(
+                self.path / "frames/single.npz", fps=1 / file["frames/time"][1],
+                vertices=file["frames/positions"][:].astype("f4"),
+                faces=file["mesh/triangles"][:])
+
+    def test_own_frames_meet_every_law_at_the_digits_of_every_format(self) -> None:
+        for case in QUICK_CASES:
+            self.assert_holds(self.simulate(case))
+            for form in ("%.6f", "%.9g", "npz", "pc2", "usda"):
+                (self.path / "frames").mkdir()
+                if form.startswith("%"):
+                    self.write_text(case, form)
+                elif form == "npz":
+                    self.write_single(case)
+                else:
+                    run("export", f"{self.out}/{case}.h5", "--format", form, "--out",
+                        self.path / "frames")
+                with self.subTest(case=case, form=form):
+                    told = self.told("judge", "--frames", self.path / "frames", "--case", case)
+                    others = [row for row in told["findings"]
+                              if row["outcome"] not in ("holds", "not applicable")]
+                    self.assertEqual(others, [])
+                shutil.rmtree(self.path / "frames")
+
+    def test_an_exported_body_moves_cloth_in_every_format(self) -> None:
+        ball = """
+[[object]]
+name = "ball"
+shape = "statue"
+height = 0.3
+subdivisions = 3
+cells = 8
+interval = 0.02
+deform = [{ kind = "twist", amplitude = 20, period = 0.2 }]
+"""
+        cloth = """
+[cloth]
+shape = "sheet"
+width = 0.2
+height = 0.2
+columns = 3
+rows = 3
+density = 0.2
+move = [0, 0.5, 0]
+[gravity]
+[stretch]
+stiffness = 20
+[time]
+end = 0.04
+frames_per_second = 50
+"""
+        self.assert_holds(self.simulate(self.write("own.toml", cloth + ball)))
+        with h5py.File(f"{self.out}/own.h5") as file:
+            faces = file["objects/0/triangles"][:] + 1
+        for form in FORMS:
+            out = self.path / form
+            run("export", f"{self.out}/own.h5", "--format", form, "--out", out)
+            for other in [*out.glob("own.*")]:
+                other.unlink()  # the cloth's
+            frames = form if form in ("obj", "ply") else f"{form}/own-object-0.{form}"
+            keys = f'frames = "{frames}"\ncells = 8\n'
+            if form == "pc2":
+                text = "v 0 0 0\n" * (faces.max() - 1) + "v 1 1 1\n"
+                self.write("b.obj", text + "".join(f"f {a} {b} {c}\n" for a, b, c in faces))
+                keys += 'mesh = "b.obj"\n'
+            if form not in ("npz", "usda"):
+                keys += "interval = 0.02\n"
+            text = cloth + "[[object]]\n" + keys
+            self.assert_holds(self.simulate(self.write(f"{form}.toml", text)))
+            read = [h5py.File(f"{self.out}/{name}.h5")["objects/0/positions"][:]
+                    for name in ("own", form)]
+            np.testing.assert_allclose(*read, atol=1e-7)
 
 
 if __name__ == "__main__":

@@ -58,8 +58,7 @@ ClothDistance summary_of(const PerParticle& distances, const PerParticle& weight
   Worst worst;
   for (const double distance : distances) worst.observe(distance);
   const PerParticle squares = distances.array().square();
-  return {std::sqrt(squares.mean()), worst.value(),
-          std::sqrt(squares.dot(weights) / weights.sum())};
+  return {std::sqrt(squares.dot(weights) / weights.sum()), worst.value()};
 }
 
 ClothDistance surface_distance(const PerParticle3& a, const std::vector<Triangle>& a_triangles,
@@ -70,6 +69,12 @@ ClothDistance surface_distance(const PerParticle3& a, const std::vector<Triangle
   both << to_b, to_a;
   areas << areas_of_vertices(a, a_triangles), areas_of_vertices(b.x, b.triangles);
   return summary_of(both, areas);
+}
+
+ClothDistance distance_of_points(const PerParticle3& x, const std::vector<Triangle>& triangles,
+                                 const PerParticle3& points) {
+  return summary_of(distances_to(make_mesh_distance(x, triangles), points),
+                    PerParticle::Ones(points.cols()));
 }
 
 double deepest(std::span<const Object> objects, double time, const PerParticle3& x) {
@@ -91,8 +96,8 @@ FoldSpectrum folds_of(const TimedMesh& mesh) {
   }
 }
 
-long crossings_of(const PerParticle3& x, const std::vector<Triangle>& triangles) {
-  return long(oracles::exact_crossings(x, triangles).size());
+double crossings_of(const PerParticle3& x, const std::vector<Triangle>& triangles) {
+  return double(oracles::exact_crossings(x, triangles).size());
 }
 
 ClothShape shape_of_particles(const ComparedRun& run, double time, const PerParticle3& x) {
@@ -103,22 +108,14 @@ ClothShape shape_of_particles(const ComparedRun& run, double time, const PerPart
 }
 
 Table numbers_over_time(const std::vector<FrameComparison>& frames) {
-  Table rows{{"time", "s"},
-             {"rms distance", "m"},
-             {"largest distance", "m"},
-             {"weighted rms", "m"},
-             {"stretch, run", "J"},
-             {"stretch, frame", "J"},
-             {"bending, run", "J"},
-             {"bending, frame", "J"},
-             {"crossings, run", "pairs"},
-             {"crossings, frame", "pairs"},
-             {"depth, run", "m"},
-             {"depth, frame", "m"}};
+  Table rows{{"time", "s"},           {"rms distance", "m"},       {"largest distance", "m"},
+             {"stretch, run", "J"},   {"stretch, frame", "J"},     {"bending, run", "J"},
+             {"bending, frame", "J"}, {"crossings, run", "pairs"}, {"crossings, frame", "pairs"},
+             {"depth, run", "m"},     {"depth, frame", "m"}};
   for (const FrameComparison& f : frames)
-    rows.row(f.time, f.distance.rms, f.distance.largest, f.distance.weighted, f.run.stretch,
-             f.frame.stretch, f.run.bending, f.frame.bending, f.run.crossings, f.frame.crossings,
-             f.run.depth, f.frame.depth);
+    rows.row(f.time, f.distance.rms, f.distance.largest, f.run.stretch, f.frame.stretch,
+             f.run.bending, f.frame.bending, f.run.crossings, f.frame.crossings, f.run.depth,
+             f.frame.depth);
   return {"numbers", "The run and the frames, over time", rows};
 }
 
@@ -133,20 +130,32 @@ Table folds_over_time(const std::vector<FrameComparison>& frames) {
 }  // namespace
 
 std::string_view name_of(Matching matching) {
-  return matching == Matching::particles ? "vertex by vertex" : "by nearest points";
+  return matching == Matching::particles ? "vertex by vertex"
+         : matching == Matching::surface ? "by nearest points"
+                                         : "one-sided, points to the run's surface";
+}
+
+bool has_faces(Eigen::Index vertices, const std::vector<Triangle>& triangles,
+               std::span<const TimedMesh> frames) {
+  const std::vector<Triangle> faces = sorted_faces(triangles);
+  for (const TimedMesh& frame : frames)
+    if (frame.x.cols() != vertices || sorted_faces(frame.triangles) != faces) return false;
+  return true;
 }
 
 Matching matching_of(const TriangleMesh& cloth, std::span<const TimedMesh> frames) {
-  const std::vector<Triangle> faces = sorted_faces(cloth.triangles);
   for (const TimedMesh& frame : frames)
-    if (frame.x.cols() != cloth.rest.cols() || sorted_faces(frame.triangles) != faces)
-      return Matching::surface;
-  return Matching::particles;
+    if (frame.triangles.empty()) return Matching::points;
+  return has_faces(cloth.rest.cols(), cloth.triangles, frames) ? Matching::particles
+                                                               : Matching::surface;
 }
 
 std::string mesh_difference(const TriangleMesh& cloth, std::span<const TimedMesh> frames) {
   const std::vector<Triangle> faces = sorted_faces(cloth.triangles);
   for (const TimedMesh& frame : frames) {
+    if (frame.triangles.empty())
+      return fmt::format("{} has {} points without faces, the case {} vertices", frame.file,
+                         frame.x.cols(), cloth.rest.cols());
     if (frame.x.cols() != cloth.rest.cols())
       return fmt::format("{} has {} vertices, the case {}", frame.file, frame.x.cols(),
                          cloth.rest.cols());
@@ -179,6 +188,13 @@ FrameComparison compare_frame(const ComparedRun& run, const State& at, const Tim
     c.frame = shape_of_particles(run, at.time, frame.x);
     return c;
   }
+  if (run.matching == Matching::points) {
+    FoldSpectrum none;
+    none.fill(nan);
+    c.distance = distance_of_points(at.x, triangles, frame.x);
+    c.frame = {nan, nan, none, nan, deepest(run.built.objects, at.time, frame.x)};
+    return c;
+  }
   c.distance = surface_distance(at.x, triangles, frame);
   c.frame = {nan, nan, folds_of(frame), crossings_of(frame.x, frame.triangles),
              deepest(run.built.objects, at.time, frame.x)};
@@ -198,8 +214,7 @@ ComparisonEvidence evidence_of(const std::vector<FrameComparison>& frames, Match
   evidence.figures.push_back(
       over_time("distance", "Distance of the frames from the run", {"distance", "m", Scale::linear},
                 "Compared " + std::string(name_of(matching)) + ".",
-                {curve("root mean square", "rms distance"), curve("largest", "largest distance"),
-                 curve("weighted with masses or areas", "weighted rms")}));
+                {curve("root mean square", "rms distance"), curve("largest", "largest distance")}));
   if (matching == Matching::particles)
     evidence.figures.push_back(over_time(
         "energies", "Energies of the shapes", {"energy", "J", Scale::linear},

@@ -13,22 +13,28 @@ namespace foldproof {
 
 /// One frame of the other cloth.
 struct TimedMesh {
-  std::string file;  // that it was read from, for messages
-  double time;       // s
-  PerParticle3 x;    // 3 x N [m]
-  std::vector<Triangle> triangles;
+  std::string file;                 // that it was read from, for messages
+  double time;                      // s
+  PerParticle3 x;                   // 3 x N [m]
+  std::vector<Triangle> triangles;  // empty: points alone
 };
 
 /// How a frame's vertices are matched to the run's particles.
 enum class Matching {
   particles,  // as many, and the same triangles: vertex i is particle i
-  surface     // another mesh of the cloth: nearest points of the surfaces are compared
+  surface,    // another mesh of the cloth: nearest points of the surfaces are compared
+  points      // points without triangles: one-sided, to the run's surface
 };
 
-std::string_view name_of(Matching matching);  // "vertex by vertex", "by nearest points"
+// "vertex by vertex", "by nearest points", "one-sided, points to the run's surface"
+std::string_view name_of(Matching matching);
 
-/// particles if every frame has the cloth's particles and triangles, in any order of the triangles
-/// and of their corners.
+/// Whether every frame has as many vertices and these triangles, in any order of the triangles and
+/// of their corners.
+bool has_faces(Eigen::Index vertices, const std::vector<Triangle>& triangles,
+               std::span<const TimedMesh> frames);
+
+/// particles if every frame has the cloth's particles and triangles; points if one has no triangle.
 Matching matching_of(const TriangleMesh& cloth, std::span<const TimedMesh> frames);
 
 /// Why vertices are no particles: the first frame, and its first triangle, that differ from the
@@ -43,17 +49,17 @@ State state_between(const State& a, const State& b, double t);
 struct ClothShape {
   double stretch, bending;  // energies by the run's own forces [J]; NaN of another mesh
   FoldSpectrum folds;       // NaN of what is no oriented manifold
-  long crossings;           // pairs of an edge and a triangle that meet, decided exactly
+  double crossings;         // pairs of an edge and a triangle that meet, decided exactly; or NaN
   double depth;             // of the deepest vertex inside an object of the run [m]; 0: none is
 };
 
 /// Distances of two cloths. Vertex by vertex: of each particle. By nearest points: of each vertex
-/// of either mesh to the surface of the other.
+/// of either mesh to the surface of the other. One-sided: of each point to the run's surface.
 struct ClothDistance {
-  double rms, largest;  // m
-  // root mean square, each particle weighted with its mass; by nearest points, each vertex with a
-  // third of its triangles' areas [m]
-  double weighted;
+  // root mean square [m], each vertex weighted with a third of its triangles' areas, a particle
+  // with those at rest: it belongs to the surfaces, not to their meshes; points count alike
+  double rms;
+  double largest;  // m
 };
 
 struct FrameComparison {

@@ -49,7 +49,7 @@ void require_sound_start(const FrameMotion& motion) {
 double FrameMotion::rounding() const {
   double largest = 0;  // m
   for (const TimedMesh& frame : frames) largest = std::max(largest, frame.x.cwiseAbs().maxCoeff());
-  return 0.5e-5 * largest;
+  return std::max(0.5e-5 * largest, 0.5e-6);
 }
 
 FrameMotion motion_of(const Case& of, const BuiltScene& built, std::span<const TimedMesh> frames) {

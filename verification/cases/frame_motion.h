@@ -19,7 +19,8 @@ struct FrameMotion {
   std::span<const TimedMesh> frames;  // at least one, ascending in time
   std::vector<State> states;  // with velocities of differences; empty where matching is `surface`
 
-  /// Half a unit of the sixth digit of the largest coordinate: files may have no more [m].
+  /// Half a unit of the sixth digit of the largest coordinate, or of the sixth decimal if that is
+  /// more: files may have no more [m].
   double rounding() const;
 };
 

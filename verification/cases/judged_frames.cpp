@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 
 #include "verification/cases/judge.h"
@@ -34,13 +35,35 @@ std::string why_not_asked(const Expectation& expectation, Matching matching) {
   return "";
 }
 
-Case asked_of_frames(const Case& of, Matching matching) {
-  Case asked = of;
+/// By how much rounding of the files may change a quantity, in its unit: a vertex moves by up to e,
+/// an edge changes by up to 2 e, a hinge turns by up to 2 e over the heights of its triangles.
+double rounding_of(const Quantity& quantity, const FrameMotion& motion) {
+  const TriangleMesh& mesh = motion.of.scene.mesh;
+  const double e = std::sqrt(3.0) * motion.rounding();
+  const std::string_view unit = quantity.unit;
+  if (unit == "m") return 2 * e;  // a depth in a level set rises by up to 2 along its normal
+  if (unit == "1") return 2 * e / rest_lengths(mesh).minCoeff();
+  if (unit == "degrees") return 8 * e / smallest_height(mesh.triangles, mesh.rest) * 180 / pi;
+  return 0;
+}
+
+void allow_for_rounding(Expectation& expectation, const FrameMotion& motion) {
+  const Quantity& quantity = *find_quantity(expectation.key);
+  if (quantity.of_run || !expectation.not_asked.empty()) return;
+  const double rounding = rounding_of(quantity, motion);
+  expectation.bound += quantity.sense == Sense::at_most ? rounding : -rounding;
+  if (rounding > 0) expectation.why += "; rounding of files of six digits is allowed for";
+}
+
+Case asked_of_frames(const FrameMotion& motion) {
+  Case asked = motion.of;
   std::erase_if(asked.expectations, [](const Expectation& expectation) {
     return is_among(judged_by_laws, expectation.key);
   });
-  for (Expectation& expectation : asked.expectations)
-    expectation.not_asked = why_not_asked(expectation, matching);
+  for (Expectation& expectation : asked.expectations) {
+    expectation.not_asked = why_not_asked(expectation, motion.matching);
+    allow_for_rounding(expectation, motion);
+  }
   return asked;
 }
 
@@ -77,7 +100,7 @@ Diagnostics diagnostics_of(const FrameMotion& motion, const State& state) {
 }
 
 std::vector<Record> judge_expectations(const FrameMotion& motion) {
-  const Case asked = asked_of_frames(motion.of, motion.matching);
+  const Case asked = asked_of_frames(motion);
   CaseJudge case_judge(asked, motion.built.objects, {});
   RunResult result;
   for (const State& state : motion.states) {

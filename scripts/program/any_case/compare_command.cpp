@@ -14,7 +14,7 @@
 #include "scripts/program/json_text.h"
 #include "scripts/program/provenance.h"
 #include "scripts/program/run_case.h"
-#include "verification/cases/frame_comparison.h"
+#include "verification/cases/frames_of_case.h"
 #include "verification/files/results_file.h"
 #include "verification/files/stored_run_file.h"
 
@@ -27,6 +27,7 @@ struct Comparison {
   Matching matching = Matching::particles;
   std::vector<FrameComparison> frames;
   std::size_t left_out = 0;  // frames before the run's first or after its last
+  std::string seams = {};    // as CaseFrames::seams
 };
 
 /// The run's state at t, which lies between its first and its last frame [s].
@@ -34,6 +35,29 @@ State state_at(const StoredRun& run, double t) {
   const auto after = std::ranges::upper_bound(run.times, t);
   const std::size_t next = std::min(std::size_t(after - run.times.begin()), run.times.size() - 1);
   return next == 0 ? run.frame(0) : state_between(run.frame(next - 1), run.frame(next), t);
+}
+
+/// The frames of another stored run.
+std::vector<TimedMesh> frames_of_run(const Options& options) {
+  if (options.rate > 0 || !options.times.empty())
+    throw InputError(options.frames +
+                     ": a stored run knows its times; leave out --rate and --times");
+  const StoredFrames run = read_stored_frames(options.frames);
+  std::vector<TimedMesh> frames;
+  for (std::size_t k = 0; k < run.times.size(); ++k)
+    frames.push_back(
+        {fmt::format("{} frame {}", options.frames, k), run.times[k], run.frame(k), run.triangles});
+  return frames;
+}
+
+CaseFrames read_other(const Options& options, const Scene& scene) {
+  if (std::filesystem::path(options.frames).extension() == run_kind.ending) {
+    require_input(options.frames, run_kind);
+    return {frames_of_run(options), ""};
+  }
+  return frames_of_case(
+      scene,
+      read_frames(options.frames, {options.times, options.rate, options.first_time}, scene.name));
 }
 
 /// Takes out the frames outside of the run; times that round to its ends count.
@@ -52,9 +76,10 @@ std::size_t leave_out(const StoredRun& run, std::vector<TimedMesh>& frames) {
 Comparison compared(const Options& options) {
   const StoredRun run = read_stored_run(options.file);
   if (run.times.empty()) throw InputError(options.file + ": holds no frame");
-  std::vector<TimedMesh> frames = read_frames(
-      options.frames, {options.times, options.rate, options.first_time}, run.scene.name);
-  Comparison comparison{run.scene.name, Matching::particles, {}, leave_out(run, frames)};
+  CaseFrames other = read_other(options, run.scene);
+  std::vector<TimedMesh>& frames = other.frames;
+  Comparison comparison{
+      run.scene.name, Matching::particles, {}, leave_out(run, frames), other.seams};
   comparison.matching = matching_of(run.scene.mesh, frames);
   const BuiltScene built =
       build(run.scene, provider_for(options.cache, threads_of(options.running)));
@@ -78,21 +103,23 @@ std::string in_words(const Comparison& c) {
                          c.left_out == 1 ? "" : "s");
   if (c.matching == Matching::surface)
     words += "; another mesh than the run's, so its energies are not known";
+  if (c.matching == Matching::points)
+    words += "; points have no surface, so what of the run they leave out is not measured";
+  if (!c.seams.empty()) words += "; " + c.seams;
   return words;
 }
 
 void print(const Comparison& c) {
-  fmt::print("{:>8} {:>9} {:>9} {:>9} {:>21} {:>21} {:>11} {:>19}\n", "time", "rms", "largest",
-             "weighted", "stretch", "bending", "crossings", "depth");
-  fmt::print("{:>8} {:>9} {:>9} {:>9} {:>21} {:>21} {:>11} {:>19}\n", "s", "m", "m", "m",
-             "run / frame, J", "run / frame, J", "run / frame", "run / frame, m");
+  fmt::print("{:>8} {:>9} {:>9} {:>21} {:>21} {:>11} {:>19}\n", "time", "rms", "largest", "stretch",
+             "bending", "crossings", "depth");
+  fmt::print("{:>8} {:>9} {:>9} {:>21} {:>21} {:>11} {:>19}\n", "s", "m", "m", "run / frame, J",
+             "run / frame, J", "run / frame", "run / frame, m");
   for (const FrameComparison& f : c.frames)
     fmt::print(
-        "{:>8.4g} {:>9.3g} {:>9.3g} {:>9.3g} {:>10.3g} {:>10.3g} {:>10.3g} {:>10.3g} {:>5} {:>5} "
-        "{:>9.3g} {:>9.3g}\n",
-        f.time, f.distance.rms, f.distance.largest, f.distance.weighted, f.run.stretch,
-        f.frame.stretch, f.run.bending, f.frame.bending, f.run.crossings, f.frame.crossings,
-        f.run.depth, f.frame.depth);
+        "{:>8.4g} {:>9.3g} {:>9.3g} {:>10.3g} {:>10.3g} {:>10.3g} {:>10.3g} {:>5} {:>5} {:>9.3g} "
+        "{:>9.3g}\n",
+        f.time, f.distance.rms, f.distance.largest, f.run.stretch, f.frame.stretch, f.run.bending,
+        f.frame.bending, f.run.crossings, f.frame.crossings, f.run.depth, f.frame.depth);
   fmt::print("\n{:<20} {:>10} {:>10}   at t = {:.4g} s\n", "folds", "run", "frame",
              c.frames.back().time);
   for (std::size_t b = 0; b < c.frames.back().run.folds.size(); ++b)
@@ -105,7 +132,8 @@ nlohmann::json to_json(const ClothShape& shape) {
   return {{"stretch", shape.stretch},
           {"bending", shape.bending},
           {"folds", shape.folds},
-          {"crossings", shape.crossings},
+          {"crossings",
+           std::isnan(shape.crossings) ? nlohmann::json() : nlohmann::json(long(shape.crossings))},
           {"depth", shape.depth}};
 }
 
@@ -122,7 +150,6 @@ nlohmann::json to_json(const Comparison& c) {
                               {"time", f.time},
                               {"rms", f.distance.rms},
                               {"largest", f.distance.largest},
-                              {"weighted", f.distance.weighted},
                               {"run", to_json(f.run)},
                               {"frame", to_json(f.frame)}});
   return told;
@@ -165,13 +192,17 @@ namespace {
 
 constexpr const char* below_compare =
     R"(Frames that have the run's vertices and triangles are compared vertex by vertex, other meshes by
-the nearest points of both surfaces. Prints for each frame: distances, energies of stretching and
+the nearest points of both surfaces, and points without faces one-sided, by their distances from the
+run's surface. The root mean square weights each vertex with a third of the areas around it, so that
+it belongs to the surfaces, not to their meshes. FRAMES is a folder, a cache of all frames (.pc2,
+.npz, .usda), or another stored run, OTHER.h5. Prints for each frame: distances, energies of stretching and
 bending computed with the run's forces, the distribution of fold angles, self-crossing pairs, and
 the depth in the run's objects. Between two frames of the run, its cloth is interpolated from
 positions and velocities.
 
 Examples:
   foldproof compare results/grab.h5 captured --rate 60 --start 0.5
+  foldproof compare results/grab.h5 finer/grab.h5
   foldproof compare results/grab.h5 frames --out mine && foldproof report mine
 
 Exit codes:
@@ -187,7 +218,8 @@ void add_compare_command(CLI::App& app, Program& program) {
        below_compare},
       compare_frames);
   add_input(compare, "RUN.h5", options.file, "Run stored by `foldproof simulate`");
-  add_input(compare, "FRAMES", options.frames, "Folder of OBJ or PLY files, one a frame [m]");
+  add_input(compare, "FRAMES", options.frames,
+            "Folder of OBJ or PLY files, one a frame [m]; a cache; or another run");
   add_frame_times(compare, options);
   add_cache(compare, options);
   add_out_if_typed(compare, options, "Also write run.h5 into this folder, for `foldproof report`");

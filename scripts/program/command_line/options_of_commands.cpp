@@ -59,11 +59,12 @@ void add_cache(CLI::App* command, Options& options) {
 
 std::vector<CLI::Option*> add_frame_times(CLI::App* command, Options& options) {
   CLI::Option* times = command->add_option("--times", options.times,
-                                           "Times of the frames [s], one a line (default: "
-                                           "times.txt in the folder, or what PLY files say)");
+                                           "Times of the frames [s], one a line (default: what "
+                                           "a cache says, times.txt beside the frames, or what PLY "
+                                           "files say)");
   times->type_name("FILE")->check(some_text("a file of times"));
-  CLI::Option* rate =
-      command->add_option("--rate", options.rate, "Frames a second; no number may be missing");
+  CLI::Option* rate = command->add_option("--rate", options.rate,
+                                          "Frames a second; no number of a file may be missing");
   rate->type_name("FPS")->check(positive_number())->excludes(times);
   CLI::Option* start =
       command->add_option("--start", options.first_time, "Time of the first frame [s]");

@@ -9,7 +9,7 @@ namespace foldproof {
 namespace {
 
 struct ExportOptions : Options {
-  std::string format;  // obj, ply or xdmf
+  std::string format;  // obj, ply, pc2, npz, usda or xdmf
 };
 
 int export_frames(const ExportOptions& options) {
@@ -20,11 +20,14 @@ int export_frames(const ExportOptions& options) {
 }
 
 constexpr const char* below_export =
-    R"(Lengths are in metres, in world coordinates; each object has files of its own.
+    R"(Lengths are in metres, in world coordinates; each object has files of its own. obj and ply are one
+file a frame; pc2, npz and usda (USD as text) hold all frames. `judge --frames`, `compare` and the
+key `frames` of an [[object]] read all but xdmf back. obj and pc2 have no times: times.txt has them.
 Needs the Debian packages python3-h5py and python3-numpy.
 
 Examples:
   foldproof export results/grab.h5 --format ply --out frames
+  foldproof export results/grab.h5 --format usda --out blender
   foldproof export results/grab.h5 --format xdmf --out paraview
 
 Exit codes:
@@ -39,9 +42,9 @@ void add_export_command(CLI::App& app, Program& program) {
       {"export", "Write the frames of a stored run as files for other programs", below_export},
       export_frames);
   add_input(files, "RUN.h5", options.file, "Run stored by `foldproof simulate`");
-  files->add_option("--format", options.format, "obj, ply or xdmf")
+  files->add_option("--format", options.format, "obj, ply, pc2, npz, usda or xdmf")
       ->type_name("FORMAT")
-      ->check(one_of({"obj", "ply", "xdmf"}))
+      ->check(one_of({"obj", "ply", "pc2", "npz", "usda", "xdmf"}))
       ->required();
   add_folder(files, options, "Folder for the files")->required();
 }

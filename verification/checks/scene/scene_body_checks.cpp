@@ -264,8 +264,8 @@ std::vector<RejectedCase> rejections(const ScratchFolder& folder) {
           {frames + "mesh = \"ball.obj\"\n", {"and not both"}},
           {frames + "interval = -1\n", {"'interval' must be > 0"}},
           {"[[object]]\nframes = \"" + too_many_frames(folder) + "\"\n",
-           {"1001 *.obj files", "at most 1000"}},
-          {"[[object]]\nframes = \"nowhere\"\n", {"no folder with"}}};
+           {"1001 frames", "at most 1000"}},
+          {"[[object]]\nframes = \"nowhere\"\n", {"no such folder"}}};
 }
 
 Finding rejection_finding() {

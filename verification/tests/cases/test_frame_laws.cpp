@@ -161,7 +161,7 @@ TEST_CASE("laws of frames: depths in objects are bounded by the case, or by the 
     CHECK(depths[1] == 0);
     CHECK(depths[2] == exactly(0.02));  // of vertex 5, straight above the ball
     CHECK(finding.verdict.measured == exactly(0.08));
-    CHECK(finding.verdict.bound == exactly(bound + rounding_of(cloth.frames)));
+    CHECK(finding.verdict.bound == exactly(bound + 2 * rounding_of(cloth.frames)));
     CHECK_THAT(finding.verdict.why_bound, StartsWith(expected.empty() ? "empirical" : "of the"));
   }
 }
@@ -251,6 +251,9 @@ TEST_CASE("folds: a jump is as uncertain as the other hinges are fast, and the c
   // the larger jump comes with a faster turn, before or after the smaller one
   check_fold(folds({{170, 10}, {-170, 130}, {-120, 130}, {120, 138}}), 240, 8, Outcome::fails);
   check_fold(folds({{-120, 130}, {120, 138}, {170, 10}, {-170, 130}}), 240, 8, Outcome::fails);
+  // one that goes on as it turned before and turns afterwards only looks like a jump
+  check_fold(folds({{173, 0}, {106, 0}, {-78, 0}, {-89, 9}}), 67, 0, Outcome::holds);
+  check_fold(folds({{-30, 0}, {106, 0}, {-78, 0}, {-9, 9}}), 184, 0, Outcome::fails);
   // a jump hardly larger than the other hinge's turn says nothing
   check_fold(folds({{-100, -90}, {80.4, 89.9}}), 180.4, 179.9, Outcome::inconclusive);
 }

@@ -126,6 +126,20 @@ TEST_CASE("judged frames: files of six digits raise no alarm") {
   }
 }
 
+TEST_CASE("judged frames: bounds of the case allow for six decimals, also of a small cloth") {
+  const std::string still = R"(time = { end = 0.1, frames_per_second = 50 }
+cloth = { shape = "sheet", width = 0.0412345678, height = 0.03, columns = 3, rows = 2, density = 1 }
+expect = { keeps_its_place = { at_most = 1e-12, why = "still" } }
+)";
+  Frames frames(still);
+  const auto place = "case.trial.keeps-its-place";
+  frames.each([](TimedMesh& frame) { frame.x = (frame.x.array() * 1e6).round() / 1e6; });
+  CHECK(frames.frames[0].x != frames.of.scene.x);
+  CHECK(frames.failing() == Names{});
+  CHECK(frames.each([](TimedMesh& frame) { frame.x.row(0).array() += 4e-6; }).outcome_of(place) ==
+        Outcome::fails);
+}
+
 TEST_CASE("judged frames: wrong units, order and times are told from a wrong motion") {
   Frames units(falling), order(falling), early(falling);
   units.each([](TimedMesh& frame) { frame.x *= 1.02; });
