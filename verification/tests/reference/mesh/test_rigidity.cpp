@@ -138,3 +138,15 @@ TEST_CASE(
     CHECK((plane.second - second).norm() < 1e-14);
   }
 }
+
+TEST_CASE("a pattern of springs has its own Young's modulus") {
+  for (const auto& [pattern, modulus] :
+       std::vector<std::pair<SheetPattern, double>>{{SheetPattern::criss_cross, 0.75},
+                                                    {SheetPattern::union_jack, 1.2},
+                                                    {SheetPattern::equilateral, 1}}) {
+    const TriangleMesh mesh = make_sheet({pattern, 1, 1, 60, 60});
+    RestPlane plane;
+    REQUIRE(is_flat(mesh, plane));
+    CHECK(membrane_of(mesh, plane).of_strip(0) == Approx(modulus).epsilon(0.02));
+  }
+}
