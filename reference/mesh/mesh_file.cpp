@@ -54,8 +54,11 @@ std::vector<int> FaceList::cut_into(TriangleSoup& soup, int first_vertex) const 
     const std::vector<Triangle> cut = triangles_of_polygon(corners, soup.rest);
     if (cut.empty())
       reject("a polygon of " + std::to_string(corners.size()) +
-             " corners whose sides cross, or a concave one with more than " +
-             std::to_string(most_concave_corners) + "; cut it into triangles");
+             (int(corners.size()) > most_concave_corners
+                  ? " corners that is not convex; so many are cut"
+                    " only if it is"
+                  : " corners whose sides cross") +
+             "; cut it into triangles");
     for (const Triangle& triangle : cut) {
       soup.triangles.push_back(triangle);
       face_of_triangle.push_back(int(f));

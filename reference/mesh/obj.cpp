@@ -107,11 +107,12 @@ void read_vertex(Cursor& cursor, Contents& contents) {
   contents.vertex_lines.push_back(line);
 }
 
-/// Takes an integer off the front of the word.
-std::optional<int> take_index(std::string_view& word) {
+/// Takes an integer off the front of the word. is_beyond: it is one, but of no int.
+std::optional<int> take_index(std::string_view& word, bool& is_beyond) {
   int index = 0;
   const std::from_chars_result result =
       std::from_chars(word.data(), word.data() + word.size(), index);
+  is_beyond = result.ec == std::errc::result_out_of_range;
   if (result.ec != std::errc()) return std::nullopt;
   word.remove_prefix(size_t(result.ptr - word.data()));
   return index;
@@ -120,8 +121,9 @@ std::optional<int> take_index(std::string_view& word) {
 /// Valid suffixes of a vertex index: up to two slashes, each with an index behind it or without.
 bool ends_well(std::string_view rest) {
   for (int slashes = 0; slashes < 2 && rest.starts_with('/'); ++slashes) {
+    bool is_beyond = false;  // of no interest: textures and normals are ignored
     rest.remove_prefix(1);
-    take_index(rest);
+    take_index(rest, is_beyond);
   }
   return rest.empty();
 }
@@ -129,7 +131,12 @@ bool ends_well(std::string_view rest) {
 /// The vertex of a corner, counted from 0. vertices: number of vertices so far.
 int vertex_index(const Cursor& cursor, std::string_view word, size_t vertices) {
   std::string_view rest = word;
-  const std::optional<int> taken = take_index(rest);
+  bool is_beyond = false;
+  const std::optional<int> taken = take_index(rest, is_beyond);
+  if (is_beyond)
+    reject(cursor.file, cursor.line,
+           "index " + std::string(word) + " is out of range; " + std::to_string(vertices) +
+               " vertices come before this face");
   if (!taken || !ends_well(rest)) {
     reject(cursor.file, cursor.line,
            quote(word) + " is no corner of a face; write a, a/b, a//c or a/b/c");
@@ -198,7 +205,12 @@ Contents contents_of(std::string_view text, const std::string& file, Needs needs
     skip_rest_of_record(cursor);
   }
   if (contents.faces.empty() && (needs == Needs::faces || contents.vertices.empty()))
-    reject(file, cursor.line - 1, "the file ends without a face; give f records");
+    reject(
+        file, cursor.line - 1,
+        contents.vertices.empty()
+            ? "the file ends without a record v or f; give an OBJ file, or PLY, which begins with "
+              "the line 'ply'"
+            : "the file ends without a face; give f records");
   return contents;
 }
 

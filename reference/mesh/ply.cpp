@@ -233,7 +233,10 @@ double next_number(Reader& reader, Type type) {
   const std::string_view word = next_word(reader);
   double value = 0;
   if (word.empty()) reject(reader, "the file ends before its last element; write it anew");
-  if (!is_number(word, value)) reject(reader, quote(word) + " is not a number");
+  const std::errc error = read_number(word, value);
+  if (error == std::errc::result_out_of_range)
+    reject(reader, quote(word) + " does not fit a double");
+  if (error != std::errc()) reject(reader, quote(word) + " is not a number");
   return value;
 }
 
@@ -335,6 +338,12 @@ void read_element_data(Reader& reader, const Element& element, TriangleSoup& sou
         skip(reader, property);
 }
 
+/// Data behind the last element are elements that the header does not count.
+void require_end(Reader& reader) {
+  if (!next_word(reader).empty())
+    reject(reader, "data behind the last element; the counts of the header do not fit");
+}
+
 }  // namespace
 
 MeshFile read_ply_text(std::string_view text, const std::string& file, Needs needs) {
@@ -348,8 +357,9 @@ MeshFile read_ply_text(std::string_view text, const std::string& file, Needs nee
   FaceList faces;
   for (const Element& element : header.elements)
     read_element_data(reader, element, mesh.soup, faces);
+  require_end(reader);
   if (faces.empty() && needs == Needs::faces)
-    reject(reader, "the file has no face; give a mesh of triangles");
+    reject(reader, "the file has no face; give them as a property list vertex_indices of face");
   if (mesh.soup.rest.cols() == 0) reject(reader, "the file has no vertex; give a mesh or points");
   faces.cut_into(mesh.soup, 0);
   return mesh;

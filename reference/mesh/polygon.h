@@ -9,7 +9,7 @@
 namespace foldproof {
 
 /// A polygon that is not convex has at most so many corners: the work grows as their cube.
-constexpr int most_concave_corners = 400;
+constexpr int most_concave_corners = 1000;
 
 /// The triangles of a polygon (at least three corners, columns of x, 3 x N [m]), oriented as it is.
 /// Seen along its area vector, half the sum of the cross products of successive corners: a polygon

@@ -93,7 +93,7 @@ std::string plain_text(std::string text, const std::string& file) {
   if (start.find('\0') != std::string_view::npos)
     throw InputError(file +
                      ":1: holds zero bytes, as UTF-16 and binary files do; give text in "
-                     "UTF-8");
+                     "UTF-8, or PLY, which begins with the line 'ply'");
   if (text.find('\n') == std::string::npos) std::ranges::replace(text, '\r', '\n');
   return text;
 }

@@ -2,6 +2,7 @@
 // any other program.
 #include <fmt/format.h>
 
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "scripts/program/command_line/options_of_commands.h"
@@ -35,8 +36,15 @@ JudgedFrame judge_frame(const std::string& file, std::size_t frame, double time,
   return {file, frame, time, oracles::exact_crossings(x, triangles)};
 }
 
+bool begins_as_hdf5(const std::string& file) {
+  std::string start(4, '\0');
+  std::ifstream(file, std::ios::binary).read(start.data(), 4);
+  return start == "\x89HDF";
+}
+
 /// Panels that are not sewn touch, which counts as crossing.
-void warn_of_open_seams(const TriangleSoup& soup) {
+void warn_of_open_seams(const TriangleSoup& all) {
+  const TriangleSoup soup = without_unused_vertices(all);
   try {
     const std::string words =
         open_seams_in_words(make_triangle_mesh(soup.rest, soup.triangles, soup.origin));
@@ -47,7 +55,7 @@ void warn_of_open_seams(const TriangleSoup& soup) {
 }
 
 void judge_file(const std::string& file, double seams, std::vector<JudgedFrame>& all) {
-  const bool is_mesh = has_ending(file, mesh_kind);
+  const bool is_mesh = !begins_as_hdf5(file) && !has_ending(file, run_kind);
   require_input(file, is_mesh ? mesh_kind : run_kind);
   if (is_mesh) {
     TriangleSoup mesh = read_mesh_file(file).soup;

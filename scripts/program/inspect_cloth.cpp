@@ -86,8 +86,8 @@ ClothInspection inspect_as_cloth(const TriangleMesh& mesh) {
   found.area = triangle_areas(mesh.triangles, mesh.rest).sum();
   found.open_seams = open_seams_in_words(mesh);
   RestPlane plane;
-  found.is_flat = is_flat(mesh, plane) && !mesh.hinges.empty();
-  if (found.is_flat) {
+  found.is_flat = is_flat(mesh, plane);
+  if (found.is_flat && !mesh.hinges.empty()) {
     const Rigidity rigidity = rigidity_of(mesh, plane), membrane = membrane_of(mesh, plane);
     for (int k = 0; k < 12; ++k) {
       found.by_direction.push_back(rigidity.along(k * std::numbers::pi / 12));
@@ -124,7 +124,7 @@ void print(const std::string& file, const TriangleMesh& mesh, const ClothInspect
   fmt::print("size {:.3g} x {:.3g} x {:.3g} m, area {:.4g} m^2\n", found.size.x(), found.size.y(),
              found.size.z(), found.area);
   if (!found.open_seams.empty()) fmt::print("{}\n", found.open_seams);
-  if (found.is_flat) {
+  if (!found.by_direction.empty()) {
     fmt::print("rigidity D/ke by direction from x: {:.4g} to {:.4g}, ratio {}\n", found.least,
                found.greatest, or_none(found.greatest / found.least, "{:.3g}"));
     fmt::print("{:>11}  {:>8}  {:>22}  {:>18}\n", "direction", "D/ke", "B/ke of a narrow strip",

@@ -57,16 +57,15 @@ TEST_CASE("an OBJ file may begin with the mark of UTF-8, and holds nothing if it
   CHECK(triangles_of("\xEF\xBB\xBF" + four + "f 2 3 4\n") == std::vector<Triangle>{{1, 2, 3}});
   CHECK(said_of("") == ":1: the file is empty; give v and f records");
   CHECK(said_of("\xEF\xBB\xBF") == ":1: the file is empty; give v and f records");
-  CHECK(said_of("\xEF\xBB\xBF\n") == ":1: the file ends without a face; give f records");
+  CHECK(said_of("\xEF\xBB\xBF\n").starts_with(":1: the file ends without a record v or f"));
 }
 
 TEST_CASE("a corner is a, a/b, a//c or a/b/c, and slashes may end it") {
   for (const std::string corner :
        {"3", "3/7", "3//7", "3/7/8", "3/-2/-9", "3//-1", "-2", "3/", "3//", "3/7/"})
     CHECK(triangles_of(four + "f 1 2 " + corner) == std::vector<Triangle>{{0, 1, 2}});
-  for (const std::string corner :
-       {"3/7/8/", "3/7/8/9", "3x", "3/x", "3//x", "3/7x", "3/7/8x", "/3", "//3", "+3", "3.", "x",
-        "3///7", "2147483648", "-2147483649", "3 /", "3-7", "3/7-8"})
+  for (const std::string corner : {"3/7/8/", "3/7/8/9", "3x", "3/x", "3//x", "3/7x", "3/7/8x", "/3",
+                                   "//3", "+3", "3.", "x", "3///7", "3 /", "3-7", "3/7-8"})
     CHECK(said_of(four + "f 1 2 " + corner) ==
           ":5: '" + (corner == "3 /" ? "/" : corner) +
               "' is no corner of a face; write a, a/b, a//c or a/b/c");
@@ -125,11 +124,13 @@ TEST_CASE("what an OBJ file says wrong is refused with its line") {
            {"v 1 \\\r\n2 \\\n\nv\n", ":1: a vertex of 2" + few},
            {"v 1 2 \\\n3e999\n", ":2: '3e999' does not fit"},
            {"v 1 2 3", ":1: " + none},
-           {"\n#", ":2: " + none},
+           {"\n#", ":2: the file ends without a record v or f"},
            {four + "f 1 2 3\nf 1 2\n", ":6: a face of 2 vertices"},
            {four + "f 1 3 2 4\n", ":5: a polygon of 4 corners whose sides cross"},
            {four + "f 1 \\\n2 \\\n x\n", ":7: 'x' is no corner of a face"},
            {four + "f 1 2 \\\n 3 4 7\n\n", ":5: index 7 is out of range; the file has 4 vertices"},
+           {four + "f 1 2 2147483648\n", ":5: index 2147483648 is out of range"},
+           {four + "f 1 2 -2147483649\n", ":5: index -2147483649 is out of range"},
            {four + "f 1 2 -0\n", ":5: index 0 in '-0'"},
            {four + "f 1 2 -2147483648\n", ":5: index -2147483648 is out of range; 4 vertices"},
            {"v 0 0 0\nf -1 -1 -2\n" + four, ":2: index -2 is out of range; 1 vertices come"},

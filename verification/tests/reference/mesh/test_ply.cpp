@@ -203,6 +203,8 @@ TEST_CASE("PLY files are refused in a line that says what is wrong") {
            {":14: '2x' is not a number", "1 2\n", {"1 2x\n"}},
            {":14: " + too_short, "1 2\n", {"1"}},
            {":14: the file has no face", "vertex_indices", {"others"}},
+           {":15: data behind the last element", "3 0 1 2\n", {"3 0 1 2\n3 0 2 3\n"}},
+           {":12: '1e400' does not fit a double", "1 1 0\n", {"1 1e400 0\n"}},
            {":8: " + too_short, whole, {vertices + "0\n" + places + "end_header\n"}},
            {":8: more than 2000000", whole, {vertices + "1\n" + places + "end_header\n"}}})
     for (const std::string& word : to) {
