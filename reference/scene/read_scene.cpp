@@ -254,7 +254,10 @@ Scene scene_from(const CaseKeys& of, const SceneLimits& limits) {
   if (const auto bending = keys.table("bending")) {
     std::optional<FabricOnMesh> on_mesh;
     if (fabric) on_mesh = fabric_on_mesh(*fabric, scene.mesh);
-    if (fabric) scene.about += (scene.about.empty() ? "" : " ") + on_mesh->report;
+    if (fabric) {
+      scene.about += (scene.about.empty() ? "" : " ") + on_mesh->report;
+      scene.notes.push_back(on_mesh->report);
+    }
     scene.bending = read_bending(*bending, on_mesh);
     scene.rest_angles = read_rest_angles(*bending, scene.mesh);
   }

@@ -93,9 +93,10 @@ int report(const CaseRun& run, const Options& options) {
   else
     fmt::print("{}{}/{}: t = {:.6g} s in {} steps{}, {:.1f} s\n", listing(expected), options.out,
                run.record.file, run.result.last.time, run.result.steps,
-               work.solves > 0 ? fmt::format(", {:.2f} CG iterations a solve",
-                                             double(work.cg_iterations) / double(work.solves))
-                               : "",
+               work.cg_iterations > 0
+                   ? fmt::format(", {:.2f} CG iterations a solve",
+                                 double(work.cg_iterations) / double(work.solves))
+                   : "",
                run.record.seconds);
   if (work.unfinished_solves > 0)
     log_line(fmt::format("warning: {} of {} solves hit the cap on iterations",
