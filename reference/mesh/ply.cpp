@@ -357,9 +357,9 @@ MeshFile read_ply_text(std::string_view text, const std::string& file, Needs nee
   FaceList faces;
   for (const Element& element : header.elements)
     read_element_data(reader, element, mesh.soup, faces);
-  require_end(reader);
   if (faces.empty() && needs == Needs::faces)
     reject(reader, "the file has no face; give them as a property list vertex_indices of face");
+  require_end(reader);
   if (mesh.soup.rest.cols() == 0) reject(reader, "the file has no vertex; give a mesh or points");
   faces.cut_into(mesh.soup, 0);
   return mesh;

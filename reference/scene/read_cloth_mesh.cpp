@@ -52,17 +52,17 @@ TriangleMesh read_sheet(const KeyTable& keys, const SceneLimits& limits) {
   // at most three in the other patterns
   const double in_a_cell = sheet.pattern == SheetPattern::criss_cross ? 4 : 3;
   reject_many_triangles(keys, "columns", in_a_cell * sheet.columns * sheet.rows, limits);
+  sheet.jitter = keys.number_or("jitter", 0);
+  const long seed = keys.integer_or("seed", 1);
+  if (!(seed >= 0 && seed <= 4294967295))
+    throw InputError(keys.where("seed") + ": 'seed' must lie in 0 .. 4294967295");
+  sheet.seed = unsigned(seed);
   const bool is_jittered = sheet.pattern == SheetPattern::jittered;
   for (const char* key : {"jitter", "seed"})
     if (keys.has(key) && !is_jittered &&
         (key[0] == 'j' || sheet.pattern != SheetPattern::random_delaunay))
       throw InputError(keys.where(key) + ": '" + key + "' changes nothing in this pattern; give " +
                        "pattern = \"jittered\", or leave it out");
-  sheet.jitter = keys.number_or("jitter", 0);
-  const long seed = keys.integer_or("seed", 1);
-  if (!(seed >= 0 && seed <= 4294967295))
-    throw InputError(keys.where("seed") + ": 'seed' must lie in 0 .. 4294967295");
-  sheet.seed = unsigned(seed);
   sheet.grading = keys.number_or("grading", 1);
   return make_sheet(sheet);
 }

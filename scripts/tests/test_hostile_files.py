@@ -165,7 +165,7 @@ class Limits(FileTest):
         self.assert_soon("inspect", self.write("groups.obj", f"g {names}\n{TRIANGLES}"),
                          "groups.obj:1", "16 names of groups")
         mesh = self.long_file("endless.obj", b"1.0 " * 10, 2_500_000, b"\n")
-        self.assert_soon("inspect", mesh, "endless.obj:2", "65536 bytes")
+        self.assert_soon("inspect", mesh, "endless.obj", "without a record v or f")
         table = self.path / "endless.csv"
         os.link(mesh, table)
         for kind in ("bending", "crossings --kind edge-edge"):

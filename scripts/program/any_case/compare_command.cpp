@@ -195,9 +195,9 @@ constexpr const char* below_compare =
 the nearest points of both surfaces, and points without faces one-sided, by their distances from the
 run's surface. The root mean square weights each vertex with a third of the areas around it, so that
 it belongs to the surfaces, not to their meshes. FRAMES is a folder, a cache of all frames (.pc2,
-.npz, .usda), or another stored run, OTHER.h5. Prints for each frame: distances, energies of stretching and
-bending computed with the run's forces, the distribution of fold angles, self-crossing pairs, and
-the depth in the run's objects. Between two frames of the run, its cloth is interpolated from
+.npz, .usda), or another stored run, OTHER.h5. Prints for each frame: distances, energies of
+stretching and bending computed with the run's forces, the distribution of fold angles,
+self-crossing pairs, and the depth in the run's objects. Between two frames of the run, its cloth is interpolated from
 positions and velocities.
 
 Examples:

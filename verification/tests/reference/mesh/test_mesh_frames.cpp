@@ -148,7 +148,7 @@ TEST_CASE("PC2: samples have the numbers of the header, and a wrong file is refu
 TEST_CASE("PC2: a body takes its triangles from a mesh, and times from the interval") {
   const ScratchFolder folder;
   const std::string file = folder.write("b.PC2", pc2());
-  const MeshSequence body = read_mesh_sequence({file, 0.1, {{0, 1, 1}}});
+  const MeshSequence body = read_mesh_sequence({file, 0.1, {{0, 1, 1}}, 1000, Inside::winding});
   CHECK(body.times == std::vector<double>{0, 0.2});
   CHECK(body.triangles.size() == 1);
   CHECK_THAT(complaint([&] { read_mesh_sequence({file, 0.1}); }), Contains("by 'mesh'"));
