@@ -197,8 +197,8 @@ run's surface. The root mean square weights each vertex with a third of the area
 it belongs to the surfaces, not to their meshes. FRAMES is a folder, a cache of all frames (.pc2,
 .npz, .usda), or another stored run, OTHER.h5. Prints for each frame: distances, energies of
 stretching and bending computed with the run's forces, the distribution of fold angles,
-self-crossing pairs, and the depth in the run's objects. Between two frames of the run, its cloth is interpolated from
-positions and velocities.
+self-crossing pairs, and the depth in the run's objects. Between two frames of the run, its cloth is
+interpolated from positions and velocities.
 
 Examples:
   foldproof compare results/grab.h5 captured --rate 60 --start 0.5
