@@ -186,7 +186,7 @@ std::string three_digits(double value) {
 /// body of --set.
 void note_scales(const KeyTable& keys, double of_cloth, Scene& scene) {
   const auto note = [&](const std::string& name, const KeyTable& part, double scale) {
-    if (part.has("fit"))
+    if (part.has("fit") && three_digits(scale) != "1")
       scene.notes.push_back(name + ": fit = " + three_digits(part.number("fit")) +
                             " m scales the mesh by " + three_digits(scale));
   };
