@@ -202,7 +202,6 @@ interpolated from positions and velocities.
 
 Examples:
   foldproof compare results/grab.h5 captured --rate 60 --start 0.5
-  foldproof compare results/grab.h5 finer/grab.h5
   foldproof compare results/grab.h5 frames --out mine && foldproof report mine
 
 Exit codes:
