@@ -26,7 +26,6 @@ key `frames` of an [[object]] read all but xdmf back. obj and pc2 have no times:
 Needs the Debian packages python3-h5py and python3-numpy.
 
 Examples:
-  foldproof export results/grab.h5 --format ply --out frames
   foldproof export results/grab.h5 --format usda --out blender
   foldproof export results/grab.h5 --format xdmf --out paraview
 
