@@ -17,7 +17,7 @@ struct MeshInspection {
   double volume = 0;      // if it is a solid [m^3]
   // why it cannot be repaired either; empty if it can be, or needs no repair
   std::string repair_failure;
-  std::string thin_parts;  // what the grid loses, as said by thin_parts.h; empty if nothing
+  std::string thin_parts;  // thin parts that the grid loses, in words; empty if none
   long nodes = 0;          // of the grid that a case file would get; 0 if there is none
   // nodes where ray parity contradicts the sign; nodes where its rays disagree
   long against_sign = 0, among_rays = 0;

@@ -74,7 +74,7 @@ long for_each_point(const PerParticle3& x, const std::vector<Triangle>& triangle
   for (const Triangle& t : triangles) {
     const Vector3 a = x.col(t[0]), b = x.col(t[1]) - a, c = x.col(t[2]) - a, n = b.cross(c);
     for (sum += n.norm() / 2; sum >= area; sum -= area, ++count) {
-      // a sequence that fills the square evenly, whatever its length
+      // the first n terms cover the square evenly, for every n
       double u = std::fmod(0.7548776662466927 * double(count) + 0.5, 1);
       double v = std::fmod(0.5698402909980532 * double(count) + 0.5, 1);
       if (u + v > 1) std::tie(u, v) = std::pair(1 - u, 1 - v);

@@ -22,7 +22,7 @@ struct MeshFile {
   std::optional<double> time;  // if a comment of a PLY file says "time T s", as exports do [s]
 };
 
-/// What a file must hold: points alone are a mesh without faces.
+/// Whether a file without faces, such as a scan of points, is refused.
 enum class Needs { faces, vertices };
 
 /// Reads vertices [m] and faces; all else is ignored. A file that begins with the line "ply" is

@@ -1,4 +1,4 @@
-// What the readers of mesh files share; mesh_file.h is what others include.
+// Parts that the readers of OBJ and PLY share. All other files include mesh_file.h.
 #pragma once
 
 #include <string>

@@ -55,7 +55,7 @@ OctreeSettings octree_about(const Bounds& bounds, double cell, double tolerance)
 /// half of the surface, and anything that the provider throws.
 void make_field(const FieldRecipe& recipe, const LevelSetProvider& level_sets, Body& body);
 
-/// What a grid loses of the body (bodies/thin_parts.h), in words; "" for other fields.
+/// The thin parts that a grid loses (bodies/thin_parts.h), in words; "" for other fields.
 std::string lost_parts_report(const FieldRecipe& recipe, const Body& body);
 
 /// Cells, measured error and bytes of a field built for an accuracy; "" for others.

@@ -175,42 +175,6 @@ void reject_overflow(const KeyTable& cloth, const Scene& scene) {
     throw InputError(cloth.where() + ": a particle has the mass 0, or one that is not finite");
 }
 
-std::string three_digits(double value) {
-  std::ostringstream out;
-  out.precision(3);
-  out << value;
-  return out.str();
-}
-
-/// Says by how much 'fit' scales each mesh, and warns where a 'fit' of the case parts a cloth and a
-/// body of --set.
-void note_scales(const KeyTable& keys, double of_cloth, Scene& scene) {
-  const auto note = [&](const std::string& name, const KeyTable& part, double scale) {
-    if (part.has("fit") && three_digits(scale) != "1")
-      scene.notes.push_back(name + ": fit = " + three_digits(part.number("fit")) +
-                            " m scales the mesh by " + three_digits(scale));
-  };
-  const KeyTable& cloth = *keys.table("cloth");
-  note("cloth", cloth, of_cloth);
-  for (size_t k = 0; k < scene.objects.size(); ++k) {
-    const KeyTable& object = *keys.tables("object")[k];
-    const std::string name = "object '" + scene.objects[k].object.name + "'";
-    const double scale = scene.objects[k].scale;
-    note(name, object, scale);
-    const auto is_typed = [&](const char* key) {
-      return is_override(cloth.where(key)) || is_override(object.where(key));
-    };
-    const bool are_meshes =
-        cloth.has("mesh") && !object.has("shape") && (cloth.has("fit") || object.has("fit"));
-    if (!are_meshes || !(is_typed("mesh") || is_typed("frames")) || is_typed("fit")) continue;
-    if (std::abs(scale - of_cloth) <= 1e-6 * scale) continue;
-    scene.warnings.push_back((object.has("fit") ? object : cloth).where("fit") +
-                             ": 'fit' scales the mesh of " + name + " by " + three_digits(scale) +
-                             ", that of the cloth by " + three_digits(of_cloth) +
-                             "; --set object.fit= or --set cloth.fit= unsets it");
-  }
-}
-
 /// The fabric that the cloth names, if any.
 std::optional<Fabric> read_fabric(const KeyTable& cloth, const std::string& folder) {
   if (!cloth.has("fabric")) {

@@ -62,6 +62,33 @@ std::string sizes_in_words(const Scene& scene) {
   return words;
 }
 
+void note_scales(const KeyTable& keys, double of_cloth, Scene& scene) {
+  const auto note = [&](const std::string& name, const KeyTable& part, double scale) {
+    if (part.has("fit") && digits(scale) != "1")
+      scene.notes.push_back(name + ": fit = " + digits(part.number("fit")) +
+                            " m scales the mesh by " + digits(scale));
+  };
+  const KeyTable& cloth = *keys.table("cloth");
+  note("cloth", cloth, of_cloth);
+  for (size_t k = 0; k < scene.objects.size(); ++k) {
+    const KeyTable& object = *keys.tables("object")[k];
+    const std::string name = "object '" + scene.objects[k].object.name + "'";
+    const double scale = scene.objects[k].scale;
+    note(name, object, scale);
+    const auto is_typed = [&](const char* key) {
+      return is_override(cloth.where(key)) || is_override(object.where(key));
+    };
+    const bool are_meshes =
+        cloth.has("mesh") && !object.has("shape") && (cloth.has("fit") || object.has("fit"));
+    if (!are_meshes || !(is_typed("mesh") || is_typed("frames")) || is_typed("fit")) continue;
+    if (std::abs(scale - of_cloth) <= 1e-6 * scale) continue;
+    scene.warnings.push_back((object.has("fit") ? object : cloth).where("fit") +
+                             ": 'fit' scales the mesh of " + name + " by " + digits(scale) +
+                             ", that of the cloth by " + digits(of_cloth) +
+                             "; --set object.fit= or --set cloth.fit= unsets it");
+  }
+}
+
 void warn_of_sizes(const KeyTable& cloth, Scene& scene) {
   const double length = length_of(scene.x);
   const std::string where = cloth.where(cloth.has("mesh") ? "mesh" : "shape");

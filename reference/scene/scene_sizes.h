@@ -11,6 +11,10 @@ namespace foldproof {
 /// "cloth 1 x 0.5 x 0 m, 0.5 m^2, 0.1 kg; object 'body' 0.4 x 1.7 x 0.3 m".
 std::string sizes_in_words(const Scene& scene);
 
+/// Notes by which factor 'fit' scales each mesh, of_cloth that of the cloth, and warns where it
+/// scales a cloth and a body given by --set differently. keys: of the whole case.
+void note_scales(const KeyTable& keys, double of_cloth, Scene& scene);
+
 /// Adds to scene.warnings a line for each: a cloth longer than 20 m or shorter than 5 mm; a cloth
 /// and a mesh body of which one is seven times as long as the other, or more; a density beyond 5 or
 /// below 0.01 kg/m^2; border vertices of a mesh file that lie on others, so that the cloth is cut
