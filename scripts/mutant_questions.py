@@ -108,9 +108,9 @@ def faults_listed() -> list[dict]:
     rows = []
     for path in (ROOT / "verification/faults").glob("*.toml"):
         file = ""
-        for row in tomllib.loads(path.read_text(encoding="utf-8")).get("fault", []):
+        for name, row in tomllib.loads(path.read_text(encoding="utf-8")).get("fault", {}).items():
             file = row.get("file", file)
-            rows.append({**row, "file": file})
+            rows.append({**row, "name": name, "file": file})
     return rows
 
 

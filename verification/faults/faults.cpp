@@ -10,9 +10,26 @@ namespace foldproof {
 
 namespace {
 
+struct Row {
+  std::string name;
+  std::shared_ptr<KeyTable> keys;
+};
+
+/// [fault.NAME], from the top of the file down.
+std::vector<Row> rows_of(const KeyTable& root) {
+  std::vector<Row> rows;
+  if (const auto faults = root.table("fault"))
+    for (const auto& [name, entry] : faults->entries) rows.push_back({name, faults->table(name)});
+  const auto line = [](const Row& row) {
+    return std::stol(row.keys->where().substr(row.keys->where().rfind(':') + 1));
+  };
+  std::ranges::sort(rows, {}, line);
+  return rows;
+}
+
 /// `file` is that of the row above; empty for the first row, which must name its own.
-Fault fault_of(const KeyTable& row, const std::string& file) {
-  Fault fault{row.text("name"),
+Fault fault_of(const std::string& name, const KeyTable& row, const std::string& file) {
+  Fault fault{name,
               row.has("file") || file.empty() ? row.text("file") : file,
               row.text("find"),
               row.text("replace"),
@@ -55,14 +72,13 @@ std::vector<Fault> read_faults(const std::string& folder) {
   for (const std::filesystem::path& path : files_of_faults(folder)) {
     const auto root = parse_keys(read_text(path.string()), path.string());
     std::string file;
-    for (const auto& row : root->tables("fault")) {
-      faults.push_back(fault_of(*row, file));
+    for (const auto& [name, row] : rows_of(*root)) {
+      faults.push_back(fault_of(name, *row, file));
       const Fault& fault = faults.back();
       file = fault.file;
-      const auto [first, is_new] = places.try_emplace(fault.name, row->where("name"));
+      const auto [first, is_new] = places.try_emplace(name, row->where());
       if (!is_new)
-        throw InputError(row->where("name") + ": the name '" + fault.name + "' is taken at " +
-                         first->second);
+        throw InputError(row->where() + ": the name '" + name + "' is taken at " + first->second);
       if (const std::string room = room_of(fault.file); room != path.stem())
         throw InputError(row->where("file") + ": a fault in '" + fault.file + "' belongs in " +
                          (room.empty() ? "no list" : room + ".toml"));
