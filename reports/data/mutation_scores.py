@@ -6,6 +6,8 @@ from __future__ import annotations
 import itertools
 import math
 import re
+import tomllib
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -140,6 +142,18 @@ def edits_of(marked: str) -> list[tuple[str, str]]:
     if not edits or len(parts) % 2 == 0:
         raise ValueError(f"no edit: {marked}")
     return edits
+
+
+def fault_rows(path: Path) -> Iterator[Row]:
+    """The rows of a list of seeded faults: one without a file has that of the row above, and what
+    `edit` marks is its find and replace. Throws ValueError, or AttributeError for no rows."""
+    file = {}
+    for name, row in tomllib.loads(path.read_text(encoding="utf-8")).get("fault", {}).items():
+        if "edit" in row:
+            [(row["find"], row["replace"])] = edits_of(row.pop("edit"))
+        row = {"name": name, **file, **row}
+        file = {"file": row["file"]} if "file" in row else {}
+        yield row
 
 
 def load_mutation_page(

@@ -27,12 +27,28 @@ std::vector<Row> rows_of(const KeyTable& root) {
   return rows;
 }
 
+/// What `edit` finds, and what it puts in its place: "a «+¦-» b" finds "a + b" and puts "a - b".
+std::pair<std::string, std::string> find_and_replace(const KeyTable& row) {
+  const std::string edit = row.text("edit"), marks[3] = {"«", "¦", "»"};
+  const size_t from = edit.find(marks[0]), between = edit.find(marks[1]), to = edit.find(marks[2]);
+  if (!(from < between && between < to && to != std::string::npos))
+    throw InputError(row.where("edit") + ": 'edit' has no mark «is¦other»");
+  const auto part = [&](size_t mark, size_t begin, size_t end) {
+    begin += marks[mark].size();
+    return edit.substr(begin, end - begin);
+  };
+  const std::string before = edit.substr(0, from), after = part(2, to, edit.size());
+  return {before + part(0, from, between) + after, before + part(1, between, to) + after};
+}
+
 /// `file` is that of the row above; empty for the first row, which must name its own.
 Fault fault_of(const std::string& name, const KeyTable& row, const std::string& file) {
+  const auto [find, replace] =
+      row.has("edit") ? find_and_replace(row) : std::pair(row.text("find"), row.text("replace"));
   Fault fault{name,
               row.has("file") || file.empty() ? row.text("file") : file,
-              row.text("find"),
-              row.text("replace"),
+              find,
+              replace,
               row.text("law"),
               {},
               {},

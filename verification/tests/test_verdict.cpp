@@ -21,7 +21,7 @@ Record record_of_check(std::function<Finding(const Subject&)> run) {
   return run_check({"group.name", "A sentence.", "nowhere", std::move(run)}, reference_subject());
 }
 
-const std::string edit = "find = \"+\"\nreplace = \"-\"\nlaw = \"sums\"\n";
+const std::string edit = "edit = \"a «+¦-» b\"\nlaw = \"sums\"\n";
 
 std::string fault_of(const std::string& name, const std::string& file) {
   return "[fault." + name + "]\nfile = \"" + file + "\"\n" + edit;
@@ -165,10 +165,11 @@ TEST_CASE("faults are read with who catches them, and a key that no one knows is
   folder.write("mesh.toml", row +
                                 "caught_by = [\"sums.add-up\"]\nfast = true\n"
                                 "caught_by_tests = [\"one, and another\", \"test_sums\"]\n"
-                                "[fault.next]\n" +
-                                edit);
+                                "[fault.next]\nfind = \"+\"\nreplace = \"-\"\nlaw = \"sums\"\n");
   const std::vector<Fault> faults = read_faults(folder.file("."));
   REQUIRE(faults.size() == 2);
+  CHECK((faults[0].find == "a + b" && faults[0].replace == "a - b"));
+  CHECK((faults[1].find == "+" && faults[1].replace == "-"));
   CHECK(faults[1].file == "reference/mesh/a.cpp");  // as in the row above
   CHECK(faults[0].caught_by == std::vector<std::string>{"sums.add-up"});
   CHECK(faults[0].caught_by_tests == std::vector<std::string>{"one, and another", "test_sums"});
@@ -179,7 +180,7 @@ TEST_CASE("faults are read with who catches them, and a key that no one knows is
   CHECK(records[1].faults.empty());
   folder.write("mesh.toml", row + "caught_bye = [\"sums.add-up\"]\n");
   CHECK_THROWS_WITH(read_faults(folder.file(".")),
-                    Contains("mesh.toml:6: ") && Contains("caught_bye"));
+                    Contains("mesh.toml:5: ") && Contains("caught_bye"));
 }
 
 TEST_CASE("a fault in the file of another room, and a name that is taken, are refused") {
