@@ -26,18 +26,9 @@ struct Sheet {
   double rigidity, tension, length;  // D [J], T [N/m], L [m]
 };
 
-const char* name_of(Varied varied) {
-  switch (varied) {
-    case Varied::tension:
-      return "tension";
-    case Varied::length:
-      return "length";
-    case Varied::rigidity:
-      return "rigidity";
-    case Varied::nothing:
-      break;
-  }
-  return "first";
+std::string_view name_of(Varied varied) {
+  constexpr std::string_view names[] = {"first", "tension", "length", "rigidity"};
+  return names[size_t(varied)];
 }
 
 /// The law's exponent of the wavelength.
