@@ -1,7 +1,4 @@
 // order-verdicts: how often is what converge says of a method's order right, wrong, or withheld?
-#include <fmt/format.h>
-
-#include <algorithm>
 
 #include "convergence/any_case/converge.h"
 #include "convergence/study.h"

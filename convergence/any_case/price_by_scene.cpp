@@ -1,9 +1,5 @@
 // price-by-scene: is scheme C, which the paper recommends, as cheap as any other method? Asked of
 // four kinds of scenes as `foldproof precision` asks it of any case.
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
 
 #include "convergence/any_case/precision.h"
 #include "convergence/study.h"

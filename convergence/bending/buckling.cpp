@@ -1,5 +1,4 @@
 // buckling: the load at which a compressed strip leaves its plane, and how fast it does so beyond.
-#include <cmath>
 
 #include "convergence/study.h"
 #include "reference/mesh/shapes.h"

@@ -1,5 +1,4 @@
 // cantilever: a clamped strip under its own weight or a load on its tip, against the elastica.
-#include <cmath>
 
 #include "convergence/bending/row_strip.h"
 #include "convergence/study.h"

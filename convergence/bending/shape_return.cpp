@@ -1,5 +1,4 @@
 // shape-recovery: a sculpted shell is pulled out of shape, let go, and damped until it rests.
-#include <cmath>
 
 #include "convergence/study.h"
 #include "reference/forces/bending.h"

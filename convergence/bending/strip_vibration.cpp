@@ -1,7 +1,5 @@
 // strip-vibration: the lowest frequencies of a clamped strip, from its stiffness and
 // from its steps.
-#include <array>
-#include <cmath>
 
 #include "convergence/bending/row_strip.h"
 #include "convergence/study.h"

@@ -1,7 +1,4 @@
 // cg-iterations: what the implicit velocity costs, in iterations of conjugate gradients a solve.
-#include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "convergence/study.h"
 #include "reference/forces/bending.h"

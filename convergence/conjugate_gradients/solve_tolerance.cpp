@@ -1,7 +1,4 @@
 // solve-tolerance: how loose the implicit solves may be before order and error suffer.
-#include <array>
-#include <cmath>
-#include <limits>
 
 #include "convergence/work_precision/precision_problem.h"
 #include "convergence/study.h"

@@ -1,6 +1,5 @@
 // contact-answers: which part of self-collision answers contacts: repulsion, impulses
 // or rigid zones?
-#include <cmath>
 
 #include "convergence/study.h"
 #include "reference/dynamics/system.h"

@@ -1,7 +1,5 @@
 // required-eps: how far out must the deepest points go, for no triangle between them to cut
 // into the object?
-#include <algorithm>
-#include <cmath>
 
 #include "convergence/study.h"
 #include "reference/mesh/shapes.h"

@@ -1,6 +1,5 @@
 // filtered-order: what is left of the order of schemes A, B and C while contact or strain limits
 // correct their velocities.
-#include <cmath>
 
 #include "convergence/contact/contact_runs.h"
 #include "convergence/study.h"

@@ -1,5 +1,4 @@
 // folding: a strip between two ends that move together, with and without a limit on compression.
-#include <cmath>
 
 #include "convergence/contact/section_profile.h"
 #include "convergence/study.h"

@@ -1,6 +1,4 @@
 // folding-inside-objects: are there more folds where points may stay inside of an object?
-#include <algorithm>
-#include <cmath>
 
 #include "convergence/contact/contact_runs.h"
 #include "convergence/study.h"

@@ -1,5 +1,4 @@
 // pointwise-contact: what lies between the particles, when they alone are held out of an object.
-#include <cmath>
 
 #include "convergence/contact/contact_runs.h"
 #include "convergence/study.h"

@@ -1,6 +1,5 @@
 // resting-contact: cloth comes to rest on a ball under each response: what keeps moving, and
 // what lies inside.
-#include <cmath>
 
 #include "convergence/contact/contact_runs.h"
 #include "convergence/study.h"

@@ -1,6 +1,4 @@
 // Cost of self-collision, and the effect of thickness, step and rounds on the result.
-#include <algorithm>
-#include <cmath>
 
 #include "convergence/study.h"
 #include "reference/filters/pair_search.h"

@@ -1,8 +1,5 @@
 // mirror-symmetry: a symmetric sheet stays symmetric but for rounding, which grows as any
 // disturbance does.
-#include <fmt/format.h>
-
-#include <cmath>
 
 #include "convergence/study.h"
 #include "reference/dynamics/integrator.h"

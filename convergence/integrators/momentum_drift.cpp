@@ -1,9 +1,6 @@
 // momentum-drift: which scheme keeps the angular momentum of a free sheet, and how fast the drift
 // of the other falls.
 #include <Eigen/Geometry>
-#include <algorithm>
-#include <array>
-#include <cmath>
 
 #include "convergence/study.h"
 #include "reference/dynamics/integrator.h"

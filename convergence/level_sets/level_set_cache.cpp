@@ -1,6 +1,4 @@
 // level-set-cache: level sets computed once, for many runs; and files that must not be trusted.
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>

@@ -1,5 +1,4 @@
 // octree-memory: what an octree saves against a regular grid of the same error.
-#include <cmath>
 #include <memory>
 #include <random>
 

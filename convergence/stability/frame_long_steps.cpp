@@ -1,5 +1,4 @@
 // frame-long-steps: implicit methods in steps of a frame, on cloth that crumples.
-#include <cmath>
 
 #include "convergence/study.h"
 #include "reference/mesh/shapes.h"

@@ -1,6 +1,5 @@
 // hard-limits: where stiffness ratios, slivers, graded meshes, heavy damping and jumps of the step
 // stop the schemes.
-#include <cmath>
 
 #include "convergence/stability/stable_step.h"
 #include "convergence/stability/step_matrix.h"

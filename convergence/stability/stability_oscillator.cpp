@@ -1,8 +1,5 @@
 // stability-oscillator: the largest stable step of every method over the damping ratio of
 // one oscillator.
-#include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "convergence/stability/step_matrix.h"
 #include "convergence/study.h"

@@ -1,6 +1,5 @@
 // transient-growth: how far a stable scheme can carry a disturbance before it decays, in the
 // norm of the energy.
-#include <cmath>
 
 #include "convergence/stability/step_matrix.h"
 #include "convergence/study.h"

@@ -1,5 +1,4 @@
 // variable-step-stability: steps that are stable each by itself need not be so in turn.
-#include <cmath>
 
 #include "convergence/stability/stable_step.h"
 #include "convergence/stability/step_matrix.h"

@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include <cmath>
 #include <complex>
 
 #include "convergence/stability/stable_step.h"

@@ -1,7 +1,6 @@
 // biphasic: a strip under a growing load, of weak springs with strain limits and of
 // springs without.
 #include <chrono>
-#include <cmath>
 
 #include "convergence/study.h"
 #include "reference/mesh/shapes.h"

@@ -1,7 +1,5 @@
 // strain-sweeps: how fast the orders of strain limiting find velocities within the limits, on finer
 // and finer meshes.
-#include <algorithm>
-#include <cmath>
 
 #include "convergence/study.h"
 #include "reference/dynamics/system.h"

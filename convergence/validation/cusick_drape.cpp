@@ -1,9 +1,6 @@
 // cusick-drape: a disc of measured cloth between two smaller plates, in the
 // laboratory's drape test.
-#include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "convergence/validation/comparison.h"

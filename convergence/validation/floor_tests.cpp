@@ -1,8 +1,4 @@
 // fold-tests and pressed-strip: strips that meet a floor, against the elastica.
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
 
 #include "convergence/validation/comparison.h"
 #include "convergence/validation/strip_ladder.h"

@@ -1,6 +1,4 @@
 // free-fold: a strip that is folded back over itself and held by nothing, against the elastica.
-#include <algorithm>
-#include <cmath>
 
 #include "convergence/validation/comparison.h"
 #include "convergence/validation/strip_ladder.h"

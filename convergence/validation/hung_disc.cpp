@@ -1,9 +1,4 @@
 // hung-disc: a heavy disc that hangs from its centre, against a cone that does not stretch.
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
 
 #include "convergence/study.h"
 #include "convergence/validation/comparison.h"

@@ -1,9 +1,6 @@
 // long-contact: which steps last on cloth that falls on a ball, slides, folds and hangs from it,
 // and what does a second of that motion cost with each method?
-#include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "convergence/work_precision/precision_problem.h"

@@ -1,7 +1,4 @@
 // mesh-error: what the mesh leaves of the error, beside what the step leaves.
-#include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "convergence/order.h"
 #include "convergence/tables.h"

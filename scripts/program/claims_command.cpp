@@ -1,8 +1,5 @@
 // foldproof claims: the ledger of a finished run, read from its verdicts.json.
-#include <fmt/format.h>
 
-#include <algorithm>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "scripts/program/command_line/options_of_commands.h"

@@ -1,5 +1,4 @@
 // foldproof evaluate: a formula on your numbers.
-#include <filesystem>
 
 #include "scripts/program/command_line/input_files.h"
 #include "scripts/program/command_line/options_of_commands.h"

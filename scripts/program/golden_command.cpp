@@ -1,5 +1,4 @@
 // foldproof golden: inputs and outputs of the paper's formulas, for unit tests of other codes.
-#include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 

@@ -1,7 +1,5 @@
 // foldproof judge, subject, serve: another solver on trial, its adapter, and the reference as one.
-#include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <optional>

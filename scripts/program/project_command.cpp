@@ -1,11 +1,7 @@
 // foldproof project: a stored run with its cloth brought out of the objects, and what that leaves
 // of its wrinkles.
-#include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <filesystem>
 #include <limits>
 #include <nlohmann/json.hpp>
 

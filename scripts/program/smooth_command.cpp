@@ -1,8 +1,5 @@
 // foldproof smooth: a stored run with a smooth surface of its cloth that does not cross itself.
-#include <fmt/format.h>
 
-#include <algorithm>
-#include <filesystem>
 #include <limits>
 #include <nlohmann/json.hpp>
 

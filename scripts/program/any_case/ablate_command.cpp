@@ -1,10 +1,6 @@
 // foldproof ablate: runs a case without each of its parts, and with those that it lacks and that
 // need no numbers from its author, and says which it needs.
-#include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <mutex>
 #include <nlohmann/json.hpp>

@@ -1,9 +1,6 @@
 // foldproof converge: the errors that a case owes to its step and to its mesh,
 // quantity by quantity.
-#include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
 

@@ -1,10 +1,7 @@
 // foldproof precision: which integrator is cheapest for a case at a wanted error, and which step of
 // another solver reaches it.
-#include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>

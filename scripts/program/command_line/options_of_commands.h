@@ -1,10 +1,15 @@
-// Options that several commands share, and how a command is added.
+// Options that several commands share, how a command is added, and the headers that most need.
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "scripts/program/command_line/command_line.h"
 #include "scripts/program/options.h"

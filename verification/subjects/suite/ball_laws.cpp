@@ -1,6 +1,4 @@
 // A sheet and a fixed ball: it falls on it, comes to rest, slides down.
-#include <algorithm>
-#include <cmath>
 
 #include "verification/subjects/suite/laws.h"
 #include "verification/subjects/suite/relaxation.h"

@@ -1,7 +1,4 @@
 // A limp strip over a fixed horizontal capsule, a weight at each end: how it lies, when it slips.
-#include <algorithm>
-#include <cmath>
-#include <vector>
 
 #include "reference/mesh/shapes.h"
 #include "verification/subjects/suite/laws.h"

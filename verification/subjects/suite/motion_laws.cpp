@@ -1,8 +1,4 @@
 // Smoke, rest, inertia, gravity, momentum, held particles.
-#include <fmt/format.h>
-
-#include <array>
-#include <cmath>
 
 #include "verification/subjects/suite/laws.h"
 

@@ -1,9 +1,4 @@
 // Determinism, state, observed order, the error of the step and its cost, precision.
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "verification/oracles/estimate.h"
 #include "verification/subjects/suite/laws.h"
