@@ -127,9 +127,7 @@ NamedFinding resonance_finding(const Subject& subject, const std::string& scheme
               " grow, though each alone is stable: to stay below the limit does not suffice if "
               "steps vary.",
           {verdict,
-           Table{{"spectral radius of the pair", "1"},
-                 {"of two short steps", "1"},
-                 {"of two long steps", "1"}}
+           Table("spectral radius of the pair [1]; of two short steps [1]; of two long steps [1]")
                .with_row(pair, alone[0], alone[1]),
            "measured is the larger spectral radius of two equal steps over that of the pair; NaN "
            "if equal steps grow"}};

@@ -274,12 +274,9 @@ Figure coarse_figure() {
 
 StudyResult run_stretched_wrinkles(const Subject& subject, Tier tier, const Progress& progress) {
   StudyResult result;
-  Table levels{{"sheet", ""},
-               {"rows of triangles", "1"},
-               {"wavelength", "m"},
-               {"compression", "N/m"},
-               {"wavelength over the law's", "1"},
-               {"compression over the law's", "1"}};
+  Table levels(
+      "sheet; rows of triangles [1]; wavelength [m]; compression [N/m]; wavelength over the law's "
+      "[1]; compression over the law's [1]");
   const std::vector<Sheet> sheets = sheets_of(tier);
   std::vector<SheetLadder> ladders;
   for (const Sheet& sheet : sheets) {
