@@ -1,8 +1,6 @@
 // The list of all studies.
 #pragma once
 
-#include <vector>
-
 #include "convergence/study.h"
 
 namespace foldproof {

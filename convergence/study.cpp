@@ -1,6 +1,5 @@
 #include "convergence/study.h"
 
-#include <algorithm>
 #include <stdexcept>
 
 namespace foldproof {

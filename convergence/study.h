@@ -1,8 +1,14 @@
 // A study measures a rate or a cost over a range: its findings are judged like checks, its
-// curves are evidence. With this header come the orders, ranges and tables that most studies use.
+// curves are evidence. With this header comes what most studies use.
 #pragma once
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <functional>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>

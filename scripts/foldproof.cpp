@@ -1,12 +1,8 @@
 // The program. See `foldproof --help`.
 #include <malloc.h>
 
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
-
 #include <csignal>
 #include <cstdio>
-#include <memory>
 #include <new>
 
 #include "scripts/program/command_line/options_of_commands.h"

@@ -4,12 +4,15 @@ Of scripts/mutate.
 
 import functools
 import json
+import sys
 import time
-import tomllib
 from typing import NamedTuple
 
 from builds import PROGRAM, ROOT, Unusable, listed, write_at_once
 from mutants import BUILD, TESTS, Plan, findings, keys_of, unit_tests
+
+sys.path.insert(0, str(ROOT / "reports"))
+from data.mutation_scores import FAULTS, fault_rows  # noqa: E402
 
 FOLDER = BUILD / "mutate"
 # s of the unedited program's time; each batch of findings takes so many times the one before
@@ -104,14 +107,8 @@ def batches_of(file: str, seconds: dict[str, float], studies: set[str]) -> list[
 
 @functools.cache
 def faults_listed() -> list[dict]:
-    """Rows of all lists; one that names no file has that of the row above."""
-    rows = []
-    for path in (ROOT / "verification/faults").glob("*.toml"):
-        file = ""
-        for row in tomllib.loads(path.read_text(encoding="utf-8")).get("fault", []):
-            file = row.get("file", file)
-            rows.append({**row, "file": file})
-    return rows
+    """Rows of all lists."""
+    return [row for path in FAULTS.glob("*.toml") for row in fault_rows(path)]
 
 
 def likely_catchers(file: str) -> set[str]:

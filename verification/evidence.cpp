@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -32,6 +33,18 @@ void append_to(Column& column, const Cell& cell) {
 
 Table::Table(std::initializer_list<Column> columns) {
   for (const Column& column : columns) add(column);
+}
+
+Table::Table(std::string_view columns) {
+  for (size_t from = 0; from < columns.size();) {
+    const size_t end = std::min(columns.find("; ", from), columns.size());
+    const std::string_view column = columns.substr(from, end - from);
+    const size_t unit = column.ends_with(']') ? column.rfind(" [") : column.size();
+    add({std::string(column.substr(0, unit)),
+         unit < column.size() ? std::string(column.substr(unit + 2, column.size() - unit - 3))
+                              : ""});
+    from = end + 2;
+  }
 }
 
 Table::Table(std::string name, std::string title, Table rows)

@@ -51,8 +51,8 @@ struct Cell {
 
 /// Rows of numbers and text: the evidence of a finding, or a table of a study.
 ///
-///   Table table{{"step", "s"}, {"error", "m"}};
-///   for (const double h : steps) table.row(h, error_of(h));
+///   Table table("method; step [s]; order [1]");  // or {{"method", ""}, {"step", "s"}, ...}
+///   for (const double h : steps) table.row("A", h, order_at(h));
 ///   return judge_worst(table, 1e-12, "five roundings a step");
 ///
 /// The first row determines which columns hold text. A row of another length or type, and a missing
@@ -63,6 +63,7 @@ class Table {
 
   Table() = default;
   Table(std::initializer_list<Column> columns);
+  explicit Table(std::string_view columns);
   Table(std::string name, std::string title, Table rows);
 
   /// Adds a row: one number, text or Estimate for each column, in their order.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <stdexcept>
 
 namespace foldproof {
 
@@ -55,33 +54,14 @@ bool is_in_units_of_its_error(const Verdict& verdict) {
 }  // namespace
 
 std::string_view name_of(FindingScope scope) {
-  switch (scope) {
-    case FindingScope::specific:
-      return "specific";
-    case FindingScope::generic:
-      return "generic";
-    case FindingScope::structural:
-      return "structural";
-  }
-  throw std::logic_error("name_of: a scope without a name");
+  constexpr std::string_view names[] = {"specific", "generic", "structural"};
+  return names[size_t(scope)];
 }
 
 std::string_view name_of(Certainty certainty) {
-  switch (certainty) {
-    case Certainty::estimated:
-      return "estimated";
-    case Certainty::counted:
-      return "counted";
-    case Certainty::within_bound:
-      return "within bound";
-    case Certainty::computed:
-      return "computed";
-    case Certainty::timed_once:
-      return "timed once";
-    case Certainty::structural:
-      return "structural";
-  }
-  throw std::logic_error("name_of: a certainty without a name");
+  constexpr std::string_view names[] = {"estimated", "counted",    "within bound",
+                                        "computed",  "timed once", "structural"};
+  return names[size_t(certainty)];
 }
 
 FindingScope scope_of(const Record& record) {

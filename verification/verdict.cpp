@@ -29,17 +29,8 @@ Finding error_finding(const std::string& what) {
 }  // namespace
 
 std::string_view name_of(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::holds:
-      return "holds";
-    case Outcome::fails:
-      return "fails";
-    case Outcome::inconclusive:
-      return "inconclusive";
-    case Outcome::not_applicable:
-      return "not applicable";
-  }
-  return "fails";
+  constexpr std::string_view names[] = {"holds", "fails", "inconclusive", "not applicable"};
+  return names[size_t(outcome)];
 }
 
 Outcome outcome_of(const Verdict& verdict) {

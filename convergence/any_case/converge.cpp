@@ -181,9 +181,7 @@ std::string value_text(double value, double bar) {
 }
 
 Table quantities_table(const LadderAnswer& answer) {
-  Table table{{"quantity", ""}, {"in", ""},        {"finest value", ""},
-              {"limit", ""},    {"error bar", ""}, {"error as it is", ""},
-              {"order", "1"},   {"reading", ""}};
+  Table table("quantity; in; finest value; limit; error bar; error as it is; order [1]; reading");
   for (const QuantityOverLevels& q : answer.quantities)
     table.row(q.name, q.unit,
               value_text(q.values.empty() ? nan : q.values.back(), q.bar.half_width),

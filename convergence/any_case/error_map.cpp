@@ -240,9 +240,9 @@ Map drawn_map(const ErrorMap& map) {
 }
 
 Table pairs_table(const ErrorMap& map, const std::vector<CheapestPair>& pairs) {
-  Table table{{"wanted error", "1"},  {"step", "s"},           {"edge", "m"},
-              {"particles", "1"},     {"processor time", "s"}, {"over the case as it is", "1"},
-              {"for half of it", "1"}};
+  Table table(
+      "wanted error [1]; step [s]; edge [m]; particles [1]; processor time [s]; over the case as "
+      "it is [1]; for half of it [1]");
   for (const CheapestPair& pair : pairs)
     table.row(pair.wanted, pair.step, pair.edge, pair.particles, pair.seconds,
               pair.seconds / map.seconds(map.step, map.edge), pair.halving_costs);

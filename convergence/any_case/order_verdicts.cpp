@@ -1,7 +1,4 @@
 // order-verdicts: how often is what converge says of a method's order right, wrong, or withheld?
-#include <fmt/format.h>
-
-#include <algorithm>
 
 #include "convergence/any_case/converge.h"
 #include "convergence/study.h"
@@ -116,8 +113,9 @@ double share_of(const Table& verdicts, const char* what, const char* motion = nu
 }
 
 StudyResult run_order_verdicts(const Subject&, Tier, const Progress& progress) {
-  Table verdicts{{"motion", "1"},     {"method", "1"},  {"order known", "1"}, {"levels", "1"},
-                 {"last order", "1"}, {"verdict", "1"}, {"verdict is", "1"}};
+  Table verdicts(
+      "motion [1]; method [1]; order known [1]; levels [1]; last order [1]; verdict [1]; verdict "
+      "is [1]");
   const double all = double(std::size(motions) * integrators().size());
   for (const KnownMotion& motion : motions)
     for (const Integrator& method : integrators()) {

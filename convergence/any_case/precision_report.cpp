@@ -84,16 +84,10 @@ Figure figure_of(const PrecisionAnswer& answer, const CostAxis& cost) {
 }
 
 Table price_table(const PrecisionAnswer& answer) {
-  Table table{{"error wanted", "%"},
-              {"method", "1"},
-              {"step", "s"},
-              {"step limited by", "1"},
-              {"operator applications", "1"},
-              {"over the cheapest", "1"},
-              {"tied with it", "1"},
-              {"processor time", "s"},
-              {"energy gain of a longer run", "1"},
-              {"why no price", "1"}};
+  Table table(
+      "error wanted [%]; method [1]; step [s]; step limited by [1]; operator applications [1]; "
+      "over the cheapest [1]; tied with it [1]; processor time [s]; energy gain of a longer run "
+      "[1]; why no price [1]");
   for (const PriceList& list : answer.lists)
     for (const MethodPrice& price : list.prices)
       table.row(percent * list.wanted, price.method, price.whole_step, name_of(price.price.limit),
@@ -104,13 +98,9 @@ Table price_table(const PrecisionAnswer& answer) {
 }
 
 Table method_table(const PrecisionAnswer& answer) {
-  Table table{{"method", "1"},
-              {"order of the table", "1"},
-              {"order observed in the asymptotic range", "1"},
-              {"reading", "1"},
-              {"because", "1"},
-              {"largest stable step found", "s"},
-              {"next longer step, unstable", "s"}};
+  Table table(
+      "method [1]; order of the table [1]; order observed in the asymptotic range [1]; reading "
+      "[1]; because [1]; largest stable step found [s]; next longer step, unstable [s]");
   for (const MethodCurve& curve : answer.curves)
     table.row(curve.method, integrator_named(curve.method).order, asymptotic_order(curve.bar),
               name_of(curve.bar.reading), curve.bar.reason, curve.stable_step, curve.unstable_step);
@@ -119,13 +109,9 @@ Table method_table(const PrecisionAnswer& answer) {
 
 /// Every step that was asked whether it lasts.
 Table longer_run_table(const PrecisionAnswer& answer) {
-  Table table{{"method", "1"},
-              {"step", "s"},
-              {"largest kinetic energy of the added time", "J"},
-              {"with half the step", "J"},
-              {"at any time", "J"},
-              {"energy gain", "1"},
-              {"lasts", "1"}};
+  Table table(
+      "method [1]; step [s]; largest kinetic energy of the added time [J]; with half the step [J]; "
+      "at any time [J]; energy gain [1]; lasts [1]");
   for (const MethodCurve& curve : answer.curves)
     for (const LongerRun& run : curve.longer)
       table.row(curve.method, run.step, run.with_step.added, run.with_half.added,
@@ -140,14 +126,9 @@ Table longer_run_table(const PrecisionAnswer& answer) {
 }
 
 Table run_table(const PrecisionAnswer& answer) {
-  Table table{{"method", "1"},
-              {"steps a frame", "1"},
-              {"steps", "1"},
-              {"error", "%"},
-              {"operator applications", "1"},
-              {"processor time", "s"},
-              {"unfinished solves", "1"},
-              {"stopped", "1"}};
+  Table table(
+      "method [1]; steps a frame [1]; steps [1]; error [%]; operator applications [1]; processor "
+      "time [s]; unfinished solves [1]; stopped [1]");
   for (const MethodCurve& curve : answer.curves)
     for (const PrecisionRun& run : curve.runs)
       table.row(curve.method, run.parts, run.steps, percent * run.error, run.applications,

@@ -1,9 +1,5 @@
 // price-by-scene: is scheme C, which the paper recommends, as cheap as any other method? Asked of
 // four kinds of scenes as `foldproof precision` asks it of any case.
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
 
 #include "convergence/any_case/precision.h"
 #include "convergence/study.h"
@@ -119,14 +115,10 @@ std::vector<SchemeC> compare(const PrecisionAnswer& answer) {
 }
 
 Table evidence_of(const std::vector<SchemeC>& compared) {
-  Table table{{"error wanted", "1"},
-              {"cheapest other method", "1"},
-              {"its step", "s"},
-              {"its operator applications", "1"},
-              {"step of C", "s"},
-              {"operator applications of C", "1"},
-              {"work of the cheapest over C's", "1"},
-              {"known to a factor", "1"}};
+  Table table(
+      "error wanted [1]; cheapest other method [1]; its step [s]; its operator applications [1]; "
+      "step of C [s]; operator applications of C [1]; work of the cheapest over C's [1]; known to "
+      "a factor [1]");
   for (const SchemeC& one : compared)
     table.row(one.wanted, one.cheapest.method, one.cheapest.price.step,
               one.cheapest.price.applications, one.c.price.step, one.c.price.applications,
@@ -176,9 +168,9 @@ NamedFinding not_cheapest(const SceneKind& kind, const std::vector<SchemeC>& com
 }
 
 Table prices_of(const std::vector<PrecisionAnswer>& answers) {
-  Table table{{"scene", "1"},        {"error wanted", "1"},          {"method", "1"},
-              {"step", "s"},         {"operator applications", "1"}, {"over the cheapest", "1"},
-              {"tied with it", "1"}, {"why no price", "1"}};
+  Table table(
+      "scene [1]; error wanted [1]; method [1]; step [s]; operator applications [1]; over the "
+      "cheapest [1]; tied with it [1]; why no price [1]");
   for (const PrecisionAnswer& answer : answers)
     for (const PriceList& list : answer.lists)
       for (const MethodPrice& price : list.prices)

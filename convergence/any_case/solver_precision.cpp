@@ -230,14 +230,9 @@ Figure figure_of(const SolverPrecision& solver, const PrecisionAnswer& reference
 }
 
 Table price_table(const SolverPrecision& solver, const PrecisionAnswer& reference) {
-  Table table{{"error wanted", "%"},
-              {"step", "s"},
-              {"processor time", "s"},
-              {"by the clock, through the pipe", "s"},
-              {"cheapest method of the reference", "1"},
-              {"its step", "s"},
-              {"its processor time", "s"},
-              {"note", "1"}};
+  Table table(
+      "error wanted [%]; step [s]; processor time [s]; by the clock, through the pipe [s]; "
+      "cheapest method of the reference [1]; its step [s]; its processor time [s]; note [1]");
   for (const SolverPrice& price : solver.prices) {
     const PriceList* list = prices_at(reference, price.wanted);
     const MethodPrice none{"none", {}};
@@ -250,12 +245,9 @@ Table price_table(const SolverPrecision& solver, const PrecisionAnswer& referenc
 }
 
 Table step_table(const SolverPrecision& solver) {
-  Table table{{"steps a frame", "1"},
-              {"step", "s"},
-              {"error", "%"},
-              {"processor time", "s"},
-              {"by the clock, through the pipe", "s"},
-              {"stopped", "1"}};
+  Table table(
+      "steps a frame [1]; step [s]; error [%]; processor time [s]; by the clock, through the pipe "
+      "[s]; stopped [1]");
   for (const PrecisionRun& run : solver.curve.runs)
     table.row(run.parts, solver.plan.frame / run.parts, percent * run.error, run.seconds, run.clock,
               run.stopped);

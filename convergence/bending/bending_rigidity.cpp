@@ -204,11 +204,9 @@ Table measure(const Subject& subject, const RegularPattern& pattern) {
   const FourSheets sheets(subject, pattern, cells, width, ke);
   const Eigen::Matrix3d forced = oracles::forced_rigidity(pattern.cell()),
                         relaxed = oracles::relaxed_rigidity(pattern.cell());
-  Table rigidity{{"direction of the curvature", "degree"},
-                 {"D/ke, forced", "1"},
-                 {"oracle, forced", "1"},
-                 {"D/ke, relaxed", "1"},
-                 {"oracle, relaxed", "1"}};
+  Table rigidity(
+      "direction of the curvature [degree]; D/ke, forced [1]; oracle, forced [1]; D/ke, relaxed "
+      "[1]; oracle, relaxed [1]");
   for (int degrees = 0; degrees <= 180; degrees += degrees_apart)
     rigidity.row(degrees, forced_rigidity_of(sheets, gentle_wrap(degrees), ke),
                  oracles::cylinder_rigidity(forced, radians(degrees)),
@@ -251,10 +249,7 @@ Table refined_rigidity(const Subject& subject, const RegularPattern& pattern, in
 
 NamedFinding size_does_not_matter(const std::vector<Table>& refinements) {
   Worst worst;
-  Table patterns{{"pattern", ""},
-                 {"D/ke, coarsest", "1"},
-                 {"D/ke, finest", "1"},
-                 {"order of the last pair", "1"}};
+  Table patterns("pattern; D/ke, coarsest [1]; D/ke, finest [1]; order of the last pair [1]");
   for (size_t i = 0; i < refinements.size(); ++i) {
     const Convergence error = convergence_of(refinements[i], "error");
     worst.observe(order_deviation(error, 2, 2).value);
@@ -329,22 +324,21 @@ NamedFinding free_strip(const Subject& subject, const RegularPattern& pattern) {
                         std::pow(2 * cells * width * 3 * curvature, 2), 0, "1",
                         "the surfaces' slopes, at most 3 times curvature times the sheets' side, "
                         "change angles by the square of the slope"};
-  return {
-      "bending-rigidity.free-strip-is-softer." + pattern.name,
-      "A narrow strip of " + pattern.words +
-          " with free edges is softer than a forced cylinder: it curves across and twists.",
-      {verdict,
-       Table{{"B/ke of the strip", "1"}, {"oracle", "1"}, {"D/ke of the cylinder", "1"}}.with_row(
-           measured, exact,
-           oracles::cylinder_rigidity(oracles::relaxed_rigidity(pattern.cell()), 0)),
-       "from the energies of six quadratic surfaces"}};
+  return {"bending-rigidity.free-strip-is-softer." + pattern.name,
+          "A narrow strip of " + pattern.words +
+              " with free edges is softer than a forced cylinder: it curves across and twists.",
+          {verdict,
+           Table("B/ke of the strip [1]; oracle [1]; D/ke of the cylinder [1]")
+               .with_row(measured, exact,
+                         oracles::cylinder_rigidity(oracles::relaxed_rigidity(pattern.cell()), 0)),
+           "from the energies of six quadratic surfaces"}};
 }
 
 // --- what is shown ---
 
 Table rigidity_table(const std::vector<Table>& all) {
-  Table table{{"mesh", ""},  {"vertices", ""}, {"0°", "1"},       {"45°", "1"},  {"90°", "1"},
-              {"135°", "1"}, {"least", "1"},   {"greatest", "1"}, {"strip", "1"}};
+  Table table(
+      "mesh; vertices; 0° [1]; 45° [1]; 90° [1]; 135° [1]; least [1]; greatest [1]; strip [1]");
   for (size_t p = 0; p < all.size(); ++p) {
     const RegularPattern& pattern = regular_patterns()[p];
     for (const bool relaxed : {false, true}) {

@@ -1,6 +1,5 @@
 // bending-scaling: is the bending damping a property of the material? Dissipation at a given rate
 // of curvature under refinement.
-#include <cmath>
 
 #include "convergence/study.h"
 #include "reference/mesh/shapes.h"

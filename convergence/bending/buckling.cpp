@@ -1,5 +1,4 @@
 // buckling: the load at which a compressed strip leaves its plane, and how fast it does so beyond.
-#include <cmath>
 
 #include "convergence/study.h"
 #include "reference/mesh/shapes.h"
@@ -196,8 +195,7 @@ Figure growth_figure(const Growth& growth) {
 StudyResult run_buckling(const Subject& subject, Tier tier, const Progress& progress) {
   std::vector<int> meshes = {10, 20};
   if (tier == Tier::full) meshes.push_back(40);
-  Table found{
-      {"rows", "1"}, {"critical strain", "1"}, {"critical load", "N/m"}, {"rigidity D", "ke"}};
+  Table found("rows [1]; critical strain [1]; critical load [N/m]; rigidity D [ke]");
   Strip critical{0, 0};
   for (const int rows : meshes) {
     critical = critical_strip(subject, rows);

@@ -1,5 +1,4 @@
 // cantilever: a clamped strip under its own weight or a load on its tip, against the elastica.
-#include <cmath>
 
 #include "convergence/bending/row_strip.h"
 #include "convergence/study.h"
@@ -108,9 +107,9 @@ NamedFinding order_of(const Refined& refined) {
 
 NamedFinding within_one_percent(const std::vector<Refined>& all) {
   Worst worst, uncertainty;
-  Table finest{
-      {"load", ""},          {"drop over L", "1"},           {"drop of the elastica", "1"},
-      {"reach over L", "1"}, {"reach of the elastica", "1"}, {"largest strain of a panel", "1"}};
+  Table finest(
+      "load; drop over L [1]; drop of the elastica [1]; reach over L [1]; reach of the elastica "
+      "[1]; largest strain of a panel [1]");
   for (const Refined& refined : all) {
     const LoadCase& load = refined.load;
     const auto last = [&](const std::string& column) {
@@ -161,7 +160,7 @@ NamedFinding clamp_is_half_a_cell_before(const Refined& refined) {
 NamedFinding patterns_agree(const Subject& subject, const LoadCase& load) {
   constexpr int panels = 12;
   Worst spread, uncertainty;
-  Table tips{{"pattern", ""}, {"drop over L", "1"}, {"reach over L", "1"}};
+  Table tips("pattern; drop over L [1]; reach over L [1]");
   for (const StripPattern& pattern : strip_patterns()) {
     const RowStrip strip(subject, pattern, panels, load.load, {});
     const StripAtRest rest = at_rest(strip, level(strip));

@@ -1,5 +1,4 @@
 // shape-recovery: a sculpted shell is pulled out of shape, let go, and damped until it rests.
-#include <cmath>
 
 #include "convergence/study.h"
 #include "reference/forces/bending.h"
@@ -127,10 +126,9 @@ NamedFinding comes_back(const std::vector<Shell>& shells, const std::vector<Retu
 
 NamedFinding angles_matter(const Shell& shell, const Return& own, const Return& flat) {
   const double start = flat.history.numbers("distance").front();
-  Table distances{{"shell", ""},
-                  {"distance at the start", "m"},
-                  {"distance with its own angles", "m"},
-                  {"distance with flat angles", "m"}};
+  Table distances(
+      "shell; distance at the start [m]; distance with its own angles [m]; distance with flat "
+      "angles [m]");
   distances.row(shell.words, start, own.left, flat.left);
   const Verdict verdict{0.1 * start / flat.left, 1, 0, "1",
                         "another rest shape is at least a tenth of the disturbance away"};

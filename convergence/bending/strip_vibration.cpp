@@ -1,7 +1,5 @@
 // strip-vibration: the lowest frequencies of a clamped strip, from its stiffness and
 // from its steps.
-#include <array>
-#include <cmath>
 
 #include "convergence/bending/row_strip.h"
 #include "convergence/study.h"
@@ -165,7 +163,7 @@ double worst_difference(const Subject& subject, const Scene& scene, const std::s
 
 NamedFinding steps_keep_the_frequency(const Subject& subject) {
   const Scene scene = free_strip();
-  Table differences{{"scheme", ""}, {"mode", "1"}, {"worst difference", "of the amplitude"}};
+  Table differences("scheme; mode [1]; worst difference [of the amplitude]");
   for (const Integrator& integrator : paper_schemes())
     for (const int mode : {1, 2})
       differences.row(integrator.name, mode,
@@ -184,7 +182,7 @@ NamedFinding steps_keep_the_frequency(const Subject& subject) {
 /// Frequencies of both modes on strips of ever more panels.
 std::array<Table, 2> refined_modes(const Subject& subject, const std::vector<int>& sizes,
                                    const Progress& progress) {
-  const Table empty{{"spacing of the rows", "m"}, {"omega", "rad/s"}, {"relative error", "1"}};
+  const Table empty("spacing of the rows [m]; omega [rad/s]; relative error [1]");
   std::array<Table, 2> modes = {empty, empty};
   for (const int panels : sizes) {
     const RowStrip strip(subject, strip_patterns()[0], panels, {}, {});

@@ -68,8 +68,8 @@ struct Reading {
   }
 };
 
-/// The names in all TOML files of a folder: of [[fault]] tables, say. In the order of
-/// the files' names.
+/// The names in all TOML files of a folder, in the order of the files' names: of the tables
+/// [fault.NAME], say, or the `name` in each [[fault]].
 std::vector<std::string> names_in_files(const KeyTable& asked, const std::string& folder) {
   namespace fs = std::filesystem;
   const std::string below = folder + "/" + asked.text("folder"), every = asked.text("every");
@@ -79,9 +79,14 @@ std::vector<std::string> names_in_files(const KeyTable& asked, const std::string
     if (entry.path().extension() == ".toml") files.insert(entry.path().string());
   if (none) throw InputError(asked.where("folder") + ": there is no folder " + below);
   std::vector<std::string> names;
-  for (const std::string& file : files)
-    for (const auto& table : parse_keys(read_text(file), file)->tables(every))
-      names.push_back(text_of(table->entries.at("name")));
+  for (const std::string& file : files) {
+    const auto root = parse_keys(read_text(file), file);
+    if (!root->is_list(every) && root->has(every))
+      for (const auto& [name, table] : root->table(every)->entries) names.push_back(name);
+    else
+      for (const auto& table : root->tables(every))
+        names.push_back(text_of(table->entries.at("name")));
+  }
   return names;
 }
 

@@ -1,7 +1,4 @@
 // cg-iterations: what the implicit velocity costs, in iterations of conjugate gradients a solve.
-#include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "convergence/study.h"
 #include "reference/forces/bending.h"
@@ -187,16 +184,10 @@ std::string words_of(ResidualScale scale) {
 }
 
 Table costs_table(const std::vector<Sweep>& measured) {
-  Table table{{"varied", "1"},
-              {"residual compared with", "1"},
-              {"tolerance", "1"},
-              {"damping ratio", "1"},
-              {"step over limit", "1"},
-              {"particles", "1"},
-              {"mean iterations", "1"},
-              {"largest", "1"},
-              {"unfinished solves", "1"},
-              {"allowed by Chebyshev", "1"}};
+  Table table(
+      "varied [1]; residual compared with [1]; tolerance [1]; damping ratio [1]; step over limit "
+      "[1]; particles [1]; mean iterations [1]; largest [1]; unfinished solves [1]; allowed by "
+      "Chebyshev [1]");
   for (const Sweep& sweep : measured)
     for (size_t i = 0; i < sweep.costs.size(); ++i) {
       const Setting& s = sweep.settings[i];
@@ -209,10 +200,8 @@ Table costs_table(const std::vector<Sweep>& measured) {
 
 NamedFinding fewer_than_ten(const std::vector<Sweep>& measured) {
   // every tolerance at the typical damping and step: those that keep the order and error, too
-  Table typical_costs{{"residual compared with", "1"},
-                      {"tolerance", "1"},
-                      {"mean iterations", "1"},
-                      {"largest", "1"}};
+  Table typical_costs(
+      "residual compared with [1]; tolerance [1]; mean iterations [1]; largest [1]");
   for (const Sweep& sweep : measured) {
     for (size_t i = 0; i < sweep.costs.size(); ++i) {
       if (sweep.name != "tolerance") continue;
@@ -263,7 +252,7 @@ NamedFinding ten_or_more_elsewhere(const std::vector<Sweep>& measured) {
 NamedFinding no_growth_with_the_mesh(const std::vector<Sweep>& measured) {
   constexpr double largest_exponent = 0;
   double steepest = -std::numeric_limits<double>::infinity();
-  Table meshes{{"residual compared with", "1"}, {"particles", "1"}, {"mean iterations", "1"}};
+  Table meshes("residual compared with [1]; particles [1]; mean iterations [1]");
   for (const Sweep& sweep : measured) {
     if (sweep.name != "mesh") continue;
     Table growth{{"width of a cell", "1"}, {"mean iterations", "1"}};  // over what falls

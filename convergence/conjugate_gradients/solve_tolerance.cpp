@@ -1,7 +1,4 @@
 // solve-tolerance: how loose the implicit solves may be before order and error suffer.
-#include <array>
-#include <cmath>
-#include <limits>
 
 #include "convergence/work_precision/precision_problem.h"
 #include "convergence/study.h"
@@ -87,10 +84,9 @@ using SchemeRuns = std::vector<TolerantRuns>;
 NamedFinding order_is_kept(const std::vector<SchemeRuns>& schemes, double tolerance,
                            const std::string& whose) {
   Worst worst;
-  Table orders{{"scheme", "1"},
-               {"order", "1"},
-               {"order with exact solves", "1"},
-               {"largest relative change of an error", "1"}};
+  Table orders(
+      "scheme [1]; order [1]; order with exact solves [1]; largest relative change of an error "
+      "[1]");
   for (const SchemeRuns& runs : schemes) {
     for (const TolerantRuns& run : runs) {
       if (run.tolerance != tolerance) continue;
@@ -109,12 +105,9 @@ NamedFinding order_is_kept(const std::vector<SchemeRuns>& schemes, double tolera
 }
 
 Table loosest(const std::vector<SchemeRuns>& schemes) {
-  Table table{{"scheme", "1"},
-              {"loosest tolerance", "1"},
-              {"order with it", "1"},
-              {"order with exact solves", "1"},
-              {"iterations a solve", "1"},
-              {"with exact solves", "1"}};
+  Table table(
+      "scheme [1]; loosest tolerance [1]; order with it [1]; order with exact solves [1]; "
+      "iterations a solve [1]; with exact solves [1]");
   for (const SchemeRuns& runs : schemes) {
     const TolerantRuns& tight = runs.back();
     size_t first = runs.size() - 1;
@@ -133,8 +126,9 @@ Table loosest(const std::vector<SchemeRuns>& schemes) {
 }
 
 Table all_runs(const std::vector<SchemeRuns>& schemes) {
-  Table table{{"scheme", "1"}, {"tolerance", "1"},          {"step", "s"},
-              {"error", "%"},  {"iterations a solve", "1"}, {"operator applications", "1"}};
+  Table table(
+      "scheme [1]; tolerance [1]; step [s]; error [%]; iterations a solve [1]; operator "
+      "applications [1]");
   for (const SchemeRuns& scheme : schemes)
     for (const TolerantRuns& run : scheme)
       for (size_t i = 0; i < run.runs.rows(); ++i)

@@ -1,6 +1,5 @@
 // contact-answers: which part of self-collision answers contacts: repulsion, impulses
 // or rigid zones?
-#include <cmath>
 
 #include "convergence/study.h"
 #include "reference/dynamics/system.h"
@@ -55,15 +54,9 @@ Answers answers_of(const Subject& subject, const Landing& landing) {
 }
 
 StudyResult run_contact_answers(const Subject& subject, Tier, const Progress& progress) {
-  Table table{{"landing", ""},
-              {"thickness", "m"},
-              {"start speed", "m/s"},
-              {"step", "s"},
-              {"step over elastic limit", "1"},
-              {"repulsions", "1"},
-              {"impulses", "1"},
-              {"particles in zones", "1"},
-              {"share of impulses", "1"}};
+  Table table(
+      "landing; thickness [m]; start speed [m/s]; step [s]; step over elastic limit [1]; "
+      "repulsions [1]; impulses [1]; particles in zones [1]; share of impulses [1]");
   double calm = 0, largest = 0;
   for (const Landing& landing : landings) {
     const Answers answers = answers_of(subject, landing);

@@ -102,13 +102,9 @@ double total(const std::vector<Tally>& tallies, double Tally::*what) {
 }
 
 Table table_of(const std::vector<Tally>& tallies) {
-  Table table{{"queries", ""},
-              {"asked", "1"},
-              {"meet", "1"},
-              {"missed", "1"},
-              {"told, though apart", "1"},
-              {"told too late", "1"},
-              {"a query", "ns"}};
+  Table table(
+      "queries; asked [1]; meet [1]; missed [1]; told, though apart [1]; told too late [1]; a "
+      "query [ns]");
   for (const Tally& tally : tallies)
     table.row(tally.name, tally.queries, tally.meetings, tally.misses, tally.alarms, tally.late,
               1e9 * tally.seconds / tally.queries);
@@ -133,11 +129,9 @@ NamedFinding misses_none(const std::string& of, const std::string& words,
 
 /// The test that this one replaces, asked the same.
 NamedFinding cubic_misses_some(const std::vector<Tally>& all) {
-  Table table{{"queries", ""},
-              {"meet", "1"},
-              {"missed by the cubic", "1"},
-              {"false alarms of the cubic", "1"},
-              {"a query of the cubic", "ns"}};
+  Table table(
+      "queries; meet [1]; missed by the cubic [1]; false alarms of the cubic [1]; a query of the "
+      "cubic [ns]");
   double missed = 0;
   for (const Tally& tally : all) {
     table.row(tally.name, tally.meetings, tally.cubic_misses, tally.cubic_alarms,
@@ -178,7 +172,7 @@ double distance_at(const CrossingQuery& query, double time) {
 struct Alarms {
   PairKind kind;
   std::vector<CrossingQuery> apart;
-  Table told{{"distance to be kept", "m"}, {"apart", "1"}, {"told", "1"}};
+  Table told{"distance to be kept [m]; apart [1]; told [1]"};
   Worst reach{};  // distance at the time told over the most promised [1]
 
   void ask(double distance) {

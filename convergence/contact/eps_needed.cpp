@@ -1,7 +1,5 @@
 // required-eps: how far out must the deepest points go, for no triangle between them to cut
 // into the object?
-#include <algorithm>
-#include <cmath>
 
 #include "convergence/study.h"
 #include "reference/mesh/shapes.h"
@@ -145,7 +143,7 @@ NamedFinding bound_finding(const Body& body, const Table& range) {
 
 /// On a ball the bound is met in the limit of short edges, so that it holds the radius, too.
 NamedFinding needed_finding(const std::vector<std::pair<std::string, Table>>& balls) {
-  Table finest{{"body", "1"}, {"eps over L^2/(6 R)", "1"}, {"off 1", "1"}};
+  Table finest("body [1]; eps over L^2/(6 R) [1]; off 1 [1]");
   for (const auto& [name, range] : balls) {
     const double share = range.numbers("eps over what is always enough").back();
     finest.row(name, share, std::abs(share - 1));

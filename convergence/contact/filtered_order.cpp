@@ -1,6 +1,5 @@
 // filtered-order: what is left of the order of schemes A, B and C while contact or strain limits
 // correct their velocities.
-#include <cmath>
 
 #include "convergence/contact/contact_runs.h"
 #include "convergence/study.h"
@@ -107,7 +106,7 @@ NamedFinding order_left(const FilteredMotion& motion, const std::string& scheme,
 /// Without its filter the same motion keeps the schemes' order: the filter takes it.
 NamedFinding order_without(const Subject& subject, const FilteredMotion& motion, int levels) {
   const std::vector<Scene> scenes = {unfiltered(motion.scene(0))};
-  Table orders{{"scheme", "1"}, {"order", "1"}, {"|order - 2|", "1"}};
+  Table orders("scheme [1]; order [1]; |order - 2| [1]");
   for (const Integrator& method : paper_schemes()) {
     const std::string scheme(method.name);
     const Table differences = differences_of(subject, scenes, scheme, motion.end, levels);

@@ -1,5 +1,4 @@
 // folding: a strip between two ends that move together, with and without a limit on compression.
-#include <cmath>
 
 #include "convergence/contact/section_profile.h"
 #include "convergence/study.h"
@@ -154,7 +153,7 @@ WrinkledSheet wrinkle(double wavelength) {
 }
 
 Table evidence_of(const std::vector<WrinkledSheet>& runs) {
-  Table table{{"bed", "N/m^3"}, {"wavelength", "mm"}, {"2 pi (D/K)^(1/4)", "mm"}, {"height", "mm"}};
+  Table table("bed [N/m^3]; wavelength [mm]; 2 pi (D/K)^(1/4) [mm]; height [mm]");
   for (const WrinkledSheet& run : runs)
     table.row(run.bed, 1e3 * run.wavelength, 1e3 * run.expected, 1e3 * run.height);
   return table;
@@ -174,9 +173,9 @@ NamedFinding wavelength_finding(const std::vector<WrinkledSheet>& runs) {
 }
 
 Table evidence_of(const std::vector<FoldedSheet>& runs) {
-  Table table{{"hinges", ""},         {"limit on compression", ""}, {"area lost", "1"},
-              {"height", "mm"},       {"wavelength", "mm"},         {"steps", "1"},
-              {"sweeps a step", "1"}, {"violation left", "1"}};
+  Table table(
+      "hinges; limit on compression; area lost [1]; height [mm]; wavelength [mm]; steps [1]; "
+      "sweeps a step [1]; violation left [1]");
   for (const FoldedSheet& run : runs)
     table.row(run.name, run.is_limited ? "0 %" : "none", run.area_lost, 1e3 * run.height,
               1e3 * run.wavelength, run.steps, run.sweeps, run.left);

@@ -1,6 +1,4 @@
 // folding-inside-objects: are there more folds where points may stay inside of an object?
-#include <algorithm>
-#include <cmath>
 
 #include "convergence/contact/contact_runs.h"
 #include "convergence/study.h"
@@ -105,10 +103,7 @@ double deepest_free(const Scene& scene, const State& s) {
 /// rings, and the mean |theta - theta0|.
 Table folds_of(const Subject& subject, Scene scene, double end,
                const std::vector<double>& taus_over_h) {
-  Table folds{{"forecast time", "s"},
-              {"deepest particle", "m"},
-              {"crests a turn", "1"},
-              {"mean fold", "rad"}};
+  Table folds("forecast time [s]; deepest particle [m]; crests a turn [1]; mean fold [rad]");
   const double h = usual_step(scene);
   for (const double steps : taus_over_h) {
     scene.collision.forecast_time = steps * h;

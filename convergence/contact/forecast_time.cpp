@@ -1,9 +1,5 @@
 // forecast-time: where a point is after it was forecast to lie on the surface, and what the
 // forecast time does.
-#include <fmt/format.h>
-
-#include <cmath>
-#include <limits>
 
 #include "convergence/contact/contact_runs.h"
 #include "convergence/study.h"

@@ -1,5 +1,4 @@
 // pointwise-contact: what lies between the particles, when they alone are held out of an object.
-#include <cmath>
 
 #include "convergence/contact/contact_runs.h"
 #include "convergence/study.h"
@@ -80,8 +79,8 @@ NamedFinding held_finding(const Table& particles, const Table& faces) {
           {{held / alone, 0.1, 0, "1",
             "a step's error on a curved surface, the square of its displacement over the radius, "
             "is far below a tenth of a chord's depth"},
-           Table{{"edge", "m"}, {"particles alone", "m"}, {"centres too", "m"}}.with_row(
-               faces.numbers("edge").front(), alone, held),
+           Table("edge [m]; particles alone [m]; centres too [m]")
+               .with_row(faces.numbers("edge").front(), alone, held),
            "of the coarsest mesh"}};
 }
 
@@ -100,8 +99,8 @@ NamedFinding spike_finding(const Subject& subject) {
       {{height, -0.2, 0, "m",
         "in a quarter of a second it falls by 0.3 m, from 0.03 m above the pin's tip: had the pin "
         "held it, it would hang there"},
-       Table{{"radius of the pin", "m"}, {"edge of the cloth", "m"}, {"mean height", "m"}}.with_row(
-           pin.radius, scene.mesh.rest.col(1).x() - scene.mesh.rest.col(0).x(), height),
+       Table("radius of the pin [m]; edge of the cloth [m]; mean height [m]")
+           .with_row(pin.radius, scene.mesh.rest.col(1).x() - scene.mesh.rest.col(0).x(), height),
        "measured is the sheet's mean height over the pin's tip"}};
 }
 

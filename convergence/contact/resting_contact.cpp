@@ -1,6 +1,5 @@
 // resting-contact: cloth comes to rest on a ball under each response: what keeps moving, and
 // what lies inside.
-#include <cmath>
 
 #include "convergence/contact/contact_runs.h"
 #include "convergence/study.h"
@@ -56,10 +55,7 @@ Rest rest_of(const Subject& subject, const std::string& response) {
 }
 
 Table compare(const std::vector<Rest>& rests) {
-  Table table{{"response", ""},
-              {"shaking at rest", "m/s^2"},
-              {"speed at rest", "m/s"},
-              {"largest depth", "m"}};
+  Table table("response; shaking at rest [m/s^2]; speed at rest [m/s]; largest depth [m]");
   for (const Rest& rest : rests) table.row(rest.response, rest.jitter, rest.speed, rest.depth);
   return table;
 }

@@ -1,6 +1,4 @@
 // Cost of self-collision, and the effect of thickness, step and rounds on the result.
-#include <algorithm>
-#include <cmath>
 
 #include "convergence/study.h"
 #include "reference/filters/pair_search.h"
@@ -105,7 +103,7 @@ void add_searches(Tier tier, StudyResult& result) {
 /// How many particles move in zones, after so many rounds of impulses, in layers that fly
 /// through each other.
 void add_zones(const Subject& subject, StudyResult& result) {
-  Table rounds{{"rounds", "1"}, {"zones", "1"}, {"particles in zones", "1"}, {"impulses", "1"}};
+  Table rounds("rounds [1]; zones [1]; particles in zones [1]; impulses [1]");
   for (const int count : {1, 2, 4, 8, 16}) {
     Work work;
     for (const unsigned seed : {31u, 32u, 33u}) {
@@ -141,7 +139,7 @@ double resting_gap(const Subject& subject, double thickness, double h) {
 }
 
 void add_rest(const Subject& subject, StudyResult& result) {
-  Table gaps{{"thickness", "m"}, {"step", "s"}, {"gap at rest", "m"}};
+  Table gaps("thickness [m]; step [s]; gap at rest [m]");
   Worst spread, outside;
   for (const double thickness : {0.002, 0.003, 0.004}) {
     double least = INFINITY, most = 0;

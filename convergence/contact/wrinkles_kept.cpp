@@ -1,5 +1,4 @@
 // wrinkle-preservation: how much of the wrinkles inside an object survives the projection?
-#include <cmath>
 
 #include "convergence/study.h"
 #include "convergence/contact/wrinkle_measure.h"

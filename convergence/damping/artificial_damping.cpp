@@ -65,7 +65,7 @@ NamedFinding damps_everything(const OneSided& springs, const OneSided& hinges) {
 }
 
 Table one_sided_table(const std::vector<OneSided>& rows) {
-  Table table{{"method", "1"}, {"damped", "1"}, {"of the amplitude, a period", "1"}};
+  Table table("method [1]; damped [1]; of the amplitude, a period [1]");
   for (const OneSided& row : rows) table.row(row.method, row.damped, row.worst);
   return {"one-sided",
           "Largest change of an undamped mode while the others are damped heavily (h c/2 up to 10)",
@@ -119,8 +119,7 @@ Response response_of(const Subject& subject, const VibratingSheet& sheet,
 
 NamedFinding as_derived(const VibratingSheet& sheet, const Response& response) {
   const std::string name(response.method.name);
-  Table factors_seen{
-      {"omega h", "1"}, {"damping ratio", "1"}, {"|factor|", "1"}, {"error of the factors", "1"}};
+  Table factors_seen("omega h [1]; damping ratio [1]; |factor| [1]; error of the factors [1]");
   const auto observe = [&](const SheetMode& mode, const Relaxation& relaxation, double h,
                            const oracles::Factors& factors) {
     const oracles::Oscillator oscillator = oscillator_of(mode, relaxation);

@@ -283,13 +283,9 @@ Figure energy_figure(const std::string& name, const std::string& title, const st
 
 Table energy_table(const Vibration& vibration, const std::vector<Run>& same_step,
                    const std::vector<Run>& same_cost) {
-  Table table{{"method", "1"},
-              {"equal", "1"},
-              {"step over 2/omega_max", "1"},
-              {"evaluations", "a period"},
-              {"lasted", "periods"},
-              {"energy at the end", "of the start's"},
-              {"unfinished solves", "1"}};
+  Table table(
+      "method [1]; equal [1]; step over 2/omega_max [1]; evaluations [a period]; lasted [periods]; "
+      "energy at the end [of the start's]; unfinished solves [1]");
   for (const auto& [runs, words] : {std::pair{&same_step, "step"}, {&same_cost, "cost"}})
     for (const Run& run : *runs)
       table.row(run.method, words, run.step / vibration.limit, run.cost, run.times().back(),

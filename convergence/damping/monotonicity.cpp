@@ -13,7 +13,7 @@ namespace {
 
 NamedFinding passes_the_bound(const Subject& subject, const DampedMotion& hinge) {
   Worst worst;
-  Table rows{{"motion", "1"}, {"h c/2", "1"}, {"farthest", "displacements"}};
+  Table rows("motion [1]; h c/2 [1]; farthest [displacements]");
   for (const double a : {10.0, 25.0}) {
     const double far = largest_progress(run_damped(subject, hinge, "C", a, 30));
     worst.observe(2 / far);
@@ -32,7 +32,7 @@ NamedFinding passes_the_bound(const Subject& subject, const DampedMotion& hinge)
 
 NamedFinding is_monotone_on_a_hinge(const Subject& subject, const DampedMotion& hinge,
                                     const std::string& method) {
-  Table rows{{"motion", "1"}, {"h c/2", "1"}, {"overshoot or way back", "displacements"}};
+  Table rows("motion [1]; h c/2 [1]; overshoot or way back [displacements]");
   for (const double a : {0.7, 4.3, 10.0, 25.0, 400.0}) {
     const DampedRun run = run_damped(subject, hinge, method, a, 30);
     const double wrong = run.work.unfinished_solves == 0 ? worst_overshoot_or_reversal(run) : nan;
@@ -52,7 +52,7 @@ Finding distance_on_a_hinge(const Subject& subject, const DampedMotion& hinge,
                             const std::string& method, const std::vector<double>& steps,
                             const std::string& why, const std::string& note) {
   Worst worst;
-  Table rows{{"motion", "1"}, {"h c/2", "1"}, {"farthest", "displacements"}};
+  Table rows("motion [1]; h c/2 [1]; farthest [displacements]");
   for (const double a : steps) {
     const DampedRun run = run_damped(subject, hinge, method, a, 30);
     const double far = run.work.unfinished_solves == 0 ? largest_progress(run) : nan;
@@ -88,12 +88,9 @@ NamedFinding scheme_b_passes_its_place(const Subject& subject, const DampedMotio
 }
 
 Table hinge_table(const Subject& subject, const DampedMotion& hinge) {
-  Table table{{"method", "1"},
-              {"h c/2", "1"},
-              {"farthest", "displacements"},
-              {"way back", "displacements"},
-              {"Newton iterations", "a step"},
-              {"unfinished solves", "1"}};
+  Table table(
+      "method [1]; h c/2 [1]; farthest [displacements]; way back [displacements]; Newton "
+      "iterations [a step]; unfinished solves [1]");
   for (const std::string name :
        {"B", "C", "implicit-midpoint", "BDF2", "backward-euler", "linear-backward-euler"})
     for (const double a : {0.7, 4.3, 10.0, 25.0}) {
@@ -142,9 +139,8 @@ std::string ways_in_words(const std::string& scheme) {
 NamedFinding goes_its_derived_way(const Subject& subject, const DampedMotions& motions,
                                   const std::string& scheme) {
   Worst worst;
-  Table ways{{"h c/2", "1"},
-             {"first step over the displacement", "1"},
-             {"all steps over the displacement", "1"}};
+  Table ways(
+      "h c/2 [1]; first step over the displacement [1]; all steps over the displacement [1]");
   for (const double a : {0.2, 0.7, 1.6, 4.3, 10.0, 25.0}) {
     const int steps = int(std::ceil(30 / -std::log(std::abs((1 - a) / (1 + a)))));
     const DampedRun run = run_damped(subject, motions.triangle, scheme, a, steps);
@@ -166,7 +162,7 @@ NamedFinding goes_its_derived_way(const Subject& subject, const DampedMotions& m
 NamedFinding overshoots(const Subject& subject, const DampedMotions& motions) {
   constexpr double a = 10;
   Worst worst;
-  Table rows{{"motion", "1"}, {"h c/2", "1"}, {"farthest in the wrong direction", "displacements"}};
+  Table rows("motion [1]; h c/2 [1]; farthest in the wrong direction [displacements]");
   for (const DampedMotion* motion : {&motions.triangle, &motions.sheet}) {
     const double wrong = largest_reversal(run_damped(subject, *motion, "A", a, 12));
     worst.observe(100 / wrong);
@@ -183,9 +179,7 @@ NamedFinding overshoots(const Subject& subject, const DampedMotions& motions) {
 
 NamedFinding is_stable(const Subject& subject, const DampedMotions& motions) {
   Worst worst;
-  Table rows{{"motion", "1"},
-             {"h c/2", "1"},
-             {"largest kinetic energy after the start", "of the start's"}};
+  Table rows("motion [1]; h c/2 [1]; largest kinetic energy after the start [of the start's]");
   for (const DampedMotion* motion : {&motions.triangle, &motions.sheet})
     for (const double a : {1.6, 10.0, 100.0}) {
       const std::vector<double> energies = run_damped(subject, *motion, "A", a, 40).kinetic_energy;
@@ -209,7 +203,7 @@ NamedFinding is_stable(const Subject& subject, const DampedMotions& motions) {
 
 NamedFinding is_bounded(const Subject& subject, const DampedMotions& motions,
                         const std::string& scheme) {
-  Table rows{{"motion", "1"}, {"h c/2", "1"}, {"farthest", "displacements"}};
+  Table rows("motion [1]; h c/2 [1]; farthest [displacements]");
   for (const DampedMotion* motion : {&motions.triangle, &motions.sheet})
     for (const double a : {0.7, 4.3, 25.0, 110.0}) {
       const double far = largest_progress(run_damped(subject, *motion, scheme, a, 30));
@@ -227,7 +221,7 @@ NamedFinding is_bounded(const Subject& subject, const DampedMotions& motions,
 NamedFinding alternates(const Subject& subject, const DampedMotions& motions,
                         const std::string& scheme) {
   double kept = 0;
-  Table rows{{"motion", "1"}, {"h c/2", "1"}, {"steps that keep the direction", "of 8"}};
+  Table rows("motion [1]; h c/2 [1]; steps that keep the direction [of 8]");
   for (const double a : {1.6, 4.3, 10.0, 25.0}) {
     const DampedRun run = run_damped(subject, motions.triangle, scheme, a, 8);
     double here = 0;
@@ -246,7 +240,7 @@ NamedFinding alternates(const Subject& subject, const DampedMotions& motions,
 
 NamedFinding monotone_below_one(const Subject& subject, const DampedMotions& motions,
                                 const std::string& scheme) {
-  Table rows{{"motion", "1"}, {"h c/2", "1"}, {"overshoot or way back", "displacements"}};
+  Table rows("motion [1]; h c/2 [1]; overshoot or way back [displacements]");
   for (const DampedMotion* motion : {&motions.triangle, &motions.sheet})
     for (const double a : {0.2, 0.7, 0.95}) {
       const double wrong = worst_overshoot_or_reversal(run_damped(subject, *motion, scheme, a, 40));
@@ -262,7 +256,7 @@ NamedFinding monotone_below_one(const Subject& subject, const DampedMotions& mot
 
 NamedFinding is_monotone(const Subject& subject, const DampedMotions& motions,
                          const std::string& method) {
-  Table rows{{"motion", "1"}, {"h c/2", "1"}, {"overshoot or way back", "displacements"}};
+  Table rows("motion [1]; h c/2 [1]; overshoot or way back [displacements]");
   for (const DampedMotion* motion : {&motions.triangle, &motions.sheet})
     for (const double a : {0.7, 4.3, 25.0, 400.0}) {
       const double wrong = worst_overshoot_or_reversal(run_damped(subject, *motion, method, a, 30));
@@ -292,7 +286,7 @@ double farthest_by_bdf2(double a, int steps) {
 
 std::vector<NamedFinding> bdf2_findings(const Subject& subject, const DampedMotions& motions) {
   Worst least, error;
-  Table rows{{"motion", "1"}, {"h c/2", "1"}, {"farthest", "displacements"}};
+  Table rows("motion [1]; h c/2 [1]; farthest [displacements]");
   for (const double a : {0.5, 1.6, 4.3, 10.0}) {
     const double far = largest_progress(run_damped(subject, motions.triangle, "BDF2", a, 30));
     least.observe(far > 1 ? 0.01 / (far - 1) : std::numeric_limits<double>::infinity());

@@ -123,7 +123,7 @@ double velocity_misconduct(const DampedRun& run) {
 /// overshoot and way back.
 Table sheet_at_steps(const Subject& subject, const DampedMotion& sheet, const std::string& method,
                      const std::vector<double>& as, int steps) {
-  Table rows{{"h c/2", "1"}, {"positions", "displacements"}, {"velocities", "of the start's"}};
+  Table rows("h c/2 [1]; positions [displacements]; velocities [of the start's]");
   for (const double a : as) {
     const DampedRun run = run_damped(subject, sheet, method, a, steps);
     rows.row(a, worst_overshoot_or_reversal(run), velocity_misconduct(run));
@@ -191,7 +191,7 @@ NamedFinding sheet_swings(const Subject& subject, const DampedMotion& sheet,
 
 NamedFinding hinge_closes_monotonically(const Subject& subject, const DampedMotion& hinge,
                                         const std::string& method) {
-  Table rows{{"motion", "1"}, {"h c/2", "1"}, {"overshoot or way back", "displacements"}};
+  Table rows("motion [1]; h c/2 [1]; overshoot or way back [displacements]");
   for (const double a : {0.2, 0.7, 4.3, 25.0, 110.0, 400.0}) {
     const DampedRun run = run_damped(subject, hinge, method, a, 40);
     const double wrong = run.work.unfinished_solves == 0 ? worst_overshoot_or_reversal(run) : nan;
@@ -248,11 +248,9 @@ void add_figures(const Subject& subject, const DampedMotion& sheet, Tier tier,
 }
 
 Table closing_table(const Subject& subject, const DampedMotion& hinge) {
-  Table table{{"method", "1"},
-              {"h c/2", "1"},
-              {"overshoot or way back", "displacements"},
-              {"Newton iterations", "a step"},
-              {"unfinished solves", "1"}};
+  Table table(
+      "method [1]; h c/2 [1]; overshoot or way back [displacements]; Newton iterations [a step]; "
+      "unfinished solves [1]");
   for (const Integrator& integrator : integrators())
     for (const double a : {0.7, 4.3, 25.0, 400.0}) {
       if (integrator.family != Family::fully_implicit) continue;

@@ -1,8 +1,5 @@
 // mirror-symmetry: a symmetric sheet stays symmetric but for rounding, which grows as any
 // disturbance does.
-#include <fmt/format.h>
-
-#include <cmath>
 
 #include "convergence/study.h"
 #include "reference/dynamics/integrator.h"
@@ -57,7 +54,7 @@ Table asymmetry_of_run(const Subject& subject, const Scene& scene, double end) {
   State s = stepper.start();
   const double h = 0.4 * elastic_limit(build_system(scene), s);
   const int steps = int(end / h), apart = steps / 40;
-  Table history{{"time", "s"}, {"steps", "1"}, {"asymmetry", "m"}};
+  Table history("time [s]; steps [1]; asymmetry [m]");
   for (int i = 1; i <= steps; ++i) {
     s = stepper.step(s, h);
     if (i % apart == 0) history.row(i * h, i, asymmetry(s.x, partner));
@@ -86,10 +83,9 @@ double growth_rate(const Table& history) {
 Table evidence_of(const Table& rounding, const Table& seeded) {
   const std::vector<double>&times = rounding.numbers("time"), &steps = rounding.numbers("steps"),
         &own = rounding.numbers("asymmetry"), &disturbed = seeded.numbers("asymmetry");
-  Table evidence{{"time", "s"},
-                 {"asymmetry from rounding", "m"},
-                 {"asymmetry from 1e-10 m", "m"},
-                 {"rounding over epsilon * side * steps * growth", "1"}};
+  Table evidence(
+      "time [s]; asymmetry from rounding [m]; asymmetry from 1e-10 m [m]; rounding over epsilon * "
+      "side * steps * growth [1]");
   Worst grown;
   for (size_t i = 0; i < times.size(); ++i) {
     grown.observe(disturbed[i] / disturbance);

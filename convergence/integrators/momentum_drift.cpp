@@ -1,9 +1,6 @@
 // momentum-drift: which scheme keeps the angular momentum of a free sheet, and how fast the drift
 // of the other falls.
 #include <Eigen/Geometry>
-#include <algorithm>
-#include <array>
-#include <cmath>
 
 #include "convergence/study.h"
 #include "reference/dynamics/integrator.h"
@@ -190,12 +187,9 @@ NamedFinding kept_to_tolerance(const Drift& drift, const std::string& material) 
 }
 
 Table table_of(const std::vector<Drifts>& all) {
-  Table table{{"method", "1"},
-              {"sheet", "1"},
-              {"step", "s"},
-              {"angular momentum, relative drift", "1"},
-              {"order of the pair", "1"},
-              {"linear momentum, drift in roundings", "1"}};
+  Table table(
+      "method [1]; sheet [1]; step [s]; angular momentum, relative drift [1]; order of the pair "
+      "[1]; linear momentum, drift in roundings [1]");
   for (const Drifts& drifts : all)
     for (const auto& [drift, words] :
          {std::pair{&drifts.undamped, "undamped"}, {&drifts.damped, "damped"}}) {

@@ -139,7 +139,7 @@ NamedFinding newmark_with_variable_steps(const OrderProblem& problem,
                                          const std::vector<Run>& runs) {
   constexpr double second = 2;  // the paper's claim, regardless of the table
   Worst deviation, uncertainty;
-  Table orders{{"steps", "1"}, {"error in", "1"}, {"order of the last pair", "1"}};
+  Table orders("steps [1]; error in [1]; order of the last pair [1]");
   for (const Run& run : runs) {
     if (run.integrator.name != "B" || run.pattern.name == "constant") continue;
     for (const Quantity& quantity : quantities()) {
@@ -198,13 +198,9 @@ Figure figure_of(const OrderProblem& problem, const std::vector<Run>& runs,
 }
 
 Table table_of(const std::vector<Run>& runs) {
-  Table table{{"scheme", "1"},
-              {"steps", "1"},
-              {"error in", "1"},
-              {"order fitted to all levels", "1"},
-              {"order of the last pair", "1"},
-              {"asymptotic from mean step", "s"},
-              {"levels ten times above the floor", "1"}};
+  Table table(
+      "scheme [1]; steps [1]; error in [1]; order fitted to all levels [1]; order of the last pair "
+      "[1]; asymptotic from mean step [s]; levels ten times above the floor [1]");
   for (const Run& run : runs)
     for (const Quantity& quantity : quantities()) {
       const Convergence errors = quantity.of(run);

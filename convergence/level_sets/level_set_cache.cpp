@@ -1,6 +1,4 @@
 // level-set-cache: level sets computed once, for many runs; and files that must not be trusted.
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -104,9 +102,8 @@ NamedFinding runs_with_cached_level_sets_agree() {
       {{differs(first) + differs(second) + std::abs(early) + std::abs(loaded - early - 3), 0, 0,
         "1",
         "values are stored in full: no bit may differ, and the second run loads all three bodies"},
-       Table{{"run that writes differs", "1"},
-             {"run that loads differs", "1"},
-             {"bodies loaded by the second run", "1"}}
+       Table("run that writes differs [1]; run that loads differs [1]; bodies loaded by the second "
+             "run [1]")
            .with_row(differs(first), differs(second), double(loaded - early)),
        "a grid, an octree and a body that deforms under a falling cloth"}};
 }
@@ -125,7 +122,7 @@ NamedFinding unfit_grids_are_rejected() {
   };
   const auto good = make(ball(2));
   make(ball(1));
-  Table answers{{"file", ""}, {"refused or replaced wrongly", "1"}, {"said", ""}};
+  Table answers("file; refused or replaced wrongly [1]; said");
   const auto take_another = [&](const std::string& path) {
     std::filesystem::copy_file(file_of(ball(1)), path,
                                std::filesystem::copy_options::overwrite_existing);
@@ -277,23 +274,19 @@ NamedFinding loading_is_cheap(const Costs& costs) {
   const double computing =
       each * double(costs.searches) + numbers_a_displacement * double(costs.displacements);
   const double loading = in_file + each * double(costs.re_searches);
-  return {"level-set-cache.loading-is-cheap",
-          "Loading reads a tenth of the numbers that computing reads, or less.",
-          {{loading / computing, 0.1, 0, "1",
-            "a tenth: with it ten runs cost about one computation more than the first"},
-           Table{{"searches by computing", "1"},
-                 {"numbers a search reads", "1"},
-                 {"displacements by computing", "1"},
-                 {"searches by loading", "1"},
-                 {"numbers in the file", "1"},
-                 {"computing", "s"},
-                 {"loading", "s"}}
-               .with_row(costs.searches, each, costs.displacements, costs.re_searches, in_file,
-                         costs.build, costs.load),
-           "counted: every number of the file, against twelve for each displacement of a node and, "
-           "for each search for a nearest point, the shortest way down the tree of boxes, so that "
-           "computing reads more than this; processor times, of loading the least of five, stand "
-           "beside it and are not judged"}};
+  return {
+      "level-set-cache.loading-is-cheap",
+      "Loading reads a tenth of the numbers that computing reads, or less.",
+      {{loading / computing, 0.1, 0, "1",
+        "a tenth: with it ten runs cost about one computation more than the first"},
+       Table("searches by computing [1]; numbers a search reads [1]; displacements by computing "
+             "[1]; searches by loading [1]; numbers in the file [1]; computing [s]; loading [s]")
+           .with_row(costs.searches, each, costs.displacements, costs.re_searches, in_file,
+                     costs.build, costs.load),
+       "counted: every number of the file, against twelve for each displacement of a node and, "
+       "for each search for a nearest point, the shortest way down the tree of boxes, so that "
+       "computing reads more than this; processor times, of loading the least of five, stand "
+       "beside it and are not judged"}};
 }
 
 /// A body without sense, written with the keys that belong to it.
@@ -347,7 +340,7 @@ NamedFinding unfit_files_are_rejected() {
                     good = file_of(folder, animation(2), settings(4)),
                     spoilt = scratch.file("spoilt");
   kept(folder, animation(2), settings(4));
-  Table answers{{"file", ""}, {"refused or replaced wrongly", "1"}, {"reason", ""}};
+  Table answers("file; refused or replaced wrongly [1]; reason");
   for (const Spoiling& spoiling : spoilings()) {
     MeshSequence sequence = animation(2);
     OctreeSettings how = settings(4);

@@ -42,10 +42,9 @@ void add_cost(const MeshDistance& mesh, int cells, Table& costs) {
 void add_grid_costs(const std::vector<int>& cells, StudyResult& result) {
   const TriangleMesh statue = make_statue(1, 4);
   const MeshDistance mesh = make_mesh_distance(statue.rest, statue.triangles);
-  Table costs{
-      {"cells along the longest side", "1"},    {"nodes", "1"}, {"grid", "MB"},
-      {"nodes in a band of three cells", "1"},  {"band", "s"},  {"second-order marching", "s"},
-      {"largest error within three cells", "m"}};
+  Table costs(
+      "cells along the longest side [1]; nodes [1]; grid [MB]; nodes in a band of three cells [1]; "
+      "band [s]; second-order marching [s]; largest error within three cells [m]");
   for (const int n : cells) add_cost(mesh, n, costs);
   result.tables.push_back({"cost",
                            "Grids about a statue of " + std::to_string(statue.triangles.size()) +
@@ -222,13 +221,10 @@ void add_interpolation(const std::vector<int>& cells, StudyResult& result) {
 
 Table contour_table(const std::vector<ContourErrors>& crude,
                     const std::vector<ContourErrors>& exact) {
-  Table table{{"h", "m"},
-              {"crude: mean offset", "cells"},
-              {"crude: largest offset", "cells"},
-              {"crude: mean angle of N", "degrees"},
-              {"crude: largest angle of N", "degrees"},
-              {"exact: largest offset", "cells"},
-              {"exact: largest angle of N", "degrees"}};
+  Table table(
+      "h [m]; crude: mean offset [cells]; crude: largest offset [cells]; crude: mean angle of N "
+      "[degrees]; crude: largest angle of N [degrees]; exact: largest offset [cells]; exact: "
+      "largest angle of N [degrees]");
   for (size_t k = 0; k < crude.size(); ++k)
     table.row(crude[k].h, crude[k].mean_offset, crude[k].worst_offset, crude[k].mean_angle,
               crude[k].worst_angle, exact[k].worst_offset, exact[k].worst_angle);

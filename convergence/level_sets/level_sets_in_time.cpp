@@ -1,6 +1,5 @@
 // level-sets-in-time: what lies between two stored level sets of a body that deforms, and
 // what a frame costs.
-#include <cmath>
 #include <random>
 
 #include "convergence/study.h"

@@ -1,5 +1,4 @@
 // octree-memory: what an octree saves against a regular grid of the same error.
-#include <cmath>
 #include <memory>
 #include <random>
 
@@ -120,10 +119,9 @@ Balance balance_of(const Body& body, int level) {
 double share_of_grid(const Balance& balance) { return balance.tree_bytes / balance.grid_bytes; }
 
 Table evidence_of(const std::vector<Balance>& all, const std::string& body) {
-  Table table{{"cells of the grid along each axis", "1"},
-              {"memory over the grid's", "1"},
-              {"miss of the grid", "m"},
-              {"miss of the octree", "m"}};
+  Table table(
+      "cells of the grid along each axis [1]; memory over the grid's [1]; miss of the grid [m]; "
+      "miss of the octree [m]");
   for (const Balance& b : all)
     if (b.body == body)
       table.row(std::ldexp(1, b.level), share_of_grid(b), b.grid_miss, b.tree_miss);
@@ -160,7 +158,7 @@ NamedFinding even_curve_takes_more(const std::vector<Balance>& all) {
 }
 
 NamedFinding uneven_bodies_save(const std::vector<Balance>& all) {
-  Table shares{{"body", ""}, {"cells of the grid along each axis", "1"}, {"octree over grid", "1"}};
+  Table shares("body; cells of the grid along each axis [1]; octree over grid [1]");
   for (const Balance& b : all)
     if (b.body == "box" || b.body == "statue")
       shares.row(b.body, std::ldexp(1, b.level), share_of_grid(b));
@@ -174,10 +172,9 @@ NamedFinding uneven_bodies_save(const std::vector<Balance>& all) {
 /// where the grid misses by a large part of its tube.)
 NamedFinding even_bodies_save_on_fine_grids(const std::vector<Balance>& all) {
   constexpr int from_here_on = 7, not_yet = 6;  // levels
-  Table shares{{"body", ""},
-               {"cells of the grid along each axis", "1"},
-               {"octree over grid", "1"},
-               {"that, or its inverse at 64 cells", "1"}};
+  Table shares(
+      "body; cells of the grid along each axis [1]; octree over grid [1]; that, or its inverse at "
+      "64 cells [1]");
   for (const Balance& b : all)
     if ((b.body == "sphere" || b.body == "torus") && b.level >= not_yet) {
       const double share = share_of_grid(b);
@@ -191,15 +188,10 @@ NamedFinding even_bodies_save_on_fine_grids(const std::vector<Balance>& all) {
 }
 
 Table table_of(const std::vector<Balance>& all) {
-  Table table{{"body", ""},
-              {"cells of the grid along each axis", "1"},
-              {"miss of the grid", "m"},
-              {"miss of the octree", "m"},
-              {"memory of the grid", "MB"},
-              {"memory of the octree", "MB"},
-              {"octree over grid", "1"},
-              {"distances asked for", "1"},
-              {"processor time to build", "s"}};
+  Table table(
+      "body; cells of the grid along each axis [1]; miss of the grid [m]; miss of the octree [m]; "
+      "memory of the grid [MB]; memory of the octree [MB]; octree over grid [1]; distances asked "
+      "for [1]; processor time to build [s]");
   for (const Balance& b : all)
     table.row(b.body, std::ldexp(1, b.level), b.grid_miss, b.tree_miss, b.grid_bytes / 1e6,
               b.tree_bytes / 1e6, share_of_grid(b), b.evaluations, b.seconds);

@@ -1,6 +1,4 @@
 // sharp-edges: what a sampled distance makes of the normals next to a body's edges.
-#include <algorithm>
-#include <cmath>
 #include <memory>
 #include <random>
 

@@ -1,6 +1,4 @@
 // elastic-limit: the largest stable step of undamped motion, and how it shrinks with the cells.
-#include <algorithm>
-#include <cmath>
 
 #include "convergence/stability/stable_step.h"
 #include "convergence/study.h"

@@ -1,5 +1,4 @@
 // frame-long-steps: implicit methods in steps of a frame, on cloth that crumples.
-#include <cmath>
 
 #include "convergence/study.h"
 #include "reference/mesh/shapes.h"
@@ -69,11 +68,8 @@ std::vector<Cloth> cloths() {
 
 std::vector<NamedFinding> gains_of_one_solve(const Subject& subject, Tier tier) {
   const int cells = tier == Tier::full ? 20 : 10;
-  Table table{{"cloth", ""},
-              {"Y", "N/m"},
-              {"kd", "N s/m"},
-              {"step over elastic limit", "1"},
-              {"largest gain of energy", "1"}};
+  Table table(
+      "cloth; Y [N/m]; kd [N s/m]; step over elastic limit [1]; largest gain of energy [1]");
   for (const Cloth& cloth : cloths()) {
     const Scene scene = falling_sheet(cells, cloth, 1e-3);
     const double limit = elastic_limit(build_system(scene), start_state(scene));
@@ -119,12 +115,9 @@ NamedFinding one_solve_is_coarser(const Subject& subject) {
   const Scene scene = falling_sheet(10, {"stiff", 300, 0.3}, 1e-3);
   const double until = 8 * frame;
   const PerParticle3 exact = swing(subject, scene, "BDF2", frame / 48, until).x;
-  Table table{{"step", "s"},
-              {"error, one solve", "m"},
-              {"error, iterated", "m"},
-              {"one over the other", "1"},
-              {"iterations, one solve", "1"},
-              {"iterations, iterated", "1"}};
+  Table table(
+      "step [s]; error, one solve [m]; error, iterated [m]; one over the other [1]; iterations, "
+      "one solve [1]; iterations, iterated [1]");
   for (const int parts : {1, 2, 4, 8}) {
     const double h = frame / parts;
     const Swing one = swing(subject, scene, "linear-backward-euler", h, until),
@@ -148,10 +141,9 @@ NamedFinding one_solve_is_coarser(const Subject& subject) {
 NamedFinding work_grows(const Subject& subject, Tier tier) {
   std::vector<int> cells{8, 16, 32};
   if (tier == Tier::full) cells.push_back(64);
-  Table table{{"particles", "1"},
-              {"iterations a step", "1"},
-              {"iterations times particles", "1"},
-              {"exponent of the pair", "1"}};
+  Table table(
+      "particles [1]; iterations a step [1]; iterations times particles [1]; exponent of the pair "
+      "[1]");
   double before_work = 0, before_particles = 0, last = nan;
   for (const int n : cells) {
     const Scene scene = falling_sheet(n, {"stiff", 300, 0}, 1e-4);
@@ -189,10 +181,8 @@ NamedFinding coarse_meshes_differ(const Table& meshes) {
 /// Of the motion of a sheet that swings: what is left of its energy, and the price.
 NamedFinding bdf2_costs(const Subject& subject) {
   const Scene scene = falling_sheet(10, {"stiff", 300, 0}, 1e-3);
-  Table table{{"step", "s"},
-              {"iterations, backward Euler", "1"},
-              {"iterations, BDF2", "1"},
-              {"one over the other", "1"}};
+  Table table(
+      "step [s]; iterations, backward Euler [1]; iterations, BDF2 [1]; one over the other [1]");
   for (const int parts : {1, 2, 4, 8}) {
     const double h = frame / parts;
     const double euler =

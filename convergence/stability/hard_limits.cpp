@@ -1,6 +1,5 @@
 // hard-limits: where stiffness ratios, slivers, graded meshes, heavy damping and jumps of the step
 // stop the schemes.
-#include <cmath>
 
 #include "convergence/stability/stable_step.h"
 #include "convergence/stability/step_matrix.h"
@@ -59,9 +58,9 @@ NamedFinding step_jump(const Subject& subject, Scene scene, const std::string& s
   const Probe probe(subject, scene);
   const FastestMode mode = fastest_mode(subject, scene);
   Worst worst;
-  Table energies{{"phase at the jump", "rad"},
-                 {"least energy after it, over the start's", "1"},
-                 {"largest energy after it, over the start's", "1"}};
+  Table energies(
+      "phase at the jump [rad]; least energy after it, over the start's [1]; largest energy after "
+      "it, over the start's [1]");
   for (int k = 0; k < 8; ++k) {
     const double phase = 2 * pi * k / 8;
     const EnergyRange range = after_jump(stepper, probe, mode, phase);
@@ -248,11 +247,9 @@ double damped_limit(const Subject& subject, const DampedLimit& limit) {
 
 /// All of them, measured; after each one `step` is called.
 Table measured_limits(const Subject& subject, const std::function<void()>& step) {
-  Table table{{"scheme", "1"},
-              {"told by", "1"},
-              {"damping ratio of the fastest mode", "1"},
-              {"largest stable step over 2/omega", "1"},
-              {"expected", "1"}};
+  Table table(
+      "scheme [1]; told by [1]; damping ratio of the fastest mode [1]; largest stable step over "
+      "2/omega [1]; expected [1]");
   for (const DampedLimit& limit : damped_limits()) {
     table.row(limit.scheme, is_told_by_runs(limit) ? "runs" : "step matrix of the fastest mode",
               limit.ratio, damped_limit(subject, limit), limit.expected);

@@ -85,11 +85,9 @@ double tried_ratio(const Subject& subject, const Integrator& method, Scene scene
 
 /// One row a point of the map.
 Table points_of(const Subject& subject, const Integrator& method, const MappedSheet& sheet) {
-  Table points{{"damping ratio on the coarsest mesh", "1"},
-               {"width of a cell", "m"},
-               {"damping ratio of the fastest mode", "1"},
-               {"largest stable step over 2/omega", "1"},
-               {"as derived", "1"}};
+  Table points(
+      "damping ratio on the coarsest mesh [1]; width of a cell [m]; damping ratio of the fastest "
+      "mode [1]; largest stable step over 2/omega [1]; as derived [1]");
   for (const MeshMode& one : sheet.modes)
     for (const double material : sheet.materials) {
       const double relaxation = 2 * material / sheet.modes.front().mode.omega,

@@ -1,8 +1,5 @@
 // stability-oscillator: the largest stable step of every method over the damping ratio of
 // one oscillator.
-#include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "convergence/stability/step_matrix.h"
 #include "convergence/study.h"
@@ -45,7 +42,7 @@ double measured_limit(const SteppedMotion& of, double known) {
 /// omega h against zeta of one method.
 Table limit_row(const Subject& subject, const Integrator& integrator,
                 const std::vector<double>& ratios) {
-  Table row{{"damping ratio", "1"}, {"largest stable omega h", "1"}, {"as known", "1"}};
+  Table row("damping ratio [1]; largest stable omega h [1]; as known [1]");
   for (const double zeta : ratios) {
     const double known = known_limit(integrator, zeta);
     if (!(known > 0)) continue;  // unstable at every step: judged by itself
@@ -176,10 +173,9 @@ StudyResult run_stability_oscillator(const Subject& subject, Tier tier, const Pr
                 {"largest stable omega h", "1", Scale::log},
                 "Measured from step matrices. Methods that are implicit in the elastic forces have "
                 "no limit and no curve; A and B share one."};
-  Table heavy{{"method", "1"},
-              {"largest stable omega h", "1"},
-              {"exponent in the damping ratio", "1"},
-              {"|exponent + 1|", "1"}};
+  Table heavy(
+      "method [1]; largest stable omega h [1]; exponent in the damping ratio [1]; |exponent + 1| "
+      "[1]");
   double done = 0;
   for (const Integrator& integrator : integrators()) {
     progress(done++ / double(integrators().size()));

@@ -38,10 +38,7 @@ double known_limit(const Integrator& integrator, const LinearForces& forces) {
 Table damped_limits(const Subject& subject, const Integrator& integrator, const Damping& damping,
                     int points) {
   constexpr double omega0 = 50, threshold = 1e-6;
-  Table limits{{"multiple of the damping", "1"},
-               {"largest stable step", "s"},
-               {"as known", "s"},
-               {"2/omega", "s"}};
+  Table limits("multiple of the damping [1]; largest stable step [s]; as known [s]; 2/omega [s]");
   for (const double times : geometric_range(0.01, 100, points)) {
     const SmallMotion motion =
         free_motion(clamped_sheet(times * damping.springs, times * damping.bending), omega0);
@@ -127,10 +124,8 @@ void add_clamped_sheet(const Subject& subject, Tier tier, const Progress& progre
         "the whole sheet's step. A and B keep the undamped limit, that of C is never shorter, and "
         "heavy damping shortens that of explicit methods in proportion. Forward Euler and explicit "
         "midpoint have no stable step at all where some modes are undamped."};
-    Table heavy{{"method", "1"},
-                {"largest stable step", "s"},
-                {"exponent in the damping", "1"},
-                {"|exponent + 1|", "1"}};
+    Table heavy(
+        "method [1]; largest stable step [s]; exponent in the damping [1]; |exponent + 1| [1]");
     for (const Integrator& integrator : integrators()) {
       if (integrator.family == Family::fully_implicit) continue;
       if (!damps_all(damping) && grows_undamped(integrator)) continue;

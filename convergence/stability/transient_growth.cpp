@@ -1,6 +1,5 @@
 // transient-growth: how far a stable scheme can carry a disturbance before it decays, in the
 // norm of the energy.
-#include <cmath>
 
 #include "convergence/stability/step_matrix.h"
 #include "convergence/study.h"
@@ -36,7 +35,7 @@ double derived_growth(const std::string& scheme, double omega_h, double a) {
 
 /// Growth of one scheme over step and damping, point by point.
 Table growth_table(const Subject& subject, const std::string& scheme) {
-  Table table{{"omega h", "1"}, {"h c/2", "1"}, {"growth", "1"}};
+  Table table("omega h [1]; h c/2 [1]; growth [1]");
   for (const double omega_h : {0.1, 0.5, 1.0, 1.5, 1.9, 1.99})
     for (const double a : geometric_range(0.01, 1000, 16))
       table.row(omega_h, a, oscillator_growth(subject, scheme, omega_h, a));
@@ -135,7 +134,7 @@ constexpr double part_of_limit = 0.9;
 /// Growth of each scheme at a step of 0.9 of the sheet's limit, over damping in multiples of a
 /// first guess of critical damping.
 Table sheet_growth(const Subject& subject, int points) {
-  Table found{{"damping", "1"}, {"A", "1"}, {"B", "1"}, {"C", "1"}};
+  Table found("damping [1]; A [1]; B [1]; C [1]");
   for (const double damping : geometric_range(0.01, 100, points)) {
     const SmallMotion motion = free_motion(clamped_sheet(0.3 * damping, 0.01 * damping), 50);
     const Eigen::MatrixXd stiffness = linear_forces(subject, motion).stiffness;

@@ -1,5 +1,4 @@
 // variable-step-stability: steps that are stable each by itself need not be so in turn.
-#include <cmath>
 
 #include "convergence/stability/stable_step.h"
 #include "convergence/stability/step_matrix.h"
@@ -128,9 +127,7 @@ NamedFinding resonance_finding(const Subject& subject, const std::string& scheme
               " grow, though each alone is stable: to stay below the limit does not suffice if "
               "steps vary.",
           {verdict,
-           Table{{"spectral radius of the pair", "1"},
-                 {"of two short steps", "1"},
-                 {"of two long steps", "1"}}
+           Table("spectral radius of the pair [1]; of two short steps [1]; of two long steps [1]")
                .with_row(pair, alone[0], alone[1]),
            "measured is the larger spectral radius of two equal steps over that of the pair; NaN "
            "if equal steps grow"}};

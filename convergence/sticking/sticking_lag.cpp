@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include <cmath>
 #include <complex>
 
 #include "convergence/stability/stable_step.h"
@@ -212,7 +211,7 @@ Lag measured_lag(const Subject& subject, const std::string& method, double k, do
 void add_lags_of_long_steps(const Subject& subject, StudyResult& result) {
   constexpr double k = 1000;
   const double omega = std::sqrt(k / particle_mass), tau = 8 / omega;
-  Table lags{{"scheme", ""}, {"omega h", "1"}, {"lag", "m"}, {"derived", "m"}};
+  Table lags("scheme; omega h [1]; lag [m]; derived [m]");
   for (const char* method : {"A", "B", "C"})
     for (const double omega_h : {0.05, 0.4, 1.6}) {
       const double h = omega_h / omega;
@@ -231,13 +230,9 @@ void add_lags_of_long_steps(const Subject& subject, StudyResult& result) {
 }
 
 Table lags_over_stiffness(const Subject& subject, Tier tier) {
-  Table lags{{"scheme", "1"},
-             {"stiffness", "N/m"},
-             {"plain spring, mean lag", "m"},
-             {"plain spring, swing over m a/k", "1"},
-             {"with forecasts, lag", "m"},
-             {"derived", "m"},
-             {"with forecasts, swing over m a/k", "1"}};
+  Table lags(
+      "scheme [1]; stiffness [N/m]; plain spring, mean lag [m]; plain spring, swing over m a/k "
+      "[1]; with forecasts, lag [m]; derived [m]; with forecasts, swing over m a/k [1]");
   for (const std::string scheme : {"A", "B", "C"})
     for (const double k : geometric_range(10, 1e4, tier == Tier::quick ? 4 : 10)) {
       // critical damping
@@ -342,7 +337,7 @@ void add_limits(const Subject& subject, Tier tier, StudyResult& result) {
                 "the forecast time, however stiff the bond. Points are measured, lines derived."};
   for (const Integrator& integrator : paper_schemes()) {
     const std::string name(integrator.name);
-    Table limits{{"omega tau_s", "1"}, {"omega h, measured", "1"}, {"derived", "1"}};
+    Table limits("omega tau_s [1]; omega h, measured [1]; derived [1]");
     for (const double omega_tau : geometric_range(0.03, 30, tier == Tier::quick ? 7 : 19))
       limits.row(omega_tau, measured_limit(subject, name.c_str(), omega_tau),
                  derived_limit(name, omega_tau));
@@ -357,9 +352,9 @@ void add_limits(const Subject& subject, Tier tier, StudyResult& result) {
 // ---- two layers, stuck stiffly
 
 void add_layers(const Subject& subject, StudyResult& result) {
-  Table layers{{"omega h of a bond", "1"},
-               {"radius less 1 with tau_s = h/2", "1"},
-               {"radius less 1 with a plain spring", "1"}};
+  Table layers(
+      "omega h of a bond [1]; radius less 1 with tau_s = h/2 [1]; radius less 1 with a plain "
+      "spring [1]");
   double least = INFINITY;
   for (const double omega_h : {1.0, 10.0, 100.0, 1000.0}) {
     const double without = layers_radius(subject, omega_h, 0) - 1;
@@ -390,8 +385,7 @@ void add_layers(const Subject& subject, StudyResult& result) {
 Table iterations_over_stiffness(const Subject& subject, Tier tier) {
   const int cells = tier == Tier::quick ? 8 : 24;
   const double loose = iterations_where(subject, cells, StuckTo::nothing, 1);
-  Table iterations{
-      {"k tau_s h/(2 m)", "1"}, {"nothing sticks", "1"}, {"to a surface", "1"}, {"to cloth", "1"}};
+  Table iterations("k tau_s h/(2 m) [1]; nothing sticks [1]; to a surface [1]; to cloth [1]");
   for (const double number : geometric_range(0.01, 1e4, 7))
     iterations.row(number, loose, iterations_where(subject, cells, StuckTo::surface, number),
                    iterations_where(subject, cells, StuckTo::cloth, number));

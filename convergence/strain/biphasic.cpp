@@ -1,7 +1,6 @@
 // biphasic: a strip under a growing load, of weak springs with strain limits and of
 // springs without.
 #include <chrono>
-#include <cmath>
 
 #include "convergence/study.h"
 #include "reference/mesh/shapes.h"
@@ -70,7 +69,7 @@ Scene strip(const Springs& springs) {
 /// Results of a run.
 struct PulledStrip {
   Springs springs;
-  Table pulled{{"load", "N/m"}, {"extension", "1"}, {"of the bar", "1"}};  // frame by frame
+  Table pulled{"load [N/m]; extension [1]; of the bar [1]"};  // frame by frame
   double steps = 0, sweeps = 0, seconds = 0, step_limit = 0, largest_strain = 0;
 };
 
@@ -179,8 +178,8 @@ NamedFinding one_phase_finding(const std::vector<PulledStrip>& runs) {
 
 NamedFinding steps_finding(const PulledStrip& limited, const PulledStrip& stiff) {
   const double ratio = stiff.steps / limited.steps;
-  Table both{{"springs", ""},        {"elastic limit", "s"}, {"steps", "1"},
-             {"sweeps a step", "1"}, {"seconds", "s"},       {"largest strain", "1"}};
+  Table both(
+      "springs; elastic limit [s]; steps [1]; sweeps a step [1]; seconds [s]; largest strain [1]");
   for (const PulledStrip& run : {limited, stiff})
     both.row(run.springs.name, run.step_limit, run.steps, run.sweeps, run.seconds,
              run.largest_strain);
@@ -207,8 +206,9 @@ Figure figure_of(const std::vector<PulledStrip>& runs) {
 }
 
 Table table_of(const std::vector<PulledStrip>& runs) {
-  Table table{{"springs", ""},        {"columns", "1"}, {"elastic limit", "ms"}, {"steps", "1"},
-              {"sweeps a step", "1"}, {"seconds", "s"}, {"largest strain", "1"}};
+  Table table(
+      "springs; columns [1]; elastic limit [ms]; steps [1]; sweeps a step [1]; seconds [s]; "
+      "largest strain [1]");
   for (const PulledStrip& run : runs)
     table.row(run.springs.name, run.springs.columns, 1e3 * run.step_limit, run.steps, run.sweeps,
               run.seconds, run.largest_strain);

@@ -1,7 +1,6 @@
 // strain-momentum: which scheme keeps the angular momentum of a free sheet while strain
 // limits act on it.
 #include <Eigen/Geometry>
-#include <cmath>
 
 #include "convergence/study.h"
 #include "reference/dynamics/integrator.h"

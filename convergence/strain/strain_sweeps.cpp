@@ -1,7 +1,5 @@
 // strain-sweeps: how fast the orders of strain limiting find velocities within the limits, on finer
 // and finer meshes.
-#include <algorithm>
-#include <cmath>
 
 #include "convergence/study.h"
 #include "reference/dynamics/system.h"
@@ -170,10 +168,9 @@ NamedFinding energy(const std::vector<Row>& rows) {
 /// order, mesh by mesh.
 NamedFinding jacobi_is_dearer(const std::vector<Row>& rows) {
   const std::vector<double>& cells = rows.front().sweeps.numbers("cells along a side");
-  Table ratios{{"cells along a side", "1"},
-               {"sweeps of all springs at once", "1"},
-               {"most of another order", "1"},
-               {"three over their ratio", "1"}};
+  Table ratios(
+      "cells along a side [1]; sweeps of all springs at once [1]; most of another order [1]; three "
+      "over their ratio [1]");
   for (size_t k = 0; k < cells.size(); ++k) {
     double at_once = nan, most = 0;
     for (const Row& row : rows) {
@@ -208,10 +205,9 @@ Table table_of(const std::vector<Row>& rows) {
 /// Springs that are beyond their limits at the start are brought back in one step, however many
 /// sweeps that takes.
 Table recovery_table() {
-  Table table{{"length over rest length", "1"},
-              {"kinetic energy given", "J"},
-              {"elastic energy of the stretch", "J"},
-              {"sweeps", "1"}};
+  Table table(
+      "length over rest length [1]; kinetic energy given [J]; elastic energy of the stretch [J]; "
+      "sweeps [1]");
   const JerkedSheet sheet = jerked_sheet(12);
   StrainLimiter free = sheet.limiter(SweepOrder::gauss_seidel, 10'000);
   free.inverse_mass = sheet.system.mass.cwiseInverse();

@@ -80,10 +80,10 @@ TEST_CASE("campaign: zipped lists go together, and the names in a folder's files
         Jobs{"a={ \"b\" = 7 };", "a={ \"b\" = [8, 9] };"});
   const ScratchFolder scratch;
   scratch.write("b.toml", "[[fault]]\nname = \"z\"\n[[other]]\nname = \"o\"\n");
-  scratch.write("a.toml", "[[fault]]\nname = \"y-1\"\nlaw = \"\"\n[[fault]]\nname = \"x\"\n");
+  scratch.write("a.toml", "[fault.y-1]\nlaw = \"\"\n[fault.x]\n");
   const std::string text = "[grid]\nname = { folder = \".\", every = \"fault\" }\n";
   CHECK(jobs_of(read_campaign_text(text, scratch.write("d.txt", "no TOML"))) ==
-        Jobs{"name=y-1;", "name=x;", "name=z;"});
+        Jobs{"name=x;", "name=y-1;", "name=z;"});
 }
 
 TEST_CASE("campaign: parts are added, each with its own parameters; the innermost value counts") {

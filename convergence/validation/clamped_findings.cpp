@@ -118,18 +118,12 @@ OverLaw over_law(const ClampedSheet& sheet, const ClampedFlat& flat,
 }
 
 struct ClampedLadder {
-  Table levels{{"rows of triangles over the width", "1"},
-               {"length over width", "1"},
-               {"strain at the onset", "1"},
-               {"(D/T)^(1/2)/L at the onset", "1"},
-               {"greatest compression across at the onset over T", "1"},
-               {"place of it over the length", "1"},
-               {"onset's compression over the law's", "1"},
-               {"onset's wavelength over the law's", "1"},
-               {"wavelength over the law's", "1"},
-               {"amplitude over the law's", "1"},
-               {"largest force over Y strain edge", "1"},
-               {"stable rest", ""}};
+  Table levels{
+      "rows of triangles over the width [1]; length over width [1]; strain at the onset [1]; "
+      "(D/T)^(1/2)/L at the onset [1]; greatest compression across at the onset over T [1]; place "
+      "of it over the length [1]; onset's compression over the law's [1]; onset's wavelength over "
+      "the law's [1]; wavelength over the law's [1]; amplitude over the law's [1]; largest force "
+      "over Y strain edge [1]; stable rest"};
   std::vector<OverLaw> values;
   ClampedFlat flat;          // on the finest mesh
   ClampedWrinkles wrinkles;  // there
@@ -199,7 +193,7 @@ Comparison compared(const std::string& words, const ClampedLadder& ladder,
 }
 
 Table over_law_table() {
-  return Table{{"quantity", ""}, {"over the law's", "1"}, {"numerical u", "1"}, {"comparison", ""}};
+  return Table("quantity; over the law's [1]; numerical u [1]; comparison");
 }
 
 void add_over_law(Table& table, const Comparison& one) {
@@ -222,8 +216,7 @@ NamedFinding later(const ClampedLadder& ladder) {
       compared("law's compression over the flat sheet's", ladder, &OverLaw::onset_compression);
   one.numerical /= one.simulated * one.simulated;
   one.simulated = 1 / one.simulated;
-  Table table{
-      {"quantity", ""}, {"law's over the sheet's", "1"}, {"numerical u", "1"}, {"comparison", ""}};
+  Table table("quantity; law's over the sheet's [1]; numerical u [1]; comparison");
   add_over_law(table, one);
   return {"stretched-wrinkles.clamped-sheet-resists-longer",
           "It stays flat until its greatest compression across is above the law's.",

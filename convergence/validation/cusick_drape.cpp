@@ -1,9 +1,6 @@
 // cusick-drape: a disc of measured cloth between two smaller plates, in the
 // laboratory's drape test.
-#include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "convergence/validation/comparison.h"
@@ -68,7 +65,7 @@ DrapeFabric of_bending_length(const DrapeFabric& fabric, double factor) {
 /// Wool on finer and finer meshes. A drape with another number of folds is another drape, and one
 /// that is not stable is none: there is no error then.
 struct MeshLadder {
-  Table table{{"rows of triangles", "1"}, {"folds", "1"}, {"drape coefficient", "1"}};
+  Table table{"rows of triangles [1]; folds [1]; drape coefficient [1]"};
   double error = 0;  // of the coarser meshes' results, in the quick tier; of the finest in the full
 };
 
@@ -106,7 +103,7 @@ NamedFinding error_is_below_the_tests(const MeshLadder& ladder) {
 
 /// Wool on one mesh from starts with other numbers of waves.
 struct Starts {
-  Table table{{"waves of the start", "1"}, {"folds at rest", "1"}, {"drape coefficient", "1"}};
+  Table table{"waves of the start [1]; folds at rest [1]; drape coefficient [1]"};
   std::vector<Drape> drapes;  // stable ones, one for each number of folds
   double spread = 0;          // of their coefficients
 };
@@ -156,7 +153,7 @@ Table by_bending_length(Drapes& drapes, Tier tier) {
   const std::vector<double> factors = tier == Tier::quick
                                           ? std::vector{0.8, 1.0, 1.4, 2.0}
                                           : std::vector{0.8, 1.0, 1.2, 1.4, 1.7, 2.0, 2.5, 3.0};
-  Table table{{"bending length", "mm"}, {"folds", "1"}, {"drape coefficient", "1"}};
+  Table table("bending length [mm]; folds [1]; drape coefficient [1]");
   for (const double factor : factors) {
     const DrapeFabric fabric = of_bending_length(drape_fabrics()[0], factor);
     const Drape one = drapes({fabric, tier == Tier::quick ? 7 : 10});

@@ -296,11 +296,9 @@ Figure deep_profiles(const std::vector<DepthLadder>& ladders) {
 
 void add_deep_wrinkles(const Subject& subject, Tier tier, const Progress& progress,
                        StudyResult& result) {
-  Table levels{{"compression over the onset's", "1"},
-               {"Delta/W", "1"},
-               {"rows of triangles", "1"},
-               {"amplitude", "1"},
-               {"largest force over T edge", "1"}};  // no number: not stable
+  Table levels(
+      "compression over the onset's [1]; Delta/W [1]; rows of triangles [1]; amplitude [1]; "
+      "largest force over T edge [1]");  // no number: not stable
   std::vector<DepthLadder> ladders;
   const std::vector<double> depths =
       tier == Tier::quick ? std::vector{4.0, 8.0} : std::vector{2.0, 3.0, 4.0, 6.0, 8.0};

@@ -1,5 +1,4 @@
 // fabric-strip: a strip cut from a simulated sheet, in the laboratory's bending test.
-#include <cmath>
 
 #include "convergence/validation/comparison.h"
 #include "convergence/study.h"

@@ -1,8 +1,4 @@
 // fold-tests and pressed-strip: strips that meet a floor, against the elastica.
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
 
 #include "convergence/validation/comparison.h"
 #include "convergence/validation/strip_ladder.h"
@@ -83,10 +79,8 @@ void add_fold(const Subject& subject, const FoldTest& test, StudyResult& result)
   // 64 would do for the difference, but whole panels that lie flat make a wide error bar
   constexpr int panels[] = {32, 64, 128};
   Ladder heights;
-  Table levels{{"spacing of the rows over L", "1"},
-               {"flat panels", "1"},
-               {"lift-off over L", "1"},
-               {"height over L", "1"}};
+  Table levels(
+      "spacing of the rows over L [1]; flat panels [1]; lift-off over L [1]; height over L [1]");
   Curve rows{std::string(test.words) + ", simulated"};
   for (const int count : panels) {
     const FoldOnMesh mesh = fold_on_mesh(subject, test, count);

@@ -1,6 +1,4 @@
 // free-fold: a strip that is folded back over itself and held by nothing, against the elastica.
-#include <algorithm>
-#include <cmath>
 
 #include "convergence/validation/comparison.h"
 #include "convergence/validation/strip_ladder.h"
@@ -173,14 +171,10 @@ StudyResult run_free_fold(const Subject& subject, Tier tier, const Progress& pro
   const oracles::FreeFold fold = oracles::free_fold_by_shooting();
   std::vector<int> panels{32, 64, 128};
   if (tier == Tier::full) panels.push_back(256);
-  Table levels{{"spacing of the rows", "1"},
-               {"lifted length", "1"},
-               {"height", "1"},
-               {"error of the height", "1"},
-               {"error of the lifted length", "1"},
-               {"end over the floor", "1"},
-               {"pull of the floor", "1"},
-               {"depth below the floor", "1"}};
+  Table levels(
+      "spacing of the rows [1]; lifted length [1]; height [1]; error of the height [1]; error of "
+      "the lifted length [1]; end over the floor [1]; pull of the floor [1]; depth below the floor "
+      "[1]");
   LiftedPart finest;
   double floor = 0;
   for (const int count : panels) {

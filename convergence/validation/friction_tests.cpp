@@ -1,9 +1,6 @@
 // friction-tests: cloth on an incline, and a belt on a turning drum, against Coulomb's law.
-#include <fmt/format.h>
 
 #include <Eigen/Geometry>
-#include <algorithm>
-#include <cmath>
 
 #include "convergence/validation/comparison.h"
 #include "convergence/study.h"

@@ -1,9 +1,4 @@
 // hanging-chain: limp strips between two points, against the catenary, and how they swing.
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
 
 #include "convergence/validation/comparison.h"
 #include "convergence/study.h"

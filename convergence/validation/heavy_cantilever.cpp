@@ -1,8 +1,4 @@
 // heavy-cantilever: a clamped strip from nearly weightless to nearly limp, against the elastica.
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
 
 #include "convergence/validation/comparison.h"
 #include "convergence/validation/strip_ladder.h"

@@ -1,9 +1,4 @@
 // hung-disc: a heavy disc that hangs from its centre, against a cone that does not stretch.
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
 
 #include "convergence/study.h"
 #include "convergence/validation/comparison.h"
@@ -208,7 +203,7 @@ NamedFinding three_folds_fall_to_two(const Subject& subject, const DiscLadder& t
   const double three = oracles::hung_cone_by_series(3, two.weight, {}).energy.value,
                cone = oracles::hung_cone_by_series(2, two.weight, {}).energy.value;
   edges.curves.push_back(edge_curve("simulated, from three folds", from_three));
-  Table table{{"start", ""}, {"folds at rest", "1"}, {"energy", "1"}, {"energy of the cone", "1"}};
+  Table table("start; folds at rest [1]; energy [1]; energy of the cone [1]");
   table.row("two folds", folds_of(from_two), from_two.energy, cone);
   table.row("three folds", folds_of(from_three), from_three.energy, three);
   const double missed = folds_of(from_three) == 2
@@ -248,14 +243,10 @@ Figure edge_figure(const DiscLadder& one) {
 
 StudyResult run_hung_disc(const Subject& subject, Tier tier, const Progress& progress) {
   StudyResult result;
-  Table levels{{"weight", "1"},
-               {"sectors", "1"},
-               {"stretch stiffness", "1"},
-               {"energy over the cone's", "1"},
-               {"depth over the cone's", "1"},
-               {"trough over the cone's", "1"},
-               {"unbalanced force over the weight", "1"},
-               {"stretch over bending", "1"}};
+  Table levels(
+      "weight [1]; sectors [1]; stretch stiffness [1]; energy over the cone's [1]; depth over the "
+      "cone's [1]; trough over the cone's [1]; unbalanced force over the weight [1]; stretch over "
+      "bending [1]");
   std::vector<DiscLadder> ladders;
   for (const double weight : tier == Tier::quick ? std::vector{4.0} : std::vector{4.0, 3.0}) {
     ladders.push_back(ladders_of(subject, weight, levels));

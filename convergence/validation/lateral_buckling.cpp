@@ -1,10 +1,6 @@
 // lateral-buckling: a ribbon on edge, clamped at one end, tips sideways under its own weight.
 #include <Eigen/SparseCholesky>
-#include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <numbers>
 #include <numeric>
 #include <stdexcept>

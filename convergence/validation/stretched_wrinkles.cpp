@@ -26,18 +26,9 @@ struct Sheet {
   double rigidity, tension, length;  // D [J], T [N/m], L [m]
 };
 
-const char* name_of(Varied varied) {
-  switch (varied) {
-    case Varied::tension:
-      return "tension";
-    case Varied::length:
-      return "length";
-    case Varied::rigidity:
-      return "rigidity";
-    case Varied::nothing:
-      break;
-  }
-  return "first";
+std::string_view name_of(Varied varied) {
+  constexpr std::string_view names[] = {"first", "tension", "length", "rigidity"};
+  return names[size_t(varied)];
 }
 
 /// The law's exponent of the wavelength.
@@ -283,12 +274,9 @@ Figure coarse_figure() {
 
 StudyResult run_stretched_wrinkles(const Subject& subject, Tier tier, const Progress& progress) {
   StudyResult result;
-  Table levels{{"sheet", ""},
-               {"rows of triangles", "1"},
-               {"wavelength", "m"},
-               {"compression", "N/m"},
-               {"wavelength over the law's", "1"},
-               {"compression over the law's", "1"}};
+  Table levels(
+      "sheet; rows of triangles [1]; wavelength [m]; compression [N/m]; wavelength over the law's "
+      "[1]; compression over the law's [1]");
   const std::vector<Sheet> sheets = sheets_of(tier);
   std::vector<SheetLadder> ladders;
   for (const Sheet& sheet : sheets) {

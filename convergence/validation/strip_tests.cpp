@@ -1,7 +1,4 @@
 // strip-tests: the shapes into which a textile laboratory bends a strip, against the elastica.
-#include <fmt/format.h>
-
-#include <cmath>
 
 #include "convergence/validation/comparison.h"
 #include "convergence/validation/strip_ladder.h"

@@ -1,9 +1,6 @@
 // long-contact: which steps last on cloth that falls on a ball, slides, folds and hangs from it,
 // and what does a second of that motion cost with each method?
-#include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "convergence/work_precision/precision_problem.h"
@@ -111,14 +108,10 @@ struct LongContact {
 };
 
 Table steps_and_work(const LongContact& measured) {
-  Table table{{"method", "1"},
-              {"longest step that lasts", "s"},
-              {"over the elastic limit", "1"},
-              {"operator applications for a second of motion", "1"},
-              {"over those of C", "1"},
-              {"energy at the limit over that at half of it", "1"},
-              {"energy left at the end", "1"},
-              {"the next step, twice as long", "1"}};
+  Table table(
+      "method [1]; longest step that lasts [s]; over the elastic limit [1]; operator applications "
+      "for a second of motion [1]; over those of C [1]; energy at the limit over that at half of "
+      "it [1]; energy left at the end [1]; the next step, twice as long [1]");
   const double work_of_c = measured.of("C").applications;
   for (const LongestStep& one : measured.methods)
     table.row(one.method->name, measured.steps(one) * measured.limit, measured.steps(one),

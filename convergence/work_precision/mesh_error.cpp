@@ -1,7 +1,4 @@
 // mesh-error: what the mesh leaves of the error, beside what the step leaves.
-#include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "convergence/order.h"
 #include "convergence/tables.h"
@@ -100,7 +97,7 @@ Convergence errors_of(const std::vector<MeshRun>& meshes) {
 ///   e(dx) - e(dx/2) = e(dx) (1 - 2^-order)
 Table errors_table(const std::vector<MeshRun>& meshes, const Convergence& differences) {
   const double order = pair_orders(differences).back();
-  Table table{{"cells along a side", "1"}, {"error of the mesh", "m"}, {"error of the step", "m"}};
+  Table table("cells along a side [1]; error of the mesh [m]; error of the step [m]");
   for (size_t i = 0; i < differences.errors.size(); ++i)
     table.row(meshes[i].cells, differences.errors[i] / (1 - std::pow(2, -order)),
               meshes[i].time_error);
@@ -136,14 +133,10 @@ NamedFinding step_errs_less(const std::vector<MeshRun>& meshes, const Table& err
 }
 
 Table balance(const std::vector<MeshRun>& meshes, const Table& errors) {
-  Table table{{"cells along a side", "1"},
-              {"width of a cell", "m"},
-              {"elastic limit", "s"},
-              {"error of the mesh", "%"},
-              {"error of the step", "%"},
-              {"step's error over the mesh's", "1"},
-              {"step over elastic limit at which both are equal", "1"},
-              {"operator applications", "1"}};
+  Table table(
+      "cells along a side [1]; width of a cell [m]; elastic limit [s]; error of the mesh [%]; "
+      "error of the step [%]; step's error over the mesh's [1]; step over elastic limit at which "
+      "both are equal [1]; operator applications [1]");
   for (size_t i = 0; i < errors.rows(); ++i) {
     const MeshRun& mesh = meshes[i];
     const double space = errors.numbers("error of the mesh")[i];

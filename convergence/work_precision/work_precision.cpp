@@ -1,10 +1,6 @@
 // work-precision: which integrator reaches a wanted accuracy at the least cost, scene by scene.
 #include "convergence/work_precision/work_precision.h"
 
-#include <algorithm>
-#include <cmath>
-#include <string>
-
 #include "convergence/study.h"
 #include "reference/dynamics/integrator.h"
 

@@ -1,10 +1,7 @@
 // Parts of the study work-precision: every method on every motion, what is read from it.
 #pragma once
 
-#include <array>
-#include <string>
 #include <string_view>
-#include <vector>
 
 #include "convergence/study.h"
 #include "convergence/work_precision/precision_curve.h"

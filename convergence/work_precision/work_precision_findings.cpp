@@ -46,10 +46,9 @@ size_t finest_judged(const PrecisionCurve& curve, double uncertainty) {
 NamedFinding errors_fall(const PrecisionScene& scene) {
   constexpr size_t least_judged = 6;  // of the eleven methods
   Worst worst, worst_with_uncertainty;
-  Table shrinkages{{"method", "1"},
-                   {"error of the run before", "1"},
-                   {"error of the finest run", "1"},
-                   {"error left when the step is halved", "1"}};
+  Table shrinkages(
+      "method [1]; error of the run before [1]; error of the finest run [1]; error left when the "
+      "step is halved [1]");
   std::string left_out;
   for (const PrecisionCurve& curve : scene.curves) {
     const size_t i = finest_judged(curve, scene.truth.uncertainty);
@@ -101,9 +100,9 @@ NamedFinding mixed_steps_are_larger(const PrecisionScene& scene) {
   const double predicted =
       scene.truth.two_over_omega / (runge_kutta_reach * scene.truth.two_over_c);
   Worst worst;
-  Table steps{{"scheme", "1"},           {"error", "1"},
-              {"its largest step", "s"}, {"largest step of explicit methods", "s"},
-              {"their ratio", "1"},      {"ratio of the limits", "1"}};
+  Table steps(
+      "scheme [1]; error [1]; its largest step [s]; largest step of explicit methods [s]; their "
+      "ratio [1]; ratio of the limits [1]");
   for (double error : wanted_errors) {
     for (const char* scheme : {"A", "B"}) {
       const double mixed = step_of(scene, scheme, error),
@@ -140,8 +139,7 @@ double growth_beyond(const PrecisionScene& scene, double h) {
 /// A lasting motion takes back what a short one forgives: steps beyond 2/omega.
 NamedFinding within_the_limit(const PrecisionScene& scene) {
   Worst worst;
-  Table steps{
-      {"error", "1"}, {"largest step of B", "s"}, {"growth of the fastest mode in the run", "1"}};
+  Table steps("error [1]; largest step of B [s]; growth of the fastest mode in the run [1]");
   for (double error : wanted_errors) {
     const double step = step_of(scene, "B", error);
     steps.row(error, step, growth_beyond(scene, step));
@@ -178,10 +176,9 @@ NamedFinding C_needs_shorter_steps(const PrecisionScene& scene) {
 /// C's solves over A's at equal numbers of steps.
 NamedFinding one_more_solve(const std::vector<PrecisionScene>& scenes) {
   Worst worst;
-  Table ratios{{"scene", "1"},
-               {"steps", "1"},
-               {"solves of C over those of A", "1"},
-               {"operator applications of C over those of A", "1"}};
+  Table ratios(
+      "scene [1]; steps [1]; solves of C over those of A [1]; operator applications of C over "
+      "those of A [1]");
   for (const PrecisionScene& scene : scenes) {
     for (const PrecisionRun& a : curve_of(scene, "A").runs) {
       for (const PrecisionRun& c : curve_of(scene, "C").runs) {
@@ -209,8 +206,7 @@ double gain_at(const PrecisionScene& scene, const PrecisionCurve& curve, double 
 /// By work and by seconds, at each wanted error.
 NamedFinding cheapest_steps_last(const std::vector<PrecisionScene>& scenes) {
   constexpr double most = 2;
-  Table steps{{"scene", "1"},  {"error", "1"},    {"by", "1"},
-              {"method", "1"}, {"its step", "s"}, {"energy gain", "1"}};
+  Table steps("scene [1]; error [1]; by [1]; method [1]; its step [s]; energy gain [1]");
   for (const PrecisionScene& scene : scenes)
     for (const double wanted : wanted_errors)
       for (const Currency& currency : currencies)
@@ -237,11 +233,9 @@ NamedFinding cheapest_steps_last(const std::vector<PrecisionScene>& scenes) {
 /// Where damping is light or each mode is resolved, order counts.
 NamedFinding C_loses_at_small_errors(const std::vector<PrecisionScene>& scenes) {
   const double wanted = wanted_errors.back();
-  Table shares{{"scene", "1"},
-               {"cheapest other method", "1"},
-               {"its operator applications", "1"},
-               {"operator applications of C", "1"},
-               {"work of the cheapest over C's", "1"}};
+  Table shares(
+      "scene [1]; cheapest other method [1]; its operator applications [1]; operator applications "
+      "of C [1]; work of the cheapest over C's [1]");
   for (const PrecisionScene& scene : scenes) {
     if (scene.problem.name != "damped-hinge" && scene.problem.name != "light-sheet") continue;
     const auto work = [&](const PrecisionCurve& curve) {

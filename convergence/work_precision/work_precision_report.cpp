@@ -41,19 +41,11 @@ std::string tied(const PrecisionScene& scene, const Podium& podium) {
 }
 
 Table cheapest(const std::vector<PrecisionScene>& scenes) {
-  Table table{{"scene", "1"},
-              {"error wanted", "%"},
-              {"by", "1"},
-              {"cheapest method", "1"},
-              {"its step", "s"},
-              {"step over bound of elastic limit", "1"},
-              {"step limited by", "1"},
-              {"operator applications", "1"},
-              {"processor time", "s"},
-              {"C costs this many times as much", "1"},
-              {"next best", "1"},
-              {"it costs this many times as much", "1"},
-              {"tied", "1"}};
+  Table table(
+      "scene [1]; error wanted [%]; by [1]; cheapest method [1]; its step [s]; step over bound of "
+      "elastic limit [1]; step limited by [1]; operator applications [1]; processor time [s]; C "
+      "costs this many times as much [1]; next best [1]; it costs this many times as much [1]; "
+      "tied [1]");
   for (const PrecisionScene& scene : scenes)
     for (double wanted : wanted_errors)
       for (const Currency& currency : currencies) {
@@ -72,16 +64,10 @@ Table cheapest(const std::vector<PrecisionScene>& scenes) {
 }
 
 Table prices(const std::vector<PrecisionScene>& scenes) {
-  Table table{{"scene", "1"},
-              {"error wanted", "%"},
-              {"method", "1"},
-              {"largest step", "s"},
-              {"step over bound of elastic limit", "1"},
-              {"step limited by", "1"},
-              {"operator applications", "1"},
-              {"processor time", "s"},
-              {"unfinished solves", "1"},
-              {"asked whether it lasts", "1"}};
+  Table table(
+      "scene [1]; error wanted [%]; method [1]; largest step [s]; step over bound of elastic limit "
+      "[1]; step limited by [1]; operator applications [1]; processor time [s]; unfinished solves "
+      "[1]; asked whether it lasts [1]");
   for (const PrecisionScene& scene : scenes)
     for (double wanted : wanted_errors)
       for (const PrecisionCurve& curve : scene.curves) {
@@ -95,14 +81,10 @@ Table prices(const std::vector<PrecisionScene>& scenes) {
 }
 
 Table scales(const std::vector<PrecisionScene>& scenes) {
-  Table table{{"scene", "1"},
-              {"particles", "1"},
-              {"end", "s"},
-              {"largest motion", "m"},
-              {"reference off by at most", "%"},
-              {"elastic limit, the solver's bound", "s"},
-              {"2/omega, fastest mode", "s"},
-              {"2/c, fastest damping rate", "s"}};
+  Table table(
+      "scene [1]; particles [1]; end [s]; largest motion [m]; reference off by at most [%]; "
+      "elastic limit, the solver's bound [s]; 2/omega, fastest mode [s]; 2/c, fastest damping rate "
+      "[s]");
   for (const auto& [problem, truth, curves] : scenes)
     table.row(problem.description, problem.scene.mesh.particles(), problem.end, truth.motion,
               percent * truth.uncertainty, truth.elastic_limit, truth.two_over_omega,
@@ -112,13 +94,9 @@ Table scales(const std::vector<PrecisionScene>& scenes) {
 
 /// How much of every curve there is to see.
 Table coverage(const std::vector<PrecisionScene>& scenes) {
-  Table table{{"scene", "1"},
-              {"method", "1"},
-              {"runs", "1"},
-              {"measured", "1"},
-              {"that err more than the reference", "1"},
-              {"with unfinished solves", "1"},
-              {"diverged", "1"}};
+  Table table(
+      "scene [1]; method [1]; runs [1]; measured [1]; that err more than the reference [1]; with "
+      "unfinished solves [1]; diverged [1]");
   for (const PrecisionScene& scene : scenes)
     for (const PrecisionCurve& curve : scene.curves) {
       int measured = 0, seen = 0, unfinished = 0;
@@ -134,18 +112,10 @@ Table coverage(const std::vector<PrecisionScene>& scenes) {
 }
 
 Table all_runs(const std::vector<PrecisionScene>& scenes) {
-  Table table{{"scene", "1"},
-              {"method", "1"},
-              {"steps", "1"},
-              {"error", "%"},
-              {"elastic evaluations", "1"},
-              {"damping preparations", "1"},
-              {"damping products", "1"},
-              {"stiffness preparations", "1"},
-              {"stiffness products", "1"},
-              {"operator applications", "1"},
-              {"unfinished solves", "1"},
-              {"processor time", "s"}};
+  Table table(
+      "scene [1]; method [1]; steps [1]; error [%]; elastic evaluations [1]; damping preparations "
+      "[1]; damping products [1]; stiffness preparations [1]; stiffness products [1]; operator "
+      "applications [1]; unfinished solves [1]; processor time [s]");
   for (const PrecisionScene& scene : scenes)
     for (const PrecisionCurve& curve : scene.curves)
       for (const PrecisionRun& run : curve.runs) {
@@ -160,15 +130,10 @@ Table all_runs(const std::vector<PrecisionScene>& scenes) {
 
 /// Every step that was asked whether it lasts.
 Table longer_runs(const std::vector<PrecisionScene>& scenes) {
-  Table table{{"scene", "1"},
-              {"method", "1"},
-              {"step", "s"},
-              {"step over bound of elastic limit", "1"},
-              {"largest kinetic energy of the added time", "J"},
-              {"with half the step", "J"},
-              {"at any time", "J"},
-              {"energy gain", "1"},
-              {"lasts", "1"}};
+  Table table(
+      "scene [1]; method [1]; step [s]; step over bound of elastic limit [1]; largest kinetic "
+      "energy of the added time [J]; with half the step [J]; at any time [J]; energy gain [1]; "
+      "lasts [1]");
   for (const PrecisionScene& scene : scenes)
     for (const PrecisionCurve& curve : scene.curves)
       for (const LongerRun& run : curve.longer)

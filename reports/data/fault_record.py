@@ -1,5 +1,5 @@
-"""Outcomes of seeded faults that are shipped, as `scripts/faults --record` keeps them: each with
-its commit and the digest of the edit. An outcome counts for as long as the fault makes the same
+"""Outcomes of seeded faults that are shipped, as `scripts/faults --record` keeps them: by commit
+and outcome, the digests of the edits. An outcome counts for as long as the fault makes the same
 edit and names the same findings and tests."""
 from __future__ import annotations
 
@@ -17,25 +17,26 @@ RECORD = Path(__file__).resolve().parents[2] / "verification" / "faults" / "outc
 
 
 class Known(NamedTuple):
-    """An outcome, the commit at which it was found, and the digest of the edit."""
+    """An outcome, and the commit at which it was found."""
     outcome: str
     commit: str
-    edit: str
+
+
+def known_outcomes(stored: dict[str, dict[str, list[str]]]) -> dict[str, Known]:
+    """By the digest of the edit."""
+    return {edit: Known(outcome, commit) for commit, outcomes in stored.items()
+            for outcome, lines in outcomes.items() for line in lines for edit in line.split()}
 
 
 def with_record(faults: list[Fault], record: Path = RECORD) -> list[Fault]:
     """The faults; those that were not run with the results as they are recorded. Throws Unreadable
     if the record is damaged."""
-    known = read_json(record, lambda stored: {name: Known(*row) for name, row in stored.items()})
-    return [_recorded(fault, (known or {}).get(fault.name)) for fault in faults]
+    known = read_json(record, known_outcomes) or {}
+    return [_recorded(fault, known.get(edit_digest(fault))) for fault in faults]
 
 
 def _recorded(fault: Fault, known: Known | None) -> Fault:
     if fault.outcome not in ("", "not run") or known is None:
-        return fault
-    if known.edit != edit_digest(
-        fault.file, fault.find, fault.replace, fault.caught_by, fault.caught_by_tests
-    ):
         return fault
     return replace(fault, outcome=known.outcome, commit=known.commit)
 

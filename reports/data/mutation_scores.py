@@ -5,6 +5,9 @@ from __future__ import annotations
 
 import itertools
 import math
+import re
+import tomllib
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -121,15 +124,36 @@ def read_explained_edits(path: Path = EXPLAINED) -> list[Explained]:
     with reading(path):
         for section in path.read_text(encoding="utf-8").split("\n\n")[1:]:
             file, *rows = section.splitlines()
-            for mark, equal in itertools.groupby(rows, key=lambda row: row[:2]):
-                texts = [row[2:] for row in equal]
-                if mark == "+ ":
-                    edits += [Explained(file, line, becomes, times) for becomes in texts]
-                elif mark == "- ":
-                    [line], times = set(texts), len(texts)
-                elif mark != "  " or len(texts) > 1:
-                    raise ValueError(f"{file}: no reason, line or edit: {texts[-1]}")
+            for row, equal in itertools.groupby(rows):
+                times = len(list(equal))
+                if row.startswith("- "):
+                    edits += [Explained(file, *edit, times) for edit in edits_of(row[2:])]
+                elif not row.startswith("  "):
+                    raise ValueError(f"{file}: neither a reason nor a line with its edits: {row}")
     return edits
+
+
+def edits_of(marked: str) -> list[tuple[str, str]]:
+    """The line, and what it becomes, for each other text that a mark has; at least one."""
+    parts = re.split("[«»]", marked)  # every second one is what a mark holds
+    line = [part.split("¦")[0] for part in parts]
+    edits = [("".join(line), "".join([*line[:k], other, *line[k + 1:]]))
+             for k in range(1, len(parts), 2) for other in parts[k].split("¦")[1:]]
+    if not edits or len(parts) % 2 == 0:
+        raise ValueError(f"no edit: {marked}")
+    return edits
+
+
+def fault_rows(path: Path) -> Iterator[Row]:
+    """The rows of a list of seeded faults: one without a file has that of the row above, and what
+    `edit` marks is its find and replace. Throws ValueError, or AttributeError for no rows."""
+    file = {}
+    for name, row in tomllib.loads(path.read_text(encoding="utf-8")).get("fault", {}).items():
+        if "edit" in row:
+            [(row["find"], row["replace"])] = edits_of(row.pop("edit"))
+        row = {"name": name, **file, **row}
+        file = {"file": row["file"]} if "file" in row else {}
+        yield row
 
 
 def load_mutation_page(

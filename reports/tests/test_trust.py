@@ -66,7 +66,7 @@ class Beside(ReportTest):
             self.root / name for name in ("scores.json", "reasons.txt", "asked.json")
         )
         scores.write_text(json.dumps({"samples": samples, "open": [edit]}))
-        reasons.write_text("# first lines\n\na.cpp\n  they are never equal\n- a < b\n+ a <= b\n")
+        reasons.write_text("# first lines\n\na.cpp\n  they are never equal\n- a «<¦<=» b\n")
         asked.write_text(json.dumps({"mutants": [{**edit, "outcome": "SURVIVED"},
                                                  {**edit, "outcome": "killed"}]}))
         with mock.patch("pages.trust.load_mutation_page",

@@ -1,8 +1,5 @@
 // foldproof claims: the ledger of a finished run, read from its verdicts.json.
-#include <fmt/format.h>
 
-#include <algorithm>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "scripts/program/command_line/options_of_commands.h"
@@ -181,8 +178,7 @@ void add_claims_command(CLI::App& app, Program& program) {
   claims->add_option(
       "ID", options.names,
       "One claim, such as T17: its ruling, the reason, and the findings that decide it");
-  claims->add_option("--paper", options.paper, "Only the claims of one paper, such as BFA02")
-      ->type_name("KEY");
+  add_value(claims, "--paper KEY", options.paper, "Only the claims of one paper, such as BFA02");
   add_folder(claims, options, "Folder of the finished run")->capture_default_str();
   add_json(claims, options);
 }

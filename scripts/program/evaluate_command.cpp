@@ -1,5 +1,4 @@
 // foldproof evaluate: a formula on your numbers.
-#include <filesystem>
 
 #include "scripts/program/command_line/input_files.h"
 #include "scripts/program/command_line/options_of_commands.h"
@@ -76,11 +75,8 @@ void add_bending(CLI::App& evaluate, Program& program) {
                   {"bending", "Forces of single hinges from a CSV file", below_evaluate_bending},
                   evaluate_hinges);
   add_input(bending, "FILE", options.file, "CSV, 27 columns");
-  bending
-      ->add_option("--rest", options.rest_file,
-                   "CSV, 12 columns: rest positions [m], for rest weighting")
-      ->type_name("FILE")
-      ->check(some_text("a file"));
+  add_value(bending, "--rest FILE", options.rest_file,
+            "CSV, 12 columns: rest positions [m], for rest weighting", some_text("a file"));
 }
 
 void add_queries(CLI::App& evaluate, Program& program) {
@@ -93,10 +89,9 @@ void add_queries(CLI::App& evaluate, Program& program) {
   add_input(queries, "FILE,--ccd-data", options.file,
             "CSV file with 7 columns and 8 rows a query, or a folder of such files")
       ->type_name("FILE");
-  queries
-      ->add_option("--kind", options.kind, "vertex-face or edge-edge (default: as the path says)")
-      ->type_name("KIND")
-      ->check(one_of({"vertex-face", "edge-edge"}));
+  add_value(queries, "--kind KIND", options.kind,
+            "vertex-face or edge-edge (default: as the path says)",
+            one_of({"vertex-face", "edge-edge"}));
   add_length(queries, "--keep", options.keep, "Clearance that the reference should keep [m]")
       ->capture_default_str();
 }

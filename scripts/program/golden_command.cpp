@@ -1,5 +1,4 @@
 // foldproof golden: inputs and outputs of the paper's formulas, for unit tests of other codes.
-#include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 
@@ -69,14 +68,10 @@ void add_golden_command(CLI::App& app, Program& program) {
                    "bending, springs, integrator, forecast, friction, projection or sticking")
       ->required()
       ->check(one_of(golden_names()));
-  golden->add_option("--count", options.count, "Rows")
-      ->type_name("N")
-      ->check(whole_number(1, 1'000'000'000))
+  add_value(golden, "--count N", options.count, "Rows", whole_number(1, 1'000'000'000))
       ->capture_default_str();
-  golden
-      ->add_option("--seed", options.seed, "Seed of the inputs; the same seed gives the same rows")
-      ->type_name("N")
-      ->check(whole_number(0, 4'294'967'295))
+  add_value(golden, "--seed N", options.seed,
+            "Seed of the inputs; the same seed gives the same rows", whole_number(0, 4'294'967'295))
       ->capture_default_str();
   add_json(golden, options);
 }

@@ -1,7 +1,5 @@
 // foldproof judge, subject, serve: another solver on trial, its adapter, and the reference as one.
-#include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -309,9 +307,8 @@ void add_subject(CLI::App& app, Program& program) {
                   {"subject", "Test whether a solver's adapter keeps to the protocol of `judge`",
                    below_subject},
                   check_subject);
-  subject->add_option("--check", options.solver, "Command that starts the adapter")
-      ->type_name("CMD")
-      ->check(some_text("a command"))
+  add_value(subject, "--check CMD", options.solver, "Command that starts the adapter",
+            some_text("a command"))
       ->required();
   add_solver_options(subject, options);
 }
@@ -322,13 +319,11 @@ void add_serve(CLI::App& app, Program& program) {
                   {"serve", "Answer the protocol of `judge` as the reference: `judge` starts this",
                    below_serve},
                   serve);
-  served->add_option("--integrator", options.integrator, "One of `foldproof list integrators`")
-      ->type_name("NAME")
-      ->check(some_text("an integrator"))
+  add_value(served, "--integrator NAME", options.integrator, "One of `foldproof list integrators`",
+            some_text("an integrator"))
       ->capture_default_str();
-  served->add_option("--precision", options.precision, "Number format of its answers: f8 or f4")
-      ->type_name("TYPE")
-      ->check(one_of({"f8", "f4"}))
+  add_value(served, "--precision TYPE", options.precision, "Number format of its answers: f8 or f4",
+            one_of({"f8", "f4"}))
       ->capture_default_str();
 }
 
@@ -346,22 +341,17 @@ void add_judge_command(CLI::App& app, Program& program) {
                    "Laws or groups to judge, as `foldproof list laws` shows them")
       ->needs(solver);
   add_judged_frames(judge, solver, options);
-  judge->add_option("--name", options.name, "Name in the report (default: the solver's own)")
-      ->type_name("NAME")
-      ->check(some_text("a name"));
-  judge
-      ->add_option("--baseline", options.baseline,
-                   "A kept verdicts.json of `judge`: fail only where the solver got worse since")
-      ->type_name("FILE")
-      ->check(some_text("a file"));
+  add_value(judge, "--name NAME", options.name, "Name in the report (default: the solver's own)",
+            some_text("a name"));
+  add_value(judge, "--baseline FILE", options.baseline,
+            "A kept verdicts.json of `judge`: fail only where the solver got worse since",
+            some_text("a file"));
   add_solver_options(judge, options);
   judge->get_option("--settings")->needs("--solver");
-  judge
-      ->add_option("--total-seconds", options.total_seconds,
-                   "Longest time of all laws together [s] (default: no limit); laws that it does "
-                   "not reach did not run")
-      ->type_name("S")
-      ->check(positive_number())
+  add_value(judge, "--total-seconds S", options.total_seconds,
+            "Longest time of all laws together [s] (default: no limit); laws that it does "
+            "not reach did not run",
+            positive_number())
       ->needs(solver);
   add_out_if_typed(judge, options,
                    "Also write run.h5, verdicts.json, junit.xml and solver.json into this folder");

@@ -1,11 +1,7 @@
 // `foldproof list`: counts of checks, studies, laws, cases, claims; the names of one kind.
-#include <fmt/format.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "scripts/program/command_line/options_of_commands.h"
 #include "convergence/studies.h"

@@ -1,11 +1,7 @@
 // foldproof project: a stored run with its cloth brought out of the objects, and what that leaves
 // of its wrinkles.
-#include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <filesystem>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -256,9 +252,8 @@ void add_project_command(CLI::App& app, Program& program) {
        below_project},
       project_run);
   add_input(project, "RUN.h5", options.file, "Run stored by `foldproof simulate`");
-  project->add_option("--map", options.map, "Map of depth: plain, power or blend")
-      ->type_name("MAP")
-      ->check(one_of({"plain", "power", "blend"}))
+  add_value(project, "--map MAP", options.map, "Map of depth: plain, power or blend",
+            one_of({"plain", "power", "blend"}))
       ->required();
   add_length(project, "--tau", options.reach, "Move also points outside, up to this distance [m]")
       ->required();
@@ -267,15 +262,11 @@ void add_project_command(CLI::App& app, Program& program) {
       ->capture_default_str();
   add_length(project, "--deepest", options.deepest,
              "Depths [m] beyond this are treated alike (default: the deepest in the run)");
-  project
-      ->add_option("--subdivide", options.subdivisions,
-                   "Levels of subdivision before the projection, 0 to 8")
-      ->type_name("N")
-      ->check(whole_number(0, 8))
+  add_value(project, "--subdivide N", options.subdivisions,
+            "Levels of subdivision before the projection, 0 to 8", whole_number(0, 8))
       ->capture_default_str();
-  project->add_option("--rule", options.rule, "Rule of subdivision: loop or midpoint")
-      ->type_name("RULE")
-      ->check(one_of({"loop", "midpoint"}))
+  add_value(project, "--rule RULE", options.rule, "Rule of subdivision: loop or midpoint",
+            one_of({"loop", "midpoint"}))
       ->capture_default_str();
   add_cache(project, options);
   add_folder(project, options, "Folder for the projected run")->capture_default_str();

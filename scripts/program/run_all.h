@@ -1,9 +1,6 @@
 // Running checks, studies and cases by name, and telling the world.
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "scripts/program/jobs.h"
 #include "verification/cases/expectations.h"
 #include "convergence/study.h"

@@ -1,8 +1,5 @@
 // foldproof smooth: a stored run with a smooth surface of its cloth that does not cross itself.
-#include <fmt/format.h>
 
-#include <algorithm>
-#include <filesystem>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -135,9 +132,8 @@ void add_smooth_command(CLI::App& app, Program& program) {
        below_smooth},
       smooth_run);
   add_input(smooth, "RUN.h5", options.file, "Run stored by `foldproof simulate`");
-  smooth->add_option("--levels", options.levels, "Levels of subdivision, 1 to 4")
-      ->type_name("N")
-      ->check(whole_number(1, 4))
+  add_value(smooth, "--levels N", options.levels, "Levels of subdivision, 1 to 4",
+            whole_number(1, 4))
       ->capture_default_str();
   add_cache(smooth, options);
   add_folder(smooth, options, "Folder for the smooth run")->capture_default_str();

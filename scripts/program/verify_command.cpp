@@ -1,10 +1,6 @@
 // foldproof check, study, verify: the suite, or parts of it.
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <chrono>
-#include <filesystem>
 
 #include "convergence/studies.h"
 #include "reference/bodies/level_set_provider.h"

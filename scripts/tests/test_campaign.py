@@ -164,7 +164,7 @@ class CampaignTest(CampaignCase):
         rows = dict(re.findall(row, page, re.M))
         files = sorted(shipped.glob("*.campaign.toml"))
         self.assertEqual(sorted(rows), [path.name.split(".")[0] for path in files])
-        faults = sum(len(tomllib.loads(path.read_text(encoding="utf-8")).get("fault", []))
+        faults = sum(len(tomllib.loads(path.read_text(encoding="utf-8")).get("fault", {}))
                      for path in (ROOT / "verification/faults").glob("*.toml"))
         for name, said in rows.items():
             jobs = faults if said == "all" else int(said.replace(",", ""))

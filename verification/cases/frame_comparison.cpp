@@ -108,10 +108,10 @@ ClothShape shape_of_particles(const ComparedRun& run, double time, const PerPart
 }
 
 Table numbers_over_time(const std::vector<FrameComparison>& frames) {
-  Table rows{{"time", "s"},           {"rms distance", "m"},       {"largest distance", "m"},
-             {"stretch, run", "J"},   {"stretch, frame", "J"},     {"bending, run", "J"},
-             {"bending, frame", "J"}, {"crossings, run", "pairs"}, {"crossings, frame", "pairs"},
-             {"depth, run", "m"},     {"depth, frame", "m"}};
+  Table rows(
+      "time [s]; rms distance [m]; largest distance [m]; stretch, run [J]; stretch, frame [J]; "
+      "bending, run [J]; bending, frame [J]; crossings, run [pairs]; crossings, frame [pairs]; "
+      "depth, run [m]; depth, frame [m]");
   for (const FrameComparison& f : frames)
     rows.row(f.time, f.distance.rms, f.distance.largest, f.run.stretch, f.frame.stretch,
              f.run.bending, f.frame.bending, f.run.crossings, f.frame.crossings, f.run.depth,
@@ -120,7 +120,7 @@ Table numbers_over_time(const std::vector<FrameComparison>& frames) {
 }
 
 Table folds_over_time(const std::vector<FrameComparison>& frames) {
-  Table rows{{"time", "s"}, {"fold angle", ""}, {"share, run", "1"}, {"share, frame", "1"}};
+  Table rows("time [s]; fold angle; share, run [1]; share, frame [1]");
   for (const FrameComparison& f : frames)
     for (std::size_t b = 0; b < f.run.folds.size(); ++b)
       rows.row(f.time, name_of_fold_band(b), f.run.folds[b], f.frame.folds[b]);

@@ -172,12 +172,9 @@ Finding centre_falls_freely(const FrameMotion& motion) {
   const Vector3 gravity = *motion.of.scene.gravity, down = gravity.normalized();
   const Vector3 start = mean_by_mass(motion.of.scene.v, mass);
   const double h = motion.frames[1].time - motion.frames[0].time;
-  Table measured{{"last frame", "s"},
-                 {"acceleration's error", "g"},
-                 {"allowed of it", "g"},
-                 {"start velocity's error along gravity", "m/s"},
-                 {"start velocity's error across gravity", "m/s"},
-                 {"largest error over allowed", "1"}};
+  Table measured(
+      "last frame [s]; acceleration's error [g]; allowed of it [g]; start velocity's error along "
+      "gravity [m/s]; start velocity's error across gravity [m/s]; largest error over allowed [1]");
   for (std::size_t k = 2; k < count; ++k) {
     const Parabola p =
         parabola_through(motion.frames[0], motion.frames[k / 2], motion.frames[k], mass);
@@ -207,10 +204,9 @@ Finding centre_falls_freely(const FrameMotion& motion) {
 Finding motion_stays_in_budget(const FrameMotion& motion) {
   require_closed_budget(motion);
   const Energies start = energies(motion.built.system, start_state(motion.of.scene));
-  Table measured{{"time", "s"},
-                 {"kinetic and weight less the start's total", "J"},
-                 {"allowed excess", "J"},
-                 {"measured over allowed", "1"}};
+  Table measured(
+      "time [s]; kinetic and weight less the start's total [J]; allowed excess [J]; measured over "
+      "allowed [1]");
   double largest = 0;
   for (std::size_t k = 1; k + 1 < motion.frames.size(); ++k) {
     const double before = motion.frames[k].time - motion.frames[k - 1].time;
@@ -244,12 +240,9 @@ Finding starts_as_the_reference(const FrameMotion& motion) {
   const double h = first_interval(motion);
   const FreeCentre centre(motion);
   const std::vector<Vector3> reference = reference_centres(motion, centre, h / 2);
-  Table measured{{"time", "s"},
-                 {"reference's displacement", "m"},
-                 {"the frames'", "m"},
-                 {"distance of both", "m"},
-                 {"allowed difference", "m"},
-                 {"measured over allowed", "1"}};
+  Table measured(
+      "time [s]; reference's displacement [m]; the frames' [m]; distance of both [m]; allowed "
+      "difference [m]; measured over allowed [1]");
   for (std::size_t k = 1; 2 * k + 1 < reference.size(); ++k) {
     const Vector3 wanted = reference[2 * k] - reference[0];
     const Vector3 moved = centre.of(motion.frames[k].x) - centre.of(motion.frames[0].x);

@@ -35,7 +35,7 @@ Finding start_is_the_case_s(const FrameMotion& motion) {
 Finding end_is_reached(const FrameMotion& motion) {
   const Schedule& schedule = motion.of.scene.schedule;
   const double last = motion.frames.back().time;
-  Table measured{{"last frame", "s"}, {"end of the case", "s"}, {"missing", "frames"}};
+  Table measured("last frame [s]; end of the case [s]; missing [frames]");
   measured.row(last, schedule.end, std::max(0.0, schedule.end - last) / schedule.frame_interval);
   return judge_worst(measured, 1, "the last frame is at most one frame before the end");
 }
@@ -167,9 +167,9 @@ Finding folds_never_pass_through(const FrameMotion& motion) {
   if (motion.frames.size() < 2) throw NotOffered{"a second frame"};
   const auto mesh = surface_of(motion);
   if (!mesh) throw NotOffered{"one oriented surface for all frames"};
-  Table measured{{"time", "s"},
-                 {"fastest turn of other hinges", "degrees"},
-                 {"largest change of a hinge's angle", "degrees"}};
+  Table measured(
+      "time [s]; fastest turn of other hinges [degrees]; largest change of a hinge's angle "
+      "[degrees]");
   Turns worst;
   std::vector<std::vector<double>> angles;
   for (const TimedMesh& frame : motion.frames) angles.push_back(hinge_angles(*mesh, frame.x));
@@ -219,10 +219,9 @@ Finding energy_stays_in_budget(const FrameMotion& motion) {
   require_closed_budget(motion);
   constexpr double share = 0.01;
   const Energies start = energies(motion.built.system, start_state(motion.of.scene));
-  Table measured{{"time", "s"},
-                 {"potential less the start's total", "J"},
-                 {"allowed excess", "J"},
-                 {"measured over allowed", "1"}};
+  Table measured(
+      "time [s]; potential less the start's total [J]; allowed excess [J]; measured over allowed "
+      "[1]");
   double largest = 0;
   for (const State& frame : motion.states) {
     const State still{frame.time, frame.x, PerParticle3::Zero(3, frame.x.cols())};

@@ -136,14 +136,9 @@ Strains largest_strains(const FrameMotion& motion, const PerParticle3& x) {
 }
 
 Table numbers_table(const FrameMotion& motion) {
-  Table rows{{"time", "s"},
-             {"crossing pairs", "1"},
-             {"depth in objects", "m"},
-             {"largest extension", "1"},
-             {"largest compression", "1"},
-             {"lowest vertex", "m"},
-             {"mean height", "m"},
-             {"mean speed", "m/s"}};
+  Table rows(
+      "time [s]; crossing pairs [1]; depth in objects [m]; largest extension [1]; largest "
+      "compression [1]; lowest vertex [m]; mean height [m]; mean speed [m/s]");
   for (std::size_t k = 0; k < motion.frames.size(); ++k) {
     const TimedMesh& frame = motion.frames[k];
     const Strains strains = largest_strains(motion, frame.x);

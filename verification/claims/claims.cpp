@@ -9,7 +9,6 @@
 #include <cstdlib>
 #include <limits>
 #include <optional>
-#include <stdexcept>
 
 namespace foldproof {
 
@@ -46,29 +45,14 @@ int count_of(const std::vector<Decider>& deciders, const std::vector<Record>& re
 }  // namespace
 
 std::string_view name_of(Role role) {
-  switch (role) {
-    case Role::supports:
-      return "supports";
-    case Role::limits:
-      return "limits";
-    case Role::contradicts:
-      return "contradicts";
-  }
-  throw std::logic_error("name_of: a role without a name");
+  constexpr std::string_view names[] = {"supports", "limits", "contradicts"};
+  return names[size_t(role)];
 }
 
 std::string_view name_of(Ruling ruling) {
-  switch (ruling) {
-    case Ruling::confirmed:
-      return "confirmed";
-    case Ruling::conditional:
-      return "confirmed under a condition";
-    case Ruling::refuted:
-      return "refuted";
-    case Ruling::undecided:
-      return "undecided";
-  }
-  throw std::logic_error("name_of: a ruling without a name");
+  constexpr std::string_view names[] = {"confirmed", "confirmed under a condition", "refuted",
+                                        "undecided"};
+  return names[size_t(ruling)];
 }
 
 // A finding is held, failed (with numbers), or silent: missing from the run, inconclusive, not

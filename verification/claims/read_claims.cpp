@@ -68,10 +68,24 @@ Paper paper_of(const KeyTable& root) {
   return {written_text(*paper, "key"), title + " (" + std::to_string(year) + ")"};
 }
 
+/// The tables of `decided_by`; a name alone is that of a finding that supports the claim.
+std::vector<std::shared_ptr<KeyTable>> rows_of_deciders(const KeyTable& row) {
+  if (!row.is_list("decided_by")) return row.tables("decided_by");
+  std::vector<std::shared_ptr<KeyTable>> rows;
+  for (const KeyValue& value : std::get<std::vector<KeyValue>>(row.entries.at("decided_by").data))
+    if (const auto* table = std::get_if<std::shared_ptr<KeyTable>>(&value.data)) {
+      rows.push_back(*table);
+    } else {
+      rows.push_back(std::make_shared<KeyTable>("decided_by", value.where));
+      rows.back()->entries = {{"finding", value}, {"role", {"supports", value.where}}};
+    }
+  return rows;
+}
+
 std::vector<Decider> deciders_of(const KeyTable& row) {
   std::vector<Decider> deciders;
   if (row.has("missing") && !row.has("decided_by")) return deciders;
-  for (const auto& entry : row.tables("decided_by")) {
+  for (const auto& entry : rows_of_deciders(row)) {
     const std::string finding = written_text(*entry, "finding");
     if (std::ranges::any_of(deciders,
                             [&](const Decider& earlier) { return earlier.finding == finding; }))

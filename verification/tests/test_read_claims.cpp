@@ -78,6 +78,10 @@ TEST_CASE("a claim is read with its paper, its joined lines and its deciders in 
   CHECK(only.recorded == Ruling::conditional);
   const std::string contradicted = with(paper_and_claim, "\"limits\"", "\"contradicts\"");
   CHECK(read(contradicted)[0].decided_by[1].role == Role::contradicts);
+  const std::string alone = R"("sums.add-up")";
+  const std::string as_name =
+      with(paper_and_claim, "{role = \"supports\", finding = " + alone + "}", alone);
+  CHECK(read(as_name)[0].decided_by[0].role == Role::supports);
   for (const Ruling ruling : {Ruling::confirmed, Ruling::refuted, Ruling::undecided})
     CHECK(read(with(with(paper_and_claim, condition, ""), "confirmed under a condition",
                     std::string(name_of(ruling))))[0]

@@ -21,10 +21,10 @@ Record record_of_check(std::function<Finding(const Subject&)> run) {
   return run_check({"group.name", "A sentence.", "nowhere", std::move(run)}, reference_subject());
 }
 
-const std::string edit = "find = \"+\"\nreplace = \"-\"\nlaw = \"sums\"\n";
+const std::string edit = "edit = \"a «+¦-» b\"\nlaw = \"sums\"\n";
 
 std::string fault_of(const std::string& name, const std::string& file) {
-  return "[[fault]]\nname = \"" + name + "\"\nfile = \"" + file + "\"\n" + edit;
+  return "[fault." + name + "]\nfile = \"" + file + "\"\n" + edit;
 }
 
 }  // namespace
@@ -165,10 +165,11 @@ TEST_CASE("faults are read with who catches them, and a key that no one knows is
   folder.write("mesh.toml", row +
                                 "caught_by = [\"sums.add-up\"]\nfast = true\n"
                                 "caught_by_tests = [\"one, and another\", \"test_sums\"]\n"
-                                "[[fault]]\nname = \"next\"\n" +
-                                edit);
+                                "[fault.next]\nfind = \"+\"\nreplace = \"-\"\nlaw = \"sums\"\n");
   const std::vector<Fault> faults = read_faults(folder.file("."));
   REQUIRE(faults.size() == 2);
+  CHECK((faults[0].find == "a + b" && faults[0].replace == "a - b"));
+  CHECK((faults[1].find == "+" && faults[1].replace == "-"));
   CHECK(faults[1].file == "reference/mesh/a.cpp");  // as in the row above
   CHECK(faults[0].caught_by == std::vector<std::string>{"sums.add-up"});
   CHECK(faults[0].caught_by_tests == std::vector<std::string>{"one, and another", "test_sums"});
@@ -179,7 +180,7 @@ TEST_CASE("faults are read with who catches them, and a key that no one knows is
   CHECK(records[1].faults.empty());
   folder.write("mesh.toml", row + "caught_bye = [\"sums.add-up\"]\n");
   CHECK_THROWS_WITH(read_faults(folder.file(".")),
-                    Contains("mesh.toml:7: ") && Contains("caught_bye"));
+                    Contains("mesh.toml:5: ") && Contains("caught_bye"));
 }
 
 TEST_CASE("a fault in the file of another room, and a name that is taken, are refused") {
@@ -193,9 +194,9 @@ TEST_CASE("a fault in the file of another room, and a name that is taken, are re
     folder.write("mesh.toml", fault_of(name, file));
     CHECK_THROWS_WITH(read_faults(folder.file(".")), Contains(words));
   };
-  refused("two", "reference/forces/a.cpp", "mesh.toml:3: a fault in ");
-  refused("two", "scripts/faults", "mesh.toml:3: ");
-  refused("one", "reference/mesh/a.cpp", "mesh.toml:2: the name 'one' is taken at ");
+  refused("two", "reference/forces/a.cpp", "mesh.toml:2: a fault in ");
+  refused("two", "scripts/faults", "mesh.toml:2: ");
+  refused("one", "reference/mesh/a.cpp", "mesh.toml:1: the name 'one' is taken at ");
   CHECK(room_of("verification/checks/forces/spring_checks.cpp") == "checks");
   CHECK(room_of("verification/verdict.cpp") == "verdict");
   CHECK(room_of("convergence/stability/sheet.cpp") == "convergence");

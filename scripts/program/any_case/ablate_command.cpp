@@ -1,10 +1,6 @@
 // foldproof ablate: runs a case without each of its parts, and with those that it lacks and that
 // need no numbers from its author, and says which it needs.
-#include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <mutex>
 #include <nlohmann/json.hpp>
@@ -374,12 +370,10 @@ void add_ablate_command(CLI::App& app, Program& program) {
       ->add_option("CASE", options.names,
                    "Case files, or names of shipped cases (default: all of the tier)")
       ->check(some_text("a case file"));
-  command
-      ->add_option("--mesh-levels", options.mesh_levels,
-                   "Meshes that measure the mesh's error, 2 to 5; each takes about ten times as "
-                   "long as the one before")
-      ->type_name("N")
-      ->check(whole_number(2, 5))
+  add_value(command, "--mesh-levels N", options.mesh_levels,
+            "Meshes that measure the mesh's error, 2 to 5; each takes about ten times as "
+            "long as the one before",
+            whole_number(2, 5))
       ->capture_default_str();
   add_tier(command, options);
   add_overrides(command, options);

@@ -1,9 +1,6 @@
 // foldproof converge: the errors that a case owes to its step and to its mesh,
 // quantity by quantity.
-#include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -326,54 +323,39 @@ namespace {
 
 /// Options of the ladder: its direction, levels, methods and limits.
 void add_ladder(CLI::App* converge, Options& options) {
-  converge
-      ->add_option("--in", options.in,
-                   "Refine time (the steps), space (the mesh), or both, one after the other")
-      ->type_name("WHAT")
-      ->check(one_of({"time", "space", "both"}))
+  add_value(converge, "--in WHAT", options.in,
+            "Refine time (the steps), space (the mesh), or both, one after the other",
+            one_of({"time", "space", "both"}))
       ->capture_default_str();
-  converge
-      ->add_option("--levels", options.levels,
-                   "Runs, 3 to 12, each with half the steps, or edges half as long (default: 4; "
-                   "in time more, until the orders have settled or --budget is spent)")
-      ->type_name("N")
-      ->check(whole_number(3, 12));
-  converge
-      ->add_option("--budget", options.budget,
-                   "Without --levels: time for levels beyond the fourth [s]; 0: none")
-      ->type_name("S")
-      ->check(CLI::NonNegativeNumber)
+  add_value(converge, "--levels N", options.levels,
+            "Runs, 3 to 12, each with half the steps, or edges half as long (default: 4; "
+            "in time more, until the orders have settled or --budget is spent)",
+            whole_number(3, 12));
+  add_value(converge, "--budget S", options.budget,
+            "Without --levels: time for levels beyond the fourth [s]; 0: none",
+            CLI::NonNegativeNumber)
       ->capture_default_str();
   add_method(converge, options, "case's own");
   converge->add_flag("--refine-objects", options.refines_objects,
                      "In space: also refine the level sets of objects, by the same factor");
-  converge
-      ->add_option("--until", options.until,
-                   "Use only the beginning of the run, up to this time [s]")
-      ->type_name("TIME")
-      ->check(positive_number());
-  converge
-      ->add_option("--hours", options.hours,
-                   "Refuse levels that would make the whole call take longer than this [h]")
-      ->type_name("H")
-      ->check(positive_number());
+  add_value(converge, "--until TIME", options.until,
+            "Use only the beginning of the run, up to this time [s]", positive_number());
+  add_value(converge, "--hours H", options.hours,
+            "Refuse levels that would make the whole call take longer than this [h]",
+            positive_number());
 }
 
 /// Options of the disturbed runs.
 void add_twins(CLI::App* converge, Options& options) {
-  converge
-      ->add_option(
-          "--fraction", options.fraction,
-          "Positions count as unpredictable once disturbed runs differ by this share of the motion")
-      ->type_name("SHARE")
-      ->check(share())
+  add_value(
+      converge, "--fraction SHARE", options.fraction,
+      "Positions count as unpredictable once disturbed runs differ by this share of the motion",
+      share())
       ->capture_default_str();
-  converge
-      ->add_option("--ensemble", options.ensemble,
-                   "Runs with disturbed starts, whose statistics are compared once positions are "
-                   "not predictable; below 2: none")
-      ->type_name("N")
-      ->check(whole_number(0, 1000))
+  add_value(converge, "--ensemble N", options.ensemble,
+            "Runs with disturbed starts, whose statistics are compared once positions are "
+            "not predictable; below 2: none",
+            whole_number(0, 1000))
       ->capture_default_str();
 }
 

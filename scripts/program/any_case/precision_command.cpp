@@ -1,10 +1,7 @@
 // foldproof precision: which integrator is cheapest for a case at a wanted error, and which step of
 // another solver reaches it.
-#include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -443,16 +440,11 @@ void add_precision_command(CLI::App& app, Program& program) {
   add_input(command, "CASE", options.file, case_words);
   add_method(command, options, "all");
   add_errors(command, options, "Wanted errors, as shares of the motion (default: 1e-2,1e-3)");
-  command
-      ->add_option("--until", options.until,
-                   "Use only the beginning of the run, up to this time [s]")
-      ->type_name("TIME")
-      ->check(positive_number());
-  command
-      ->add_option("--effort", options.effort,
-                   "Let each run take this many times the usual work, for shorter steps")
-      ->type_name("TIMES")
-      ->check(positive_number())
+  add_value(command, "--until TIME", options.until,
+            "Use only the beginning of the run, up to this time [s]", positive_number());
+  add_value(command, "--effort TIMES", options.effort,
+            "Let each run take this many times the usual work, for shorter steps",
+            positive_number())
       ->capture_default_str();
   add_overrides(command, options);
   add_other_solver(command, options,

@@ -1,5 +1,4 @@
 // foldproof bench: speed and memory.
-#include <fmt/format.h>
 
 #include "scripts/program/bench/bench.h"
 #include "scripts/program/command_line/options_of_commands.h"

@@ -8,16 +8,13 @@ namespace {
 
 /// Options that `campaign run` and `campaign emit` share with those who work for them.
 void add_campaign_work(CLI::App* command, Options& options) {
-  command->add_option("--slice", options.slice, "Jobs a slice; of `work`: the number of the slice")
-      ->type_name("N")
-      ->check(whole_number(0, 10'000'000));
+  add_value(command, "--slice N", options.slice, "Jobs a slice; of `work`: the number of the slice",
+            whole_number(0, 10'000'000));
   add_threads(command, options);
   add_cache(command, options);
-  command
-      ->add_option("--scratch", options.scratch,
-                   "Folder on each node; results are copied to the store at the end of a slice")
-      ->type_name("DIR")
-      ->check(some_text("a folder"));
+  add_value(command, "--scratch DIR", options.scratch,
+            "Folder on each node; results are copied to the store at the end of a slice",
+            some_text("a folder"));
 }
 
 constexpr const char* below_campaign =
@@ -146,12 +143,9 @@ void add_campaign_command(CLI::App& app, Program& program) {
   add({"plan", "How many jobs, how long, how many bytes? Runs a sample of three", below_plan},
       plan_campaign);
   auto [run, options] = add({"run", "Run what is missing", below_run}, run_campaign);
-  run->add_option("--on", options.engine, "Engine: local or slurm")
-      ->type_name("ENGINE")
-      ->capture_default_str();
-  run->add_option("--options", options.engine_options,
-                  "Options for the engine's own command, as \"--partition=long --time=60\"")
-      ->type_name("WORDS");
+  add_value(run, "--on ENGINE", options.engine, "Engine: local or slurm")->capture_default_str();
+  add_value(run, "--options WORDS", options.engine_options,
+            "Options for the engine's own command, as \"--partition=long --time=60\"");
   add_campaign_work(run, options);
   const auto table = add({"table", "Write table.csv and table.h5, and judge [expect]", below_table},
                          show_campaign_table);
@@ -165,9 +159,8 @@ void add_campaign_command(CLI::App& app, Program& program) {
   auto [emit, of_emit] =
       add({"emit", "Print what is missing as commands, one a line, for another engine", below_emit},
           emit_campaign);
-  emit->add_option("--slice", of_emit.slice, "Jobs a line (default: 50)")
-      ->type_name("N")
-      ->check(whole_number(1, 10'000'000));
+  add_value(emit, "--slice N", of_emit.slice, "Jobs a line (default: 50)",
+            whole_number(1, 10'000'000));
   auto [work, of_work] = add_command(
       *campaign, program, {"work", "Run a slice of a batch; engines start this", below_work},
       work_on_batch);

@@ -15,9 +15,8 @@ void add_json(CLI::App* command, Options& options) {
 }
 
 void add_seams(CLI::App* command, double& distance) {
-  command->add_option("--seams", distance, "Join vertices of meshes within this distance [m]")
-      ->type_name("D")
-      ->check(positive_number());
+  add_value(command, "--seams D", distance, "Join vertices of meshes within this distance [m]",
+            positive_number());
 }
 
 CLI::Option* add_switch(CLI::App* command, const std::string& name, bool& value,
@@ -26,35 +25,28 @@ CLI::Option* add_switch(CLI::App* command, const std::string& name, bool& value,
 }
 
 CLI::Option* add_folder(CLI::App* command, Options& options, const std::string& what) {
-  return command->add_option("--out", options.out, what)
-      ->type_name("DIR")
-      ->check(some_text("a folder"));
+  return add_value(command, "--out DIR", options.out, what, some_text("a folder"));
 }
 
 void add_tier(CLI::App* command, Options& options) {
-  command->add_option("--tier", options.tier, "quick (minutes) or full (hours)")
-      ->type_name("TIER")
-      ->check(one_of({"quick", "full"}))
+  add_value(command, "--tier TIER", options.tier, "quick (minutes) or full (hours)",
+            one_of({"quick", "full"}))
       ->capture_default_str();
 }
 
 void add_overrides(CLI::App* command, Options& options) {
-  command
-      ->add_option("--set", options.overrides,
-                   "Override a key of the case file, such as time.end=2, or unset it, such as "
-                   "object.fit=; may be given again")
-      ->type_name("TABLE.KEY=VALUE")
-      ->check(some_text("table.key=value"))
+  add_value(command, "--set TABLE.KEY=VALUE", options.overrides,
+            "Override a key of the case file, such as time.end=2, or unset it, such as "
+            "object.fit=; may be given again",
+            some_text("table.key=value"))
       ->allow_extra_args(false);
 }
 
 void add_cache(CLI::App* command, Options& options) {
-  command
-      ->add_option("--cache", options.cache,
-                   "Keep the level sets of meshes in this folder for later runs; the results are "
-                   "the same to the bit")
-      ->type_name("DIR")
-      ->check(some_text("a folder"));
+  add_value(command, "--cache DIR", options.cache,
+            "Keep the level sets of meshes in this folder for later runs; the results are "
+            "the same to the bit",
+            some_text("a folder"));
 }
 
 std::vector<CLI::Option*> add_frame_times(CLI::App* command, Options& options) {
@@ -73,24 +65,18 @@ std::vector<CLI::Option*> add_frame_times(CLI::App* command, Options& options) {
 }
 
 void add_threads(CLI::App* command, Options& options, const std::string& what) {
-  command->add_option("--threads", options.running.threads, what)
-      ->type_name("N")
-      ->check(whole_number(1, 1024));
+  add_value(command, "--threads N", options.running.threads, what, whole_number(1, 1024));
 }
 
 void add_running(CLI::App* command, Options& options) {
-  command
-      ->add_option("--seed", options.seed_shift,
-                   "Shift the seeds of all random samples, 0 to 1000000000; official results use 0")
-      ->type_name("N")
-      ->check(whole_number(0, 1'000'000'000))
+  add_value(command, "--seed N", options.seed_shift,
+            "Shift the seeds of all random samples, 0 to 1000000000; official results use 0",
+            whole_number(0, 1'000'000'000))
       ->capture_default_str();
   add_threads(command, options, jobs_at_a_time);
-  command
-      ->add_option("--order", options.running.order,
-                   "Shuffle the jobs, with N as the seed (default: the longest first)")
-      ->type_name("N")
-      ->check(whole_number(0, 1'000'000'000));
+  add_value(command, "--order N", options.running.order,
+            "Shuffle the jobs, with N as the seed (default: the longest first)",
+            whole_number(0, 1'000'000'000));
   CLI::Option* resume = add_switch(
       command, "--resume", options.resumes,
       "Go on with an interrupted run in the same folder; what it finished is not run again");
@@ -107,16 +93,11 @@ void add_out_if_typed(CLI::App* command, Options& options, const std::string& wh
 }
 
 void add_solver_options(CLI::App* command, Options& options) {
-  command
-      ->add_option("--seconds", options.patience, "Longest time without output during a call [s]")
-      ->type_name("S")
-      ->check(positive_number())
+  add_value(command, "--seconds S", options.patience,
+            "Longest time without output during a call [s]", positive_number())
       ->capture_default_str();
-  command
-      ->add_option("--settings", options.settings,
-                   "Passed to the solver in every scene; may be given again")
-      ->type_name("KEY=VALUE")
-      ->check(some_text("KEY=VALUE"))
+  add_value(command, "--settings KEY=VALUE", options.settings,
+            "Passed to the solver in every scene; may be given again", some_text("KEY=VALUE"))
       ->allow_extra_args(false);
 }
 
@@ -127,28 +108,23 @@ CLI::Option* add_length(CLI::App* command, const std::string& name, double& valu
 
 /// The integrators to run; `usual` are those of a command without the option.
 void add_method(CLI::App* command, Options& options, const std::string& usual) {
-  command
-      ->add_option("--method", options.methods,
-                   "Integrators: a list such as A,C,RK4, or all (default: " + usual + ")")
-      ->type_name("METHODS")
-      ->check(some_text("integrators, or all"))
+  add_value(command, "--method METHODS", options.methods,
+            "Integrators: a list such as A,C,RK4, or all (default: " + usual + ")",
+            some_text("integrators, or all"))
       ->delimiter(',')
       ->allow_extra_args(false);
 }
 
 void add_errors(CLI::App* command, Options& options, const std::string& what) {
-  command->add_option("--errors", options.errors, what)
-      ->type_name("ERRORS")
-      ->check(positive_number())
+  add_value(command, "--errors ERRORS", options.errors, what, positive_number())
       ->delimiter(',')
       ->allow_extra_args(false);
 }
 
 /// Another solver, whose steps are halved beside the reference's.
 CLI::Option* add_other_solver(CLI::App* command, Options& options, const std::string& words) {
-  CLI::Option* solver = command->add_option("--solver", options.solver, words)
-                            ->type_name("CMD")
-                            ->check(some_text("a command"));
+  CLI::Option* solver =
+      add_value(command, "--solver CMD", options.solver, words, some_text("a command"));
   add_solver_options(command, options);
   for (const char* of_solver : {"--seconds", "--settings"})
     command->get_option(of_solver)->needs("--solver");

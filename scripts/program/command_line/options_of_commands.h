@@ -1,10 +1,15 @@
-// Options that several commands share, and how a command is added.
+// Options that several commands share, how a command is added, and the headers that most need.
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "scripts/program/command_line/command_line.h"
 #include "scripts/program/options.h"
@@ -43,6 +48,20 @@ Command<Own> add_command(CLI::App& app, Program& program, const CommandText& tex
     program.run = [options, run] { return run(*options); };
   });
   return {command, *options};
+}
+
+/// An option with a value, "--name TYPE".
+template <class Value>
+CLI::Option* add_value(CLI::App* command, const std::string& name_and_type, Value& value,
+                       const std::string& what) {
+  const size_t blank = name_and_type.find(' ');
+  return command->add_option(name_and_type.substr(0, blank), value, what)
+      ->type_name(name_and_type.substr(blank + 1));
+}
+template <class Value, class Check>
+CLI::Option* add_value(CLI::App* command, const std::string& name_and_type, Value& value,
+                       const std::string& what, const Check& check) {
+  return add_value(command, name_and_type, value, what)->check(check);
 }
 
 void add_json(CLI::App* command, Options& options);

@@ -42,17 +42,14 @@ void add_film_command(CLI::App& app, Program& program) {
       app, program, {"film", "Make a film of a stored run (MP4 and GIF, by ffmpeg)", below_film},
       make_film);
   add_input(film, "RUN.h5", options.file, "Run stored by `foldproof simulate`");
-  film->add_option("--field", options.field,
-                   "Colour the cloth by strain [1], angle [rad], phi [m] or speed [m/s] (default: "
-                   "by its sides)")
-      ->type_name("FIELD")
-      ->check(one_of({"strain", "angle", "phi", "speed"}));
-  film->add_option("--size", options.size, "Width and height in pixels (default: 1280x720)")
-      ->type_name("WxH")
-      ->check(some_text("a size, such as 1280x720"));
-  film->add_option("--fps", options.fps, "Pictures a second, 1 to 120 (default: 30)")
-      ->type_name("N")
-      ->check(whole_number(1, 120));
+  add_value(film, "--field FIELD", options.field,
+            "Colour the cloth by strain [1], angle [rad], phi [m] or speed [m/s] (default: "
+            "by its sides)",
+            one_of({"strain", "angle", "phi", "speed"}));
+  add_value(film, "--size WxH", options.size, "Width and height in pixels (default: 1280x720)",
+            some_text("a size, such as 1280x720"));
+  add_value(film, "--fps N", options.fps, "Pictures a second, 1 to 120 (default: 30)",
+            whole_number(1, 120));
   add_out_if_typed(film, options, "FILE.mp4 or FILE.gif (default: both, beside RUN.h5)");
   film->get_option("--out")->type_name("FILE");
 }

@@ -40,11 +40,9 @@ void add_history_command(CLI::App& app, Program& program) {
   history
       ->add_option("DIR", options.names, "Folders of finished runs, or their verdicts.json files")
       ->check(some_text("a file or folder"));
-  history
-      ->add_option("--log", options.log,
-                   "Log in JSON lines, one a run: append the given runs, then show all of them")
-      ->type_name("FILE")
-      ->check(some_text("a file"));
+  add_value(history, "--log FILE", options.log,
+            "Log in JSON lines, one a run: append the given runs, then show all of them",
+            some_text("a file"));
   add_out_if_typed(history, options, "Also write a page to this file");
   history->get_option("--out")->type_name("FILE");
   add_json(history, options);

@@ -62,7 +62,7 @@ std::vector<BadSolid> bad_solids() {
 Finding bad_solids_are_rejected() {
   const ScratchFolder folder;
   const std::string path = folder.file("bad.obj");
-  Table measured{{"case", ""}, {"file or words missing from the refusal", "1"}, {"message", ""}};
+  Table measured("case; file or words missing from the refusal [1]; message");
   for (const BadSolid& bad : bad_solids()) {
     write_obj(path, bad.soup.rest, bad.soup.triangles);
     const std::string message =

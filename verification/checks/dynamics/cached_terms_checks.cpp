@@ -48,11 +48,9 @@ TimedRatio timed_ratio(const std::function<void()>& one, const std::function<voi
 }
 
 Finding time_finding() {
-  Table times{{"particles", "1"},
-              {"product with cached terms", "s"},
-              {"product with terms computed anew", "s"},
-              {"least ratio of a batch", "1"},
-              {"largest ratio of a batch", "1"}};
+  Table times(
+      "particles [1]; product with cached terms [s]; product with terms computed anew [s]; least "
+      "ratio of a batch [1]; largest ratio of a batch [1]");
   Worst least, most;
   for (int cells : {20, 40, 80}) {
     const Scene scene = waved_squares(cells);
@@ -91,9 +89,9 @@ double blocks_of(const TriangleMesh& mesh) {
 Finding memory_finding() {
   // nine entries and a column's number
   constexpr double block_bytes = 9 * sizeof(double) + sizeof(int);
-  Table sizes{{"particles", "1"},
-              {"cached terms", "bytes a particle"},
-              {"half of the matrix's blocks", "bytes a particle"}};
+  Table sizes(
+      "particles [1]; cached terms [bytes a particle]; half of the matrix's blocks [bytes a "
+      "particle]");
   Worst worst;
   for (int cells : {10, 30}) {
     const Scene scene = waved_squares(cells);

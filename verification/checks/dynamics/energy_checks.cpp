@@ -150,7 +150,7 @@ double imbalance(const std::string& integrator, double h, int steps) {
 }
 
 Finding balance_finding(const std::string& integrator) {
-  Table errors{{"step", "s"}, {"imbalance over kinetic energy", "1"}, {"observed order", "1"}};
+  Table errors("step [s]; imbalance over kinetic energy [1]; observed order [1]");
   double last = NAN, order = NAN;
   // s; later on a hinge may have folded through pi, where its energy jumps
   constexpr double time = 0.04;

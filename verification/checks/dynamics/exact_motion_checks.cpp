@@ -83,7 +83,7 @@ double deviation(const TurningPair& pair, const std::string& integrator, double 
 
 Finding rotation_finding(const std::string& integrator) {
   const TurningPair pair = turning_pair();
-  Table deviations{{"step", "s"}, {"deviation of the length", "1"}, {"observed order", "1"}};
+  Table deviations("step [s]; deviation of the length [1]; observed order [1]");
   Worst worst;
   double coarser = NAN;
   for (const double h : {8e-3, 4e-3, 2e-3, 1e-3}) {
@@ -155,7 +155,7 @@ struct DrivenSpring {
 Finding driven_finding() {
   const DrivenSpring driven;
   const System system = driven.system();
-  Table measured{{"method", ""}, {"step", "s"}, {"error", "m"}, {"order", "1"}};
+  Table measured("method; step [s]; error [m]; order [1]");
   Worst worst;
   for (const char* name : {"RK2", "SSP-RK3", "RK4"}) {
     const int formal = integrator_named(name).order;

@@ -141,10 +141,9 @@ Finding truncated_finding() {
                                         {"tolerance 0.5", 0.5, 1000},
                                         {"tolerance 1e-8", 1e-8, 1000}};
   Worst worst;
-  Table changes{{"stopped after", "1"},
-                {"step", "s"},
-                {"linear", "epsilon of sum m |v|"},
-                {"angular", "epsilon of sum m |x| |v|"}};
+  Table changes(
+      "stopped after [1]; step [s]; linear [epsilon of sum m |v|]; angular [epsilon of sum m |x| "
+      "|v|]");
   for (const Truncation& displacement : ways)
     for (double h : {3.7e-4, 5.9e-3, 0.11}) {
       const auto [p, l] = truncate(displacement, h, 77);

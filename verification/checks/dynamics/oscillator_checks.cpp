@@ -93,7 +93,7 @@ Eigen::Matrix2d term_sizes(const std::string& integrator, const Oscillator& osci
 Finding matrix_finding(const std::string& integrator) {
   const Scheme scheme = scheme_named(integrator);
   Random random(12);
-  Table errors{{"h c/2", "1"}, {"h^2 k/2", "1"}, {"error", "epsilon of the terms"}};
+  Table errors("h c/2 [1]; h^2 k/2 [1]; error [epsilon of the terms]");
   for (int n = 0; n < 300; ++n) {
     const double h = random.log_uniform(1e-4, 0.7), a = random.log_uniform(3e-3, 300),
                  b = random.log_uniform(2e-3, 9);

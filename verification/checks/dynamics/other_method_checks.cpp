@@ -54,10 +54,9 @@ LongRun long_run(const Subject& subject, double h, int steps) {
 Finding newmark_keeps_energy(const Subject& subject) {
   const Scene scene = vibrating_sheet();
   const double limit = elastic_limit(build_system(scene), start_state(scene));
-  Table found{{"step over the elastic limit", "1"},
-              {"steps", "1"},
-              {"largest energy, of the start's", "1"},
-              {"change from the first tenth to the last", "1"}};
+  Table found(
+      "step over the elastic limit [1]; steps [1]; largest energy, of the start's [1]; change from "
+      "the first tenth to the last [1]");
   for (const double part : {0.25, 0.5, 1.0, 2.0}) {
     const int steps = int(1600 / std::max(part, 0.5));
     const LongRun run = long_run(subject, part * limit, steps);
@@ -95,11 +94,9 @@ Table dropped_terms(const Subject& subject, double damping) {
   // two fine runs, extrapolated: backward Euler is of first order
   const PerParticle3 exact =
       2 * run(until / 240, DampingDerivative::whole) - run(until / 120, DampingDerivative::whole);
-  Table found{{"step", "s"},
-              {"error, whole", "m"},
-              {"error, without the term", "m"},
-              {"one over the other", "1"},
-              {"error, without the derivative", "m"}};
+  Table found(
+      "step [s]; error, whole [m]; error, without the term [m]; one over the other [1]; error, "
+      "without the derivative [m]");
   for (const int parts : {8, 16, 32, 64}) {
     const auto error = [&](DampingDerivative part) {
       return (run(until / parts, part) - exact).norm() / std::sqrt(double(exact.cols()));

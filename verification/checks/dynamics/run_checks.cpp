@@ -41,7 +41,7 @@ Finding frames_finding() {
   const double interval = 0.0113, length = 0.0517;  // four whole intervals and a remainder
   Scene scene = partly_prescribed_sheet();
   scene.prescribed.clear();  // their paths begin at time 0, these runs do not
-  Table errors{{"start", "s"}, {"step asked for, 0: automatic", "s"}, {"error of the times", "s"}};
+  Table errors("start [s]; step asked for, 0: automatic [s]; error of the times [s]");
   for (double start_time : {0.21, -0.0171, -0.0083, -0.0231})
     for (double fixed : {0.0017, 0.0113, 0.0}) {
       System system = build_system(scene);
@@ -73,10 +73,7 @@ double strain_in(const Scene& scene, const State& s, double h) {
 Finding limits_finding() {
   constexpr size_t least_steps = 4;  // too few to show that the step follows the cloth
   Worst worst;
-  Table used{{"speed", "1"},
-             {"of the elastic limit", "1"},
-             {"of the strain allowed", "1"},
-             {"came to", "1"}};
+  Table used("speed [1]; of the elastic limit [1]; of the strain allowed [1]; came to [1]");
   for (double speed : {0.01, 0.4, 9.0, 25.0})
     for (double strain : {0.013, 0.09}) {
       Scene scene = free_sheet();

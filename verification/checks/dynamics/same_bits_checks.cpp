@@ -118,7 +118,7 @@ Numbers numbers_of_run(const NamedRun& of, bool forgets) {
 }
 
 Finding reuse_finding() {
-  Table measured{{"case", ""}, {"numbers or bonds", "1"}, {"numbers that differ", "1"}};
+  Table measured("case; numbers or bonds [1]; numbers that differ [1]");
   see_neighbours(false, measured);
   see_neighbours(true, measured);
   for (const NamedRun& run : runs_of_all_parts()) {
@@ -132,7 +132,7 @@ Finding reuse_finding() {
 
 /// Steps by hand: the number of force evaluations, beyond one per step and one at the start.
 Finding once_finding() {
-  Table measured{{"scheme", ""}, {"of", ""}, {"asked", "1"}, {"computed", "1"}, {"too many", "1"}};
+  Table measured("scheme; of; asked [1]; computed [1]; too many [1]");
   constexpr int steps = 7;
   for (const NamedRun& run : runs_of_all_parts()) {
     const Integrator& integrator = integrator_named(run.integrator);
@@ -248,7 +248,7 @@ Finding threads_finding() {
   std::vector<NamedRun> runs = runs_of_all_parts();
   for (NamedRun& larger : larger_runs()) runs.push_back(std::move(larger));
   runs.push_back(degenerate_run());
-  Table measured{{"case", ""}, {"threads", "1"}, {"numbers", "1"}, {"numbers that differ", "1"}};
+  Table measured("case; threads [1]; numbers [1]; numbers that differ [1]");
   for (const NamedRun& run : runs) {
     const Numbers alone = numbers_on(1, run);
     for (const int threads : {2, 3, 7})

@@ -44,9 +44,9 @@ Solved solve_problem(const Problem& problem, const SolverSettings& settings, dou
 /// Solves to many tolerances: the residual returned and recomputed, and |A| |w| of the solution,
 /// where A is the operator of mass-weighted velocities.
 Table residual_table() {
-  Table table{{"relative to", "1"}, {"half step", "s"},
-              {"tolerance", "1"},   {"returned", "1"},
-              {"recomputed", "1"},  {"operator times solution", "of the scale"}};
+  Table table(
+      "relative to [1]; half step [s]; tolerance [1]; returned [1]; recomputed [1]; operator times "
+      "solution [of the scale]");
   for (const ResidualScale scale : {ResidualScale::momentum, ResidualScale::initial_residual})
     for (double s : {2.3e-4, 3.1e-3, 0.047}) {
       Problem problem = make_problem(partly_prescribed_sheet(), 91);
@@ -95,7 +95,7 @@ Finding returned_finding() {
 
 Finding cholesky_finding() {
   Worst worst;
-  Table errors{{"half step", "s"}, {"tolerance", "1"}, {"error over the velocity", "1"}};
+  Table errors("half step [s]; tolerance [1]; error over the velocity [1]");
   for (double s : {2.3e-4, 3.1e-3, 0.047})
     for (double tolerance : {1e-3, 1e-11}) {
       const Problem problem = make_problem(partly_prescribed_sheet(), 29);
@@ -211,9 +211,8 @@ Finding operator_finding(const Subject& subject) {
            "an entry sums some twenty dampers of five roundings, half an epsilon each: 50; the "
            "smallest eigenvalue, 1 up to rounding, is found to about the square root of the "
            "matrix's size, 10, in epsilon of the largest"},
-          Table{{"asymmetry", "epsilon of the largest entry"},
-                {"smallest eigenvalue below 1", "epsilon of the largest"},
-                {"largest eigenvalue", "1"}}
+          Table("asymmetry [epsilon of the largest entry]; smallest eigenvalue below 1 [epsilon of "
+                "the largest]; largest eigenvalue [1]")
               .with_row(asymmetry, deficit, eigenvalues[n - 1]),
           "the operator is I - s M^{-1/2} D M^{-1/2}"};
 }

@@ -228,10 +228,8 @@ Finding counts_finding(const Subject& subject) {
 
 Finding once_finding(const Subject& subject) {
   Worst worst;
-  Table counts{{"integrator", "1"},
-               {"preparations a step", "1"},
-               {"products a step", "1"},
-               {"iterations a step", "1"}};
+  Table counts(
+      "integrator [1]; preparations a step [1]; products a step [1]; iterations a step [1]");
   constexpr int steps = counted_steps;
   for (const Integrator& integrator : paper_schemes()) {
     const Work work = work_of_steps(subject, integrator);

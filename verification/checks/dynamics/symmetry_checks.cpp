@@ -68,7 +68,7 @@ double distance(const State& a, const State& b, double size, double duration) {
 
 Finding powers_finding(const Subject& subject, const std::string& integrator) {
   const State plain = run_in({1, 1, 1}, subject, integrator, 1.3e-3, 20);
-  Table differing{{"length", "1"}, {"mass", "1"}, {"time", "1"}, {"numbers that differ", "1"}};
+  Table differing("length [1]; mass [1]; time [1]; numbers that differ [1]");
   // even powers of mass and time, so that square roots are scaled by powers of two as well
   for (const Units& u : {Units{8, 64, 1}, Units{1, 0.0625, 16}, Units{0.5, 256, 0.25}}) {
     const State other = run_in(u, subject, integrator, 1.3e-3, 20);

@@ -64,7 +64,7 @@ constexpr int steps = 240;
 /// tan(angle) slightly below and above mu: at rest, and sliding by (sin - mu cos) g t^2/2.
 Finding slope_finding(const Subject& subject, const std::string& integrator,
                       const Vector3& velocity) {
-  Table ways{{"friction", "1"}, {"slope", "degrees"}, {"slid", "m"}, {"expected", "m"}};
+  Table ways("friction [1]; slope [degrees]; slid [m]; expected [m]");
   Worst worst;
   for (const double mu : {0.23, 0.71})
     for (const double over : {0.5, 0.999, 1.001, 1.4, 3.0}) {
@@ -102,7 +102,7 @@ Finding belt_finding(const Subject& subject, const std::string& integrator) {
   State s = stepper.start();
   const double x0 = s.x(0, 0), sliding = speed / (mu * g);  // m, s
   Worst worst;
-  Table places{{"time", "s"}, {"way", "m"}, {"exact", "m"}};
+  Table places("time [s]; way [m]; exact [m]");
   for (int n = 1; n <= 120; ++n) {
     s = stepper.step(s, h);
     const double t = s.time;
@@ -197,7 +197,7 @@ Pull pull_after(const Subject& subject, const Scene& scene, double seconds) {
 }
 
 Finding capstan_finding(const Subject& subject) {
-  Table pulls{{"friction", "1"}, {"turn", "rad"}, {"ratio of tensions", "1"}, {"e^(mu turn)", "1"}};
+  Table pulls("friction [1]; turn [rad]; ratio of tensions [1]; e^(mu turn) [1]");
   Worst worst;
   for (const auto& [mu, wrap] :
        {std::pair{0.17, 2.9}, std::pair{0.43, 1.3}, std::pair{0.34, 2.2}}) {

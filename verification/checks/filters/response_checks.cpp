@@ -206,7 +206,7 @@ Finding neighbours_finding(const Subject& subject) {
   const DistanceFunction ball = [](const Vector3& p) { return Sphere{radius}.at(p); };
   const auto tree = std::make_shared<const Octree>(make_octree(
       {ball}, {Vector3::Constant(-0.5), 1, 6, 3, 1e-3, 0.05, 0.25, 0, HangingNodes::constrained}));
-  Table answers{{"body", "1"}, {"particles answered", "1"}, {"numbers that differ", "1"}};
+  Table answers("body [1]; particles answered [1]; numbers that differ [1]");
   double worst = 0;
   Motion turning, flying;
   turning.angular_velocity = {0, 1, 3};

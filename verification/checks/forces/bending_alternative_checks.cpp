@@ -77,11 +77,8 @@ std::vector<FoldedHinge> folded_hinges(const Subject& subject) {
 
 Finding acts_in_plane(const Subject& subject, const BendingAlternative& model) {
   Worst ratio;
-  Table found{{"hinge", ""},
-              {"in plane", "1"},
-              {"in plane, the paper's element", "1"},
-              {"net force", "1"},
-              {"net torque", "1"}};
+  Table found(
+      "hinge; in plane [1]; in plane, the paper's element [1]; net force [1]; net torque [1]");
   for (const FoldedHinge& hinge : folded_hinges(subject)) {
     const Defects defects = defects_of(hinge.x, model.force(hinge.x, hinge.rest));
     const double paper = hinge.of_the_paper.in_plane;
@@ -123,10 +120,7 @@ constexpr double angle_range[] = {0.01, 0.03, 0.1, 0.3, 1};  // rad
 /// F is ke c sin(theta/2) u here and ke c (theta/2) u there, for k_b = ke/24:
 ///   1 - sin(a)/a <= a^2/6 with a = theta/2, so that they differ by at most theta^2/24.
 Finding discrete_shells_is_close(const Subject& subject) {
-  Table found{{"hinge", ""},
-              {"angle", "rad"},
-              {"forces differ", "1"},
-              {"over the square of the angle", "1/rad^2"}};
+  Table found("hinge; angle [rad]; forces differ [1]; over the square of the angle [1/rad^2]");
   unsigned seed = 811;
   for (const double size : angle_range)
     for (const double angle : {size, -size}) {
@@ -159,10 +153,7 @@ Finding discrete_shells_is_close(const Subject& subject) {
 ///   the paper's    4 ke c sin(theta/4)^2           = ke c (theta^2/4) (1 - theta^2/48 + ...)
 /// Their ratio cos(theta/4)^2 is 1 - theta^2/16 at least.
 Finding quadratic_is_close(const Subject& subject) {
-  Table found{{"hinge", ""},
-              {"angle", "rad"},
-              {"energies differ", "1"},
-              {"over the square of the angle", "1/rad^2"}};
+  Table found("hinge; angle [rad]; energies differ [1]; over the square of the angle [1/rad^2]");
   Random random(907);
   for (const double size : angle_range)
     for (const double angle : {size, -size}) {
@@ -193,7 +184,7 @@ Finding quadratic_is_close(const Subject& subject) {
 constexpr const char* source = "Choi, Ko 2002, as later papers describe it";
 
 Finding force_is_the_energys() {
-  Table found{{"distance over length", "1"}, {"force", "N"}, {"error", "1"}};
+  Table found("distance over length [1]; force [N]; error [1]");
   const BucklingSpring spring = BucklingColumn{}.spring;
   for (const double part : {.3, .62, .9, .97, .999}) {
     const double d = part * spring.length, change = 1e-5 * spring.length;
@@ -219,7 +210,7 @@ Finding gives_way_at_once() {
   const double load = -2 * column.spring.force(distance);
   const double length = column.spacing * (column.particles - 3);  // between the clamps' middles
   const double euler = std::pow(2 * pi / length, 2) * 2 * column.spring.bending;
-  Table found{{"strain", "1"}, {"load", "N"}, {"Euler's load", "N"}, {"load over Euler's", "1"}};
+  Table found("strain [1]; load [N]; Euler's load [N]; load over Euler's [1]");
   found.row(gives_way, load, euler, load / euler);
   return judge_worst(found, "load over Euler's", 1e-6,
                      "a millionth: no barrier, real or artificial",
@@ -233,11 +224,9 @@ struct Trial {
 };
 
 Table shortened_columns() {
-  Table found{{"method", ""},
-              {"step over the elastic limit", "1"},
-              {"energy at the end, of that at the stop", "1"},
-              {"largest energy, of that at the stop", "1"},
-              {"speed at the end", "m/s"}};
+  Table found(
+      "method; step over the elastic limit [1]; energy at the end, of that at the stop [1]; "
+      "largest energy, of that at the stop [1]; speed at the end [m/s]");
   const BucklingColumn column;
   for (const Trial& trial :
        {Trial{ColumnMethod::backward_euler, "backward Euler", 0.7},

@@ -109,9 +109,8 @@ Finding no_work_round_a_loop(const Subject& subject) {
 }
 
 Finding work_round_a_loop(const Subject& subject) {
-  Table measured{{"case", ""},
-                 {"uncertainty of the work over the work", "of the work"},
-                 {"work over integral |F||dx|", "1"}};
+  Table measured(
+      "case; uncertainty of the work over the work [of the work]; work over integral |F||dx| [1]");
   for (const Loop& loop : loops(subject, Weighting::current)) {
     const double rounding = 64 * epsilon * loop.trip.scale;
     measured.row(loop.name, (loop.trip.uncertainty + rounding) / std::abs(loop.trip.work),

@@ -147,7 +147,7 @@ double left_after(const Subject& subject, const Scene& scene, const std::vector<
 
 Finding unfolded_pleats_return(const Subject& subject) {
   const Scene scene = unfolded_pleats(1);
-  Table left{{"time", "s"}, {"left of the unfolding", "1"}, {"left with rest angles of zero", "1"}};
+  Table left("time [s]; left of the unfolding [1]; left with rest angles of zero [1]");
   for (const double time : {0.1, 0.3, 1.0})
     left.row(time, left_after(subject, scene, scene.rest_angles, time),
              left_after(subject, unfolded_pleats(0), scene.rest_angles, time));

@@ -127,8 +127,7 @@ std::vector<Specimen> stiff_cases() {
 }
 
 Finding bound_is_a_bound(const Subject& subject) {
-  Table measured{
-      {"case", ""}, {"largest frequency over the bound", "1"}, {"largest frequency", "rad/s"}};
+  Table measured("case; largest frequency over the bound [1]; largest frequency [rad/s]");
   for (const Specimen& specimen : stiff_cases()) {
     const System system = build_system(specimen.scene);
     const double bound = frequency_bound(system.forces, specimen.state, system.inverse_mass);

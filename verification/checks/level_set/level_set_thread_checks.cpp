@@ -96,7 +96,7 @@ std::vector<NamedMaking> makings() {
 }
 
 Finding threads_finding() {
-  Table measured{{"case", ""}, {"threads", "1"}, {"numbers", "1"}, {"numbers that differ", "1"}};
+  Table measured("case; threads [1]; numbers [1]; numbers that differ [1]");
   for (const NamedMaking& making : makings()) {
     const Numbers alone = making.numbers_on(1);
     for (const int threads : {2, 3, 7})

@@ -100,7 +100,7 @@ Finding normal_leads_to_the_surface() {
 
 Finding sign_is_right() {
   constexpr int points = 336000;  // on each of three meshes: a million in all
-  Table measured{{"case", ""}, {"wrong signs", "1"}, {"points off the surface", "1"}};
+  Table measured("case; wrong signs [1]; points off the surface [1]");
   for (const UglySolid& solid : ugly_solids()) {
     const MeshDistance mesh = distance_of(solid.soup);
     Random random(71);

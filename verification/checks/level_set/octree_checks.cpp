@@ -24,8 +24,7 @@ std::vector<Body> smooth_bodies() {
 }
 
 Finding jumps_nowhere() {
-  Table measured{
-      {"case", ""}, {"largest jump", "epsilon of the cube's width"}, {"with free nodes", "m"}};
+  Table measured("case; largest jump [epsilon of the cube's width]; with free nodes [m]");
   for (const Body& body : smooth_bodies())
     for (const int depth : {4, 7}) {
       const Octree tree =

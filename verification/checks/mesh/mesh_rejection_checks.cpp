@@ -104,7 +104,7 @@ std::vector<BadMesh> bad_meshes() {
 }
 
 Finding bad_meshes_are_rejected() {
-  Table measured{{"case", ""}, {"file, line or keyword not named", "1"}, {"message", ""}};
+  Table measured("case; file, line or keyword not named [1]; message");
   try_bad_files(measured);
   for (const BadMesh& bad : bad_meshes()) {
     const std::string message =

@@ -45,7 +45,7 @@ TriangleSoup random_soup(const std::vector<int>& becomes, PerParticle3 x, std::m
 Finding seams_finding() {
   std::mt19937 random(shifted_seed(41));
   std::uniform_real_distribution<double> inside(-0.5, 0.5);
-  Table wrong{{"distance", "m"}, {"joined vertices", "1"}, {"wrong corners", "1"}};
+  Table wrong("distance [m]; joined vertices [1]; wrong corners [1]");
   for (const double distance : {0.013, 0.07, 0.19, 0.31}) {
     const Vector3 place = distance < 0.1 ? Vector3(0, 0, 0) : Vector3(-37.3, 11.9, 203.7);  // m
     PerParticle3 x(3, 173);

@@ -131,7 +131,7 @@ Expected expected_of(const TriangleSoup& soup) {
 
 Finding numbers_finding() {
   std::mt19937 random(shifted_seed(83));
-  Table wrong{{"split vertices", "1"}, {"particles", "1"}, {"wrong corners", "1"}};
+  Table wrong("split vertices [1]; particles [1]; wrong corners [1]");
   for (const int pairs : {0, 9, 40, 90}) {
     const TriangleSoup soup = random_hangings(random, pairs);
     const Expected expected = expected_of(soup);

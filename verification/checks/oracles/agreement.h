@@ -28,11 +28,7 @@ class Answers {
   double largest_uncertainty() const;
 
  private:
-  Table table_{{"point", ""},
-               {"one way", ""},
-               {"other way", ""},
-               {"uncertainty of both", ""},
-               {"apart, of that", "1"}};
+  Table table_{"point; one way; other way; uncertainty of both; apart, of that [1]"};
 };
 
 /// A check that two methods agree.

@@ -21,10 +21,9 @@ Answers answers_of(const Comparison& comparison) {
 }
 
 Finding uncertainties_are_small() {
-  Table largest{{"comparison", ""},
-                {"largest uncertainty of a pair, of its answer", "1"},
-                {"allowed", "1"},
-                {"over what is allowed", "1"}};
+  Table largest(
+      "comparison; largest uncertainty of a pair, of its answer [1]; allowed [1]; over what is "
+      "allowed [1]");
   for (const Comparison& comparison : comparisons()) {
     const double uncertainty = answers_of(comparison).largest_uncertainty();
     largest.row(comparison.name, uncertainty, comparison.allowed, uncertainty / comparison.allowed);

@@ -116,8 +116,7 @@ Finding order_is_kept() {
 }
 
 Finding compression_is_bounded() {
-  Table measured{
-      {"case", ""}, {"compression over its bound", "1"}, {"compression by the power law", "1"}};
+  Table measured("case; compression over its bound [1]; compression by the power law [1]");
   for (const DepthBand& band : bands()) {
     const double depths = band.reach + band.deepest, band_width = band.reach - band.nearest,
                  w = band_width / 2;

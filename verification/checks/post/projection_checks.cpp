@@ -273,10 +273,7 @@ Finding gaps_without_room_are_reported() {
            0, "m",
            "a point that cannot get where the map wants it is reported, and is no deeper than it "
            "was, within 1e-12 m"},
-          Table{{"gap", "m"},
-                {"least distance asked for", "m"},
-                {"distance before", "m"},
-                {"distance reached", "m"}}
+          Table("gap [m]; least distance asked for [m]; distance before [m]; distance reached [m]")
               .with_row(gap, projection.band.nearest, before, reached),
           "measured is by how much the point came to lie deeper"};
 }

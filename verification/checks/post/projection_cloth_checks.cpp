@@ -108,8 +108,7 @@ std::size_t left_inside(const std::vector<Triangle>& triangles, const PerParticl
 Finding serves_the_subdivided_cloth() {
   const TriangleMesh mesh = small_sheet(0.4, 12);
   const PerParticle3 x = sunk(mesh);
-  Table measured{
-      {"case", ""}, {"triangles left inside", "1"}, {"triangles inside before", "1"}, {"eps", "m"}};
+  Table measured("case; triangles left inside [1]; triangles inside before [1]; eps [m]");
   for (const auto& [name, rule] :
        {std::pair{"midpoint", SubdivisionRule::midpoint}, {"loop", SubdivisionRule::loop}}) {
     for (const int levels : {1, 2, 3}) {
@@ -129,8 +128,7 @@ Finding serves_the_subdivided_cloth() {
 Finding subdividing_afterwards_spoils_it() {
   const TriangleMesh mesh = small_sheet(0.4, 12);
   const PerParticle3 x = sunk(mesh);
-  Table measured{
-      {"case", ""}, {"cloths without a triangle inside", "1"}, {"triangles left inside", "1"}};
+  Table measured("case; cloths without a triangle inside [1]; triangles left inside [1]");
   for (const int levels : {1, 2, 3}) {
     const Subdivision finer = subdivision(mesh, SubdivisionRule::loop, levels);
     FoldProjection projection = projection_by("blend");

@@ -67,10 +67,8 @@ double count_inside(const PerParticle3& x) {
 }
 
 Finding no_particle_is_left_inside() {
-  Table measured{{"case", ""},
-                 {"particles left inside", "1"},
-                 {"particles inside before", "1"},
-                 {"particles without room", "1"}};
+  Table measured(
+      "case; particles left inside [1]; particles inside before [1]; particles without room [1]");
   for (const KnownStatue& statue : statues()) {
     const Worn worn = sheet_through(statue);
     for (const char* map : {"plain", "blend"}) {
@@ -86,8 +84,7 @@ Finding no_particle_is_left_inside() {
 }
 
 Finding no_triangle_is_left_inside() {
-  Table measured{
-      {"case", ""}, {"triangles left inside", "1"}, {"eps", "m"}, {"particles without room", "1"}};
+  Table measured("case; triangles left inside [1]; eps [m]; particles without room [1]");
   const oracles::TriangleSoup surface = statue_surface();
   for (const KnownStatue& statue : statues()) {
     const Worn worn = sheet_through(statue);

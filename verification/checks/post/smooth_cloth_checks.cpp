@@ -41,13 +41,9 @@ long crossings(const PerParticle3& x, const std::vector<Triangle>& triangles) {
 }
 
 Finding never_crosses() {
-  Table found{{"ridges", ""},
-              {"levels", "1"},
-              {"Loop's crossings", "1"},
-              {"crossings", "1"},
-              {"rounds", "1"},
-              {"mean share of the way", "1"},
-              {"points that stay on the cloth", "1"}};
+  Table found(
+      "ridges; levels [1]; Loop's crossings [1]; crossings [1]; rounds [1]; mean share of the way "
+      "[1]; points that stay on the cloth [1]");
   for (const NestedRidges& ridges : all_ridges())
     for (const int levels : {1, 2}) {
       const ClothSmoother smoother(ridges.mesh, levels);
@@ -91,11 +87,9 @@ double sharpest_fold(const std::vector<Triangle>& triangles, const PerParticle3&
 }
 
 Finding contacts_keep_creases() {
-  Table found{{"ridges", ""},
-              {"sharpest fold of the cloth", "rad"},
-              {"of Loop's surface", "rad"},
-              {"of the smooth cloth", "rad"},
-              {"Loop's over the smooth cloth's", "1"}};
+  Table found(
+      "ridges; sharpest fold of the cloth [rad]; of Loop's surface [rad]; of the smooth cloth "
+      "[rad]; Loop's over the smooth cloth's [1]");
   for (const NestedRidges& ridges : all_ridges()) {
     const ClothSmoother smoother(ridges.mesh, 2);
     const std::vector<Triangle>& triangles = smoother.smooth.triangles;

@@ -77,7 +77,7 @@ std::string missing(const Rejection& rejection, const std::string& message) {
 Finding rejected(const std::vector<Rejection>& rejections) {
   read_scene_text(trial_case, "trial.toml");  // the unedited case is valid
   double wrong = 0;
-  Table answers{{"edit", "1"}, {"message", "1"}, {"lacking", "1"}};
+  Table answers("edit [1]; message [1]; lacking [1]");
   for (const Rejection& rejection : rejections) {
     const std::string message =
         rejection_message([&] { read_scene_text(edit(rejection), "trial.toml"); });

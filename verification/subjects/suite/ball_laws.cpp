@@ -1,6 +1,4 @@
 // A sheet and a fixed ball: it falls on it, comes to rest, slides down.
-#include <algorithm>
-#include <cmath>
 
 #include "verification/subjects/suite/laws.h"
 #include "verification/subjects/suite/relaxation.h"
@@ -49,7 +47,7 @@ Finding falling_sheet_stays_outside(Trial& trial) {
     ratio = std::max(ratio, -least / (fastest * scene.dt));
   }
   const double allowed = allowed_clearance(scene);
-  Table measured{{"of", ""}, {"measured", "m"}, {"largest part of what is allowed", "1"}};
+  Table measured("of; measured [m]; largest part of what is allowed [1]");
   measured.row("deepest particle", deepest, ratio);
   measured.row("nearest approach", nearest, nearest / allowed);
   return judge_worst(
@@ -66,7 +64,7 @@ Finding comes_to_rest(Trial& trial) {
   const Relaxed end = relaxed(trial, scene, {scene.x, size, enough, 0.01});
   const Eigen::RowVectorXd apart = distances(scene, end.x);
   const double deepest = std::max(0.0, -apart.minCoeff()), nearest = std::abs(apart.minCoeff());
-  Table measured{{"of", ""}, {"measured", "m"}, {"allowed", "m"}, {"ratio", "1"}};
+  Table measured("of; measured [m]; allowed [m]; ratio [1]");
   measured.row("last two rounds of motion", end.last_move, enough * size,
                end.last_move / (enough * size));
   measured.row("deepest particle", deepest, 0.01 * edge, deepest / (0.01 * edge));

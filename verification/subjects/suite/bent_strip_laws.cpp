@@ -1,10 +1,4 @@
 // Strips bent as in a textile laboratory, clamped at both ends, against the elastica.
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <vector>
 
 #include "verification/oracles/elastica.h"
 #include "verification/oracles/folds.h"

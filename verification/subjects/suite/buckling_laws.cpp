@@ -1,8 +1,4 @@
 // A strip that stands on its clamped foot: the weight under which it falls over.
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
 
 #include "verification/oracles/chains_and_ribbons.h"
 #include "verification/subjects/suite/laws.h"

@@ -1,8 +1,5 @@
 // What the material's parameters mean: effective moduli in SI, and whether they survive refinement.
-#include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "reference/mesh/shapes.h"

@@ -1,8 +1,4 @@
 // A heavy strip, far bent by its own weight, against the elastica.
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
 
 #include "verification/oracles/heavy_cantilever.h"
 #include "verification/subjects/suite/laws.h"

@@ -1,7 +1,4 @@
 // A limp strip over a fixed horizontal capsule, a weight at each end: how it lies, when it slips.
-#include <algorithm>
-#include <cmath>
-#include <vector>
 
 #include "reference/mesh/shapes.h"
 #include "verification/subjects/suite/laws.h"
@@ -140,7 +137,7 @@ Finding strip_lies_on_the_capsule(Trial& trial) {
     const double out = std::hypot(end.x(0, i), end.x(2, i)) - radius;
     deepest = std::max(deepest, -out), highest = std::max(highest, out);
   }
-  Table measured{{"of", ""}, {"measured", "m"}, {"allowed", "m"}, {"ratio", "1"}};
+  Table measured("of; measured [m]; allowed [m]; ratio [1]");
   const double above = edge / 10 + edge * edge / (8 * radius), below = edge / 100;
   measured.row("deepest particle", deepest, below, deepest / below);
   measured.row("highest particle", highest, above, highest / above);

@@ -1,7 +1,4 @@
 // A limp strip between two points, against the catenary.
-#include <algorithm>
-#include <cmath>
-#include <vector>
 
 #include "reference/mesh/shapes.h"
 #include "verification/oracles/chains_and_ribbons.h"

@@ -1,6 +1,4 @@
 // Contact with a fixed plane, oblique to all axes: resting, and Coulomb's friction.
-#include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "verification/subjects/suite/laws.h"

@@ -1,9 +1,6 @@
 // How the cost of a step grows with the number of particles.
-#include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <optional>
 
 #include "verification/oracles/estimate.h"

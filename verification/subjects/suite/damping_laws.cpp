@@ -1,7 +1,4 @@
 // Dampers along the edges: what they do to the motion, and the forces that level 2 states.
-#include <fmt/format.h>
-
-#include <cmath>
 
 #include "verification/subjects/suite/laws.h"
 

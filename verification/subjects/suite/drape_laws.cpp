@@ -1,9 +1,4 @@
 // A ring of cloth around a plate, as in the laboratory's drape test (Cusick 1968).
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
 
 #include "verification/oracles/sheets/drape_outline.h"
 #include "verification/oracles/sheets/growing_ring.h"

@@ -1,6 +1,4 @@
 // A sheet falls on a plane, a box, a ball or a capsule, at 2 and 5 m/s: none of them does work.
-#include <cmath>
-#include <string>
 
 #include "verification/subjects/suite/laws.h"
 

@@ -1,5 +1,4 @@
 // Level 2: forces and energy.
-#include <cmath>
 
 #include "verification/subjects/suite/laws.h"
 

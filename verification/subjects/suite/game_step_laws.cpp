@@ -1,7 +1,4 @@
 // A step as games take it, 1/60 s: what a sheet weighs and how stiff it is does not depend on it.
-#include <fmt/format.h>
-
-#include <cmath>
 
 #include "verification/subjects/suite/laws.h"
 #include "verification/subjects/suite/relaxation.h"

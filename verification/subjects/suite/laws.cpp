@@ -1,9 +1,5 @@
 #include "verification/subjects/suite/laws.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
 #include <variant>
 
 namespace foldproof {

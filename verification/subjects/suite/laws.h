@@ -1,7 +1,13 @@
-// The portable suite: laws of cloth, asked of any solver.
+// The portable suite: laws of cloth, asked of any solver; and the headers that most laws need.
 #pragma once
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 

@@ -1,8 +1,4 @@
 // Smoke, rest, inertia, gravity, momentum, held particles.
-#include <fmt/format.h>
-
-#include <array>
-#include <cmath>
 
 #include "verification/subjects/suite/laws.h"
 
@@ -43,7 +39,7 @@ Finding stays_exactly(Trial& trial) {
 }
 
 Finding stays_on_every_pattern(Trial& trial) {
-  Table measured{{"pattern", ""}, {"largest displacement", "m"}, {"over rounding", "1"}};
+  Table measured("pattern; largest displacement [m]; over rounding [1]");
   for (const PortableScene& scene : sheets_at_rest()) {
     const double moved = largest(trial.after(scene, few).x - scene.x);
     measured.row(scene.name, moved, moved / largest(scene.x) / narrow_rounding(trial, scene, few));
@@ -65,7 +61,7 @@ Finding stays_curved(Trial& trial) {
   scene.material.bending_rigidity = 0.005;
   for (const Hinge& hinge : scene.mesh.hinges)
     scene.rest_angles.push_back(angle(scene.x, hinge.particles));
-  Table measured{{"steps", "1"}, {"largest displacement", "m"}, {"over rounding", "1"}};
+  Table measured("steps [1]; largest displacement [m]; over rounding [1]");
   const double moved = largest(trial.after(scene, few).x - scene.x);
   measured.row(few, moved, moved / largest(scene.x) / narrow_rounding(trial, scene, few));
   return judge_worst(measured, 1, "rounding of rest lengths and angles, enlarged by forces");
@@ -77,7 +73,7 @@ Finding keeps_its_velocity(Trial& trial) {
   const Snapshot end = trial.after(scene, few);
   const double path = scene.v.col(0).norm() * time;
   const double rounding = narrow_rounding(trial, scene, few);
-  Table measured{{"of", ""}, {"error", ""}, {"over rounding", "1"}};
+  Table measured("of; error; over rounding [1]");
   const auto row = [&](const char* of, const char* unit, double error, double scale) {
     measured.row(of, fmt::format("{:.3g} {}", error, unit), error / (rounding * scale));
   };
@@ -117,7 +113,7 @@ Finding gains_speed(Trial& trial) {
   const PerParticle3 momenta = trial.after(scene, many).v * scene.mass.asDiagonal();
   const Vector3 mean = momenta.rowwise().sum() / scene.mass.sum();
   const Vector3 down = expected.normalized(), error = (mean - expected) / expected.norm();
-  Table measured{{"of the mean velocity", ""}, {"error", "g t"}, {"error over rounding", "1"}};
+  Table measured("of the mean velocity; error [g t]; error over rounding [1]");
   const double along = std::abs(error.dot(down)), across = (error - error.dot(down) * down).norm();
   measured.row("along gravity", along, along / speed_rounding(many, trial.declaration()));
   measured.row("across", across, across / sideways_rounding(scene, many, trial.declaration()));
@@ -129,7 +125,7 @@ Finding gains_speed(Trial& trial) {
 /// A method of order 1 errs by dt/2 g t, others not at all.
 Finding falls_as_its_order_says(Trial& trial) {
   const Declaration declared = trial.declaration();
-  Table measured{{"steps", "1"}, {"of", ""}, {"error over what the order allows", "1"}};
+  Table measured("steps [1]; of; error over what the order allows [1]");
   for (const long steps : {many, 2 * many}) {
     PortableScene scene = falling_sheet();
     const double time = many * scene.dt;
@@ -191,7 +187,7 @@ Finding angular_momentum_converges(Trial& trial) {
   finest.dt /= 4;
   const double floor = narrow(10 * rounding_error(finest, 4 * few, declared), declared);
   const double coarse = angular_drift(trial, 2 * few), fine = angular_drift(trial, 4 * few);
-  Table measured{{"drift at dt/2", "L"}, {"drift at dt/4", "L"}, {"fine over coarse", "1"}};
+  Table measured("drift at dt/2 [L]; drift at dt/4 [L]; fine over coarse [1]");
   measured.row(coarse, fine, fine <= floor ? 0 : fine / coarse);
   const double expected = std::pow(0.5, std::max(1, declared.order));
   return judge_worst(measured, "fine over coarse", 1.35 * expected,

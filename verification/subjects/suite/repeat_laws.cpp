@@ -1,9 +1,4 @@
 // Determinism, state, observed order, the error of the step and its cost, precision.
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "verification/oracles/estimate.h"
 #include "verification/subjects/suite/laws.h"
@@ -43,7 +38,7 @@ Finding second_scene_starts_afresh(Trial& trial) {
 }
 
 Finding step_depends_on_its_state_alone(Trial& trial) {
-  Table measured{{"scene", ""}, {"numbers", "1"}, {"numbers that differ", "1"}};
+  Table measured("scene; numbers [1]; numbers that differ [1]");
   std::vector<PortableScene> scenes{moving_sheet()};
   if (trial.declaration().offers("damping")) scenes.push_back(damped_moving_sheet());
   for (const PortableScene& scene : scenes) {
@@ -212,7 +207,7 @@ bool is_float(double number) { return double(float(number)) == number; }
 
 Finding results_need_their_digits(Trial& trial) {
   const Snapshot end = trial.after(moving_sheet(), steps);
-  Table measured{{"of", ""}, {"numbers", "1"}, {"share that single precision holds", "1"}};
+  Table measured("of; numbers [1]; share that single precision holds [1]");
   for (const auto& [of, numbers] : {std::pair("positions", end.x), {"velocities", end.v}}) {
     const long floats = std::count_if(numbers.data(), numbers.data() + numbers.size(), is_float);
     measured.row(of, numbers.size(), double(floats) / double(numbers.size()));

@@ -1,5 +1,4 @@
 // Cloth that is folded onto itself, judged by exact arithmetic.
-#include <cmath>
 
 #include "verification/oracles/exact_crossings.h"
 #include "verification/subjects/suite/laws.h"

@@ -1,7 +1,4 @@
 // Steps that are too long: how far they can be doubled, and that short ones gain no energy.
-#include <fmt/format.h>
-
-#include <algorithm>
 
 #include "verification/subjects/suite/laws.h"
 

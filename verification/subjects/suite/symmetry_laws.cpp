@@ -1,6 +1,4 @@
 // Laws of symmetry: a solver must not know where, how turned, or how numbered a sheet is.
-#include <algorithm>
-#include <cmath>
 #include <numeric>
 
 #include <Eigen/Geometry>

@@ -1,8 +1,4 @@
 // A strip on edge, clamped at one end: the weight under which it tips sideways.
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
 
 #include "verification/oracles/chains_and_ribbons.h"
 #include "verification/subjects/suite/laws.h"

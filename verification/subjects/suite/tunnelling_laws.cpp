@@ -1,8 +1,4 @@
 // A sheet thrown at a thin box, faster and faster.
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
 
 #include <Eigen/Geometry>
 

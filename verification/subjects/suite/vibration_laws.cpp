@@ -1,5 +1,4 @@
 // Free vibration: the period and the decay of the damped oscillator.
-#include <cmath>
 
 #include "verification/subjects/suite/laws.h"
 

@@ -1,9 +1,4 @@
 // Strips that meet a floor: when the tip of a pressed one slips.
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <vector>
 
 #include "verification/oracles/elastica.h"
 #include "verification/subjects/suite/laws.h"

@@ -1,7 +1,4 @@
 // A strip that lies on a smooth floor and is folded back over itself, against the elastica.
-#include <algorithm>
-#include <cmath>
-#include <vector>
 
 #include "verification/oracles/folds.h"
 #include "verification/subjects/suite/laws.h"

@@ -1,6 +1,4 @@
 // Wrinkles of a sheet that is stretched one way and compressed across.
-#include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "verification/subjects/suite/laws.h"

@@ -1,11 +1,13 @@
-// Deforming bodies in time: normals that cancel, and objects made of them.
+// Objects that deform: their level sets and motion, and how they are built.
 #include <catch2/catch.hpp>
-
+#include <cmath>
 #include <memory>
 
 #include "reference/fast/out_of_reach.h"
+#include "reference/level_set/deforming.h"
 #include "reference/level_set/object.h"
 #include "reference/level_set/octree_nodes.h"
+#include "reference/mesh/shapes.h"
 
 using namespace foldproof;
 
@@ -67,4 +69,84 @@ TEST_CASE("a deforming object has the mean velocity over a span, and is never ou
   RememberedQuery remembered(objects, {0.2, 0.7, 0.1});
   for (const ObjectPoint& answer : remembered.at({0.4, 0.7, 0.9})) CHECK(answer.phi > 0);
   CHECK_FALSE(remembered.out_of_reach({0.4, 0.7, 0.9}, Vector3::Zero(), 0));
+}
+
+using Catch::Contains;
+
+namespace {
+
+const std::vector<Triangle> four_faces{{0, 1, 3}, {1, 2, 3}, {2, 0, 3}, {1, 0, 2}};
+
+PerParticle3 irregular() {
+  PerParticle3 x(3, 4);
+  x << 0.71, 0.32, 0.43, 0.56, 0.47, 0.73, 0.26, 0.52, 0.38, 0.35, 0.43, 0.71;
+  return x;
+}
+
+const OctreeSettings sampling{{0, 0, 0}, 1, 4, 2, 0.008, 0.03, 0, 0, HangingNodes::constrained};
+
+}  // namespace
+
+TEST_CASE("a triangle without area moves its surroundings as its first corner moves") {
+  PerParticle3 x(3, 3), moved;
+  x << 0.25, 0.5, 0.375, 0.375, 0.375, 0.375, 0.5, 0.5, 0.5;
+  moved = x;
+  moved.row(0) += Eigen::RowVector3d(0.03, 0.07, -0.01);
+  const DeformingBody body =
+      make_deforming_body({{{0, 1, 2}}, {0, 0.5}, {x, moved}}, sampling, BetweenFrames::carried);
+  for (const BranchNodes<Vector3>& nodes : body.frames[0].to_next)
+    for (const Vector3& u : nodes) CHECK((u - Vector3(0.03, 0, 0)).norm() < 1e-15);
+}
+
+TEST_CASE("a mesh sequence has frames of equally many vertices at times that rise") {
+  const auto refused = [](const std::vector<double>& times, int vertices, const char* text) {
+    const PerParticle3 last = PerParticle3::Constant(3, vertices, 0.4);
+    CHECK_THROWS_WITH(make_deforming_body({four_faces, times, {irregular(), irregular(), last}},
+                                          sampling, BetweenFrames::carried),
+                      Contains(text));
+  };
+  refused({}, 4, "it needs a frame");
+  refused({0.3, 0.5}, 4, "a time for each");
+  refused({0.3, 0.3, 0.5}, 4, "frame 1: the times must rise");
+  refused({0.3, 0.5, NAN}, 4, "frame 2: the times must rise");
+  refused({0.3, 0.5, 1.1}, 3, "frame 2: it must have as many vertices as the first");
+  refused({0.3, 0.5, 1.1}, 5, "frame 2: it must have as many vertices as the first");
+}
+
+TEST_CASE("frames that intersect themselves are the union, by their winding number") {
+  const TriangleMesh ball = make_icosphere(0.15, 3);
+  const auto frame = [&](double apart) {
+    PerParticle3 x(3, 2 * ball.particles());
+    x << ball.rest.colwise() + Vector3(0.5 - apart / 2, 0.5, 0.5),
+        ball.rest.colwise() + Vector3(0.5 + apart / 2, 0.5, 0.5);
+    return x;
+  };
+  MeshSequence balls{ball.triangles, {0, 0.5}, {frame(0.15), frame(0.4)}, Inside::winding};
+  for (const Triangle& t : ball.triangles)
+    balls.triangles.push_back(
+        {t[0] + ball.particles(), t[1] + ball.particles(), t[2] + ball.particles()});
+  OctreeSettings fine = sampling;
+  fine.depth = 5;
+  const DeformingBody body = make_deforming_body(balls, fine, BetweenFrames::carried);
+  for (const int k : {0, 1}) {
+    const double apart = k == 0 ? 0.15 : 0.4;
+    int within = 0;
+    for (int i = 0; i < 1000; ++i) {
+      const Vector3 p(0.15 + 0.07 * (i % 10), 0.2 + 0.06 * (i / 10 % 10), 0.21 + 0.06 * (i / 100));
+      const auto from = [&](double side) {
+        return (p - Vector3(0.5 + side * apart / 2, 0.5, 0.5)).norm() - 0.15;
+      };
+      const double phi = deforming_at(body, p, 0.5 * k).phi, truth = std::min(from(1), from(-1));
+      if (truth > 0) CHECK(std::abs(phi - truth) < 0.02);
+      // inside both, no surface is nearer than the circle in which the balls meet
+      if (truth < -0.02) CHECK(phi < (std::max(from(1), from(-1)) < 0 ? -0.03 : -0.005));
+      within += truth < -0.02;
+    }
+    CHECK(within > 20);
+  }
+  balls.triangles = four_faces;
+  balls.positions = {irregular(), irregular()};
+  for (Triangle& t : balls.triangles) std::swap(t[0], t[1]);
+  CHECK_THROWS_WITH(make_deforming_body(balls, fine, BetweenFrames::carried),
+                    Contains("frame 0: repair finds no inside"));
 }

@@ -1,13 +1,19 @@
-// Edges, hinges, fans, areas and masses of triangle meshes, and what is refused.
+// Meshes worked out by hand: edges, hinges, areas; nearest points and intersections.
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 
+#include "reference/bodies/ray_parity.h"
+#include "reference/mesh/nearest_point.h"
+#include "reference/mesh/self_intersection.h"
+#include "reference/mesh/shapes.h"
 #include "reference/mesh/triangle_mesh.h"
 
 using namespace foldproof;
+
 using Catch::Matchers::Contains;
 
 namespace {
@@ -100,4 +106,99 @@ TEST_CASE("areas, heights, masses and lengths of two triangles are those worked 
   for (const Triangle& turned : {Triangle{3, 2, 1}, {2, 1, 3}, {1, 3, 2}})
     CHECK(smallest_height({turned, {3, 2, 1}}, x) == Approx(60.0 / 13).epsilon(1e-15));
   CHECK(smallest_height({}, x) == infinity);
+}
+
+namespace {
+
+double volume(const TriangleMesh& mesh) {
+  double sum = 0;
+  for (const auto& [a, b, c] : mesh.triangles)
+    sum += Vector3(mesh.rest.col(a)).cross(Vector3(mesh.rest.col(b))).dot(mesh.rest.col(c)) / 6;
+  return sum;
+}
+
+/// On its base, of the height 1.7 m, and nowhere through itself.
+void check_stands(const TriangleMesh& statue) {
+  CHECK(statue.rest.row(1).minCoeff() == 0);
+  CHECK(std::abs(statue.rest.row(1).maxCoeff() - 1.7) < 4 * std::numeric_limits<double>::epsilon());
+  CHECK(self_intersections(statue.rest, statue.triangles).empty());
+}
+
+}  // namespace
+
+TEST_CASE("mesh: the even statue is clean, too, and its smallest triangle is larger") {
+  const TriangleMesh even = make_even_statue(1.7, 32), plain = make_statue(1.7, 5);
+  REQUIRE(even.triangles.size() == plain.triangles.size());
+  const double of_even = triangle_areas(even.triangles, even.rest).minCoeff();
+  CHECK(of_even > 1.5 * triangle_areas(plain.triangles, plain.rest).minCoeff());
+  CHECK(volume(even) == Approx(volume(plain)).epsilon(0.01));
+  check_stands(even);
+  check_stands(plain);
+  CHECK_THROWS_WITH(make_even_statue(1.7, 14), Catch::Contains("give 15 to 256"));
+}
+
+TEST_CASE("what lies between two regions of a triangle belongs to its corner") {
+  const Corners3 corners{Vector3(0, 0, 0), Vector3(1, 0, 0), Vector3(0, 1, 0)};
+  const auto feature_at = [&](double x, double y) {
+    return nearest_on_triangle(corners, {x, y, 3}).feature;
+  };
+  CHECK(feature_at(0, -1) == Feature::a);
+  CHECK(feature_at(-1, 0) == Feature::a);
+  CHECK(feature_at(1, -1) == Feature::b);
+  CHECK(feature_at(2, 1) == Feature::b);
+  CHECK(feature_at(-1, 1) == Feature::c);
+  CHECK(feature_at(1, 2) == Feature::c);
+  // on the edges themselves
+  CHECK(feature_at(0.5, 0) == Feature::ab);
+  CHECK(feature_at(0, 0.5) == Feature::ca);
+  CHECK(feature_at(0.5, 0.5) == Feature::bc);
+  CHECK(feature_at(0.5, -1) == Feature::ab);
+  const NearestFeature within = nearest_on_triangle(corners, {0.5, 0.25, 3});
+  CHECK(within.triangle == -1);
+  CHECK(within.feature == Feature::face);
+  CHECK(within.point == Vector3(0.5, 0.25, 0));
+  CHECK(within.squared_distance == 9);
+}
+
+TEST_CASE("rays through edges and corners cross one triangle, on the lower sides of a cube") {
+  // corners at nodes 1 and 4 of every row, or a hair above 4; each face of two triangles
+  const double above = GENERATE(0.0, 5e-7);
+  PerParticle3 x(3, 8);
+  for (int k = 0; k < 8; ++k)
+    x.col(k) = 0.5 * Vector3(k & 1 ? 4 + above : 1, k & 2 ? 4 + above : 1, k & 4 ? 4 + above : 1);
+  const std::vector<Triangle> cube{{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6},
+                                   {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7},
+                                   {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  const Lattice lattice{Vector3::Zero(), 0.5, {6, 7, 8}};
+  const std::vector<std::uint8_t> votes = ray_parity(x, cube, lattice);
+  for (long index = 0; index < lattice.size(); ++index) {
+    const Node n = lattice.node(index);
+    int expected = 0;
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const auto crosses = [&](size_t across) { return 1 <= n[across] && n[across] < 4 + above; };
+      expected += 1 < n[axis] && n[axis] <= 4 && crosses((axis + 1) % 3) && crosses((axis + 2) % 3);
+    }
+    CHECK(int(votes[size_t(index)]) == expected);
+  }
+}
+
+TEST_CASE("disagreement: signs against the majority of rays, and rays against each other") {
+  Grid grid;
+  grid.lattice = {Vector3::Zero(), 1, {3, 2, 2}};
+  //          near the surface  on it   outside          inside
+  grid.phi = {0.2, -0.2, -0.1, 0, 0.3, 0.4, 0.5, 0.6, -0.3, -0.4, -0.5, -0.6};
+  const std::vector<std::uint8_t> parity{3, 0, 1, 1, 0, 1, 2, 3, 0, 1, 2, 3};
+  const Disagreement found = disagreement(grid, parity, grid.phi[0]);
+  CHECK(found.with_sign == std::vector<long>{6, 7, 8, 9});
+  CHECK(found.among_rays == std::vector<long>{5, 6, 9, 10});
+  CHECK(disagreement(grid, parity, -1).with_sign == std::vector<long>{0, 1, 2, 6, 7, 8, 9});
+}
+
+TEST_CASE("triangles of one plane intersect where only their edges cross") {
+  PerParticle3 x(3, 6);
+  x << 0, 4, 2, 0, 4, 2, 0, 0, 3, 2, 2, -1, 0, 0, 0, 0, 0, 0;
+  const std::vector<Triangle> star{{0, 1, 2}, {3, 4, 5}};
+  CHECK(self_intersections(x, star).size() == 1);
+  x.rightCols(3).row(0).array() += 4.5;
+  CHECK(self_intersections(x, star).empty());
 }
