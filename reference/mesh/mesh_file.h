@@ -18,14 +18,16 @@ using FaceGroups = std::map<std::string, std::vector<int>>;
 
 struct MeshFile {
   TriangleSoup soup;
-  FaceGroups groups;           // of an OBJ file
+  FaceGroups groups;  // of an OBJ file
+  // M: of an OBJ file whose corners all have texture coordinates, those, in its units
+  std::vector<FlatTriangle> textures;
   std::optional<double> time;  // if a comment of a PLY file says "time T s", as exports do [s]
 };
 
 /// Whether a file without faces, such as a scan of points, is refused.
 enum class Needs { faces, vertices };
 
-/// Reads vertices [m] and faces; all else is ignored. A file that begins with the line "ply" is
+/// Reads vertices [m], faces, and texture coordinates of OBJ; all else is ignored. A file that begins with the line "ply" is
 /// PLY, ASCII or binary of either byte order, with x, y, z of the element `vertex` and the list
 /// vertex_indices, or vertex_index, of `face` or of `tristrips` (strips parted by -1); every other
 /// file is OBJ, with records v and f: negative indices count back from the last vertex so far, and

@@ -45,6 +45,13 @@ bool is_seam(const TriangleMesh& mesh, const Edge& edge) {
   return place_of(0, edge.a) != place_of(1, edge.a) || place_of(0, edge.b) != place_of(1, edge.b);
 }
 
+void reject_no_area(const FlatTriangle& corners, int t, const MeshOrigin& origin) {
+  const Eigen::Vector2d a = corners[1] - corners[0], b = corners[2] - corners[0];
+  if (!(std::abs(a.x() * b.y() - a.y() * b.x()) >
+        1e-12 * std::max({a.squaredNorm(), b.squaredNorm(), (b - a).squaredNorm()})))
+    throw InputError(triangle_location(origin, t) + "no area in the pattern");
+}
+
 }  // namespace
 
 std::vector<FlatTriangle> pattern_of(const TriangleSoup& flat, double scale,
@@ -69,13 +76,23 @@ std::vector<FlatTriangle> pattern_of(const TriangleSoup& flat, double scale,
                          "triangles");
       corners[k] = scale * Eigen::Vector2d(flat.rest(first, vertex), flat.rest(second, vertex));
     }
-    const Eigen::Vector2d a = corners[1] - corners[0], b = corners[2] - corners[0];
-    if (!(std::abs(a.x() * b.y() - a.y() * b.x()) >
-          1e-12 * std::max({a.squaredNorm(), b.squaredNorm(), (b - a).squaredNorm()})))
-      throw InputError(triangle_location(flat.origin, int(t)) + "no area in the pattern");
+    reject_no_area(corners, int(t), flat.origin);
     pattern.push_back(corners);
   }
   return pattern;
+}
+
+std::vector<FlatTriangle> pattern_of_textures(std::vector<FlatTriangle> textures, double scale,
+                                              const MeshOrigin& origin) {
+  if (textures.empty())
+    throw InputError(mesh_location(origin) +
+                     "not every corner of its faces has texture coordinates (f a/b); the pattern "
+                     "\"vt\" is made of them");
+  for (size_t t = 0; t < textures.size(); ++t) {
+    for (Eigen::Vector2d& corner : textures[t]) corner *= scale;
+    reject_no_area(textures[t], int(t), origin);
+  }
+  return textures;
 }
 
 TriangleMesh flat_panels(const TriangleMesh& mesh) {

@@ -16,6 +16,11 @@ namespace foldproof {
 std::vector<FlatTriangle> pattern_of(const TriangleSoup& flat, double scale,
                                      const TriangleMesh& cloth);
 
+/// The same from texture coordinates, which need no unit for a picture and one here. Throws
+/// InputError for triangles without area there, and for a mesh without them.
+std::vector<FlatTriangle> pattern_of_textures(std::vector<FlatTriangle> textures, double scale,
+                                              const MeshOrigin& origin);
+
 /// The pattern as a mesh of its own in the plane z = 0, its seams open; triangles keep their
 /// numbers. For a mesh without a pattern, the mesh.
 TriangleMesh flat_panels(const TriangleMesh& mesh);

@@ -217,6 +217,16 @@ void read_flat_pattern(const KeyTable& cloth, const std::string& folder, Triangl
     if (cloth.has(key))
       throw InputError(cloth.where(key) + ": '" + std::string(key) +
                        "' does not go with the flat pattern of a mesh");
+  if (cloth.text("pattern") == "vt") {
+    if (!cloth.has("pattern_scale"))
+      throw InputError(cloth.where("pattern") +
+                       ": texture coordinates have no unit; give pattern_scale, the metres in one "
+                       "of theirs");
+    MeshFile read = read_mesh_file(mesh_file(cloth, folder, "cloth"));
+    mesh.pattern = pattern_of_textures(std::move(read.textures), positive(cloth, "pattern_scale"),
+                                       read.soup.origin);
+    return;
+  }
   const std::string file = path_of(cloth, "pattern", folder);
   if (!std::filesystem::exists(file))
     throw InputError(cloth.where("pattern") + ": there is no mesh file '" + file +

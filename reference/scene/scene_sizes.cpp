@@ -69,7 +69,7 @@ void note_pattern(Scene& scene) {
   scene.notes.push_back(
       "pattern: " + std::to_string(facts.panels) + " panels, " + digits(facts.area) + " m^2; " +
       (facts.seams > 0 ? "seams of " + digits(facts.seams) + " m, whose sides differ by at most " +
-                             percent(facts.ease)
+                             percent(facts.ease < 1e-6 ? 0 : facts.ease)
                        : "no seams") +
       "; edges start at " + percent(facts.least) + " to " + percent(facts.greatest) +
       " of their rest lengths");

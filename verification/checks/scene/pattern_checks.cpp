@@ -183,6 +183,52 @@ Finding moved_finding() {
                      "a turn and a change of unit cost a few roundings of a place 2 m away");
 }
 
+/// The same panels as texture coordinates of the dressed mesh, in units of `unit` [m].
+Finding textures_finding() {
+  const ScratchFolder folder;
+  const std::vector<Panel> panels = halves(1.07);
+  const Scene plain = tube(folder, panels);
+  const double unit = 2.5;
+  std::ostringstream text;
+  text.precision(17);
+  for (const Panel& panel : panels)
+    for (Eigen::Index i = 0; i < panel.flat.cols(); ++i)
+      text << "v " << panel.dressed.col(i).transpose() << "\nvt "
+           << panel.flat.col(i).head<2>().transpose() / unit << "\n";
+  int first = 1;
+  for (const Panel& panel : panels) {
+    for (const Triangle& t : panel.triangles) {
+      text << "f";
+      for (const int i : t) text << " " << i + first << "/" << i + first;
+      text << "\n";
+    }
+    first += int(panel.flat.cols());
+  }
+  std::ofstream(folder.file("dressed.obj")) << text.str();
+  const auto read = [&](const std::string& more) {
+    return read_scene_text(
+        "[cloth]\nmesh = \"dressed.obj\"\npattern = \"vt\"\nseams = 1e-6\n"
+        "density = 0.2\n" +
+            more + forces + short_time,
+        folder.file("trial.toml"));
+  };
+  const Scene scene = read("pattern_scale = 2.5\n");
+  Differences differences;
+  differences.is_near("lengths",
+                      (rest_lengths(scene.mesh) - rest_lengths(plain.mesh))
+                          .cwiseAbs()
+                          .maxCoeff<Eigen::PropagateNaN>(),
+                      2);
+  differences.is_near(
+      "masses", (masses_of(scene) - masses_of(plain)).cwiseAbs().maxCoeff<Eigen::PropagateNaN>(),
+      1);
+  differences.is("a unit is asked for", is_rejected([&] { read(""); }, "have no unit"));
+  write(folder.file("dressed.obj"), panels, &Panel::dressed);
+  differences.is("a mesh without them is refused",
+                 is_rejected([&] { read("pattern_scale = 1\n"); }, "texture coordinates (f a/b)"));
+  return differences.judged(8, "a division and a product by the unit, of places 2 m away");
+}
+
 Finding rest_finding() {
   const ScratchFolder folder;
   std::vector<Panel> panels = halves(1);
@@ -234,6 +280,9 @@ std::vector<Check> pattern_checks() {
       {"pattern.panels-may-lie-anywhere",
        "Turning or mirroring a panel, another unit or a refinement change no mass and no length.",
        source, moved_finding},
+      {"pattern.texture-coordinates-are-a-pattern",
+       "Texture coordinates with a unit give the rest shape that a flat mesh gives.", source,
+       textures_finding},
       {"pattern.panels-are-at-rest", "Panels laid out as in their pattern have no forces.", source,
        rest_finding},
       {"pattern.bad-patterns-are-refused", "A pattern that does not fit its cloth is refused.",
