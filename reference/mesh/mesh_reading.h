@@ -1,6 +1,10 @@
 // Parts that the readers of OBJ and PLY share. All other files include mesh_file.h.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -12,6 +16,22 @@ namespace foldproof {
 
 // Twice the largest cloth in the speed measurements.
 constexpr size_t most_vertices = 2'000'000, most_triangles = 4'000'000;
+
+// [m]; areas square the squares of lengths, which beyond these limits overflow, or vanish.
+constexpr double largest_coordinate = 1e75, smallest_mesh = 1e-75;
+
+/// Throws InputError, beginning with `where`, for a place that is not finite, or too far away.
+void reject_bad_place(const Vector3& x, const std::string& where);
+void reject_bad_places(const PerParticle3& x, const std::string& file);
+
+/// The number whose bytes begin here, in this machine's order or, `is_swapped`, in the other.
+template <class Number>
+double number_at(const char* from, bool is_swapped) {
+  std::array<char, sizeof(Number)> copy;
+  std::memcpy(copy.data(), from, sizeof(Number));
+  if (is_swapped) std::ranges::reverse(copy);
+  return double(std::bit_cast<Number>(copy));
+}
 
 /// Reads a whole word as a number, with or without a plus sign. What is too small for a double is
 /// 0. invalid_argument: it is none; result_out_of_range: it is too large.

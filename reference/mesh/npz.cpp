@@ -1,12 +1,11 @@
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 
 #include "reference/mesh/mesh_frames.h"
+#include "reference/mesh/mesh_reading.h"
 #include "reference/mesh/zip_archive.h"
 
 namespace foldproof {
@@ -41,14 +40,6 @@ std::vector<std::size_t> shape_in(std::string_view text) {
     at = std::min(text.find_first_not_of(", ", std::size_t(end - text.data())), text.size());
   }
   return shape;
-}
-
-template <class Number>
-double number_at(const char* from, bool is_big) {
-  std::array<char, sizeof(Number)> bytes;
-  std::memcpy(bytes.data(), from, sizeof(Number));
-  if (is_big) std::ranges::reverse(bytes);
-  return double(std::bit_cast<Number>(bytes));
 }
 
 using Reader = double (*)(const char* from, bool is_big);
@@ -166,8 +157,7 @@ std::vector<MeshFrame> read_npz_bytes(std::string_view bytes, const std::string&
     if (!times.empty()) frame.time = times[k];
     frame.x = Eigen::Map<const PerParticle3>(vertices.values.data() + 3 * particles * k, 3,
                                              Eigen::Index(particles));
-    if (!frame.x.allFinite())
-      throw InputError(frame.file + ": a coordinate is not finite; give numbers in m");
+    reject_bad_places(frame.x, frame.file);
     if (frame.time && !std::isfinite(*frame.time))
       throw InputError(frame.file + ": its time is not finite; give seconds");
     frames.push_back(std::move(frame));

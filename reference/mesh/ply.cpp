@@ -5,7 +5,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -63,6 +62,7 @@ struct Reader {
   int line = 1;             // of the header and of ASCII
   Form form = Form::ascii;  // of the next value to read
   char line_end = '\n';     // or '\r', if the file's first line ends with that alone
+  std::string odd_row = {};  // the first that is not a line of its own, in words
 };
 
 [[noreturn]] void reject(const Reader& reader, const std::string& reason) {
@@ -191,14 +191,6 @@ std::string_view next_word(Reader& reader) {
   return reader.text.substr(start, reader.at - start);
 }
 
-template <class Number>
-double number_at(const char* bytes, bool is_swapped) {
-  std::array<char, sizeof(Number)> copy;
-  std::memcpy(copy.data(), bytes, sizeof(Number));
-  if (is_swapped) std::ranges::reverse(copy);
-  return double(std::bit_cast<Number>(copy));
-}
-
 double binary_number(Reader& reader, Type type) {
   static_assert(std::endian::native == std::endian::little);
   const std::size_t bytes = types[std::size_t(type)].bytes;
@@ -256,6 +248,18 @@ void skip(Reader& reader, const Property& property) {
   for (std::size_t k = 0; k < count; ++k) next_number(reader, property.type);
 }
 
+/// Rows need not be lines. If they are none, and the file does not fit its header, that is why.
+void note_row(Reader& reader, std::size_t start, const Element& element) {
+  if (reader.form != Form::ascii || !reader.odd_row.empty()) return;
+  start = std::min(reader.text.find_first_not_of(" \t\r\n\v\f", start), reader.at);
+  const std::string_view row = reader.text.substr(start, reader.at - start);
+  const std::size_t after = reader.text.find_first_not_of(" \t\v\f", reader.at);
+  const auto breaks = std::ranges::count(row, reader.line_end);
+  if (breaks == 0 && (after >= reader.text.size() || reader.text[after] < ' ')) return;
+  reader.odd_row = "line " + std::to_string(reader.line - breaks) + " does not hold what one " +
+                   quote(element.name) + " has by the header";
+}
+
 /// Which lines a mesh has: none in a binary file.
 int line_of(const Reader& reader) { return reader.form == Form::ascii ? reader.line : 0; }
 
@@ -268,6 +272,7 @@ void read_vertices(Reader& reader, const Element& element, TriangleSoup& soup) {
   std::vector<Vector3> all;
   for (std::size_t v = 0; v < element.count; ++v) {
     Vector3 place = Vector3::Constant(std::nan(""));
+    const std::size_t start = reader.at;
     for (const Property& property : element.properties) {
       const std::size_t axis = std::string_view("xyz").find(property.name);
       if (!property.is_list && property.name.size() == 1 && axis < 3)
@@ -276,6 +281,7 @@ void read_vertices(Reader& reader, const Element& element, TriangleSoup& soup) {
         skip(reader, property);
     }
     all.push_back(place);
+    note_row(reader, start, element);
     if (line_of(reader) > 0) soup.origin.vertex_lines.push_back(line_of(reader));
   }
   soup.rest.resize(3, Eigen::Index(all.size()));
@@ -328,7 +334,8 @@ void read_element_data(Reader& reader, const Element& element, TriangleSoup& sou
                        FaceList& faces) {
   if (element.properties.empty()) return;
   if (element.name == "vertex") return read_vertices(reader, element, soup);
-  for (std::size_t k = 0; k < element.count; ++k)
+  for (std::size_t k = 0; k < element.count; ++k) {
+    const std::size_t start = reader.at;
     for (const Property& property : element.properties)
       if (element.name == "face" && has_corners(property))
         read_polygon(reader, property, faces);
@@ -336,6 +343,8 @@ void read_element_data(Reader& reader, const Element& element, TriangleSoup& sou
         read_strips(reader, property, faces);
       else
         skip(reader, property);
+    note_row(reader, start, element);
+  }
 }
 
 /// Data behind the last element are elements that the header does not count.
@@ -344,12 +353,9 @@ void require_end(Reader& reader) {
     reject(reader, "data behind the last element; the counts of the header do not fit");
 }
 
-}  // namespace
-
-MeshFile read_ply_text(std::string_view text, const std::string& file, Needs needs) {
-  Reader reader{text, file};
-  const Header header = read_header(reader);
-  reader.form = header.form;
+/// reader: behind the header.
+MeshFile read_data(Reader& reader, const Header& header, Needs needs) {
+  const std::string& file = reader.file;
   MeshFile mesh;
   mesh.time = header.time;
   mesh.soup.origin.file = file;
@@ -363,6 +369,40 @@ MeshFile read_ply_text(std::string_view text, const std::string& file, Needs nee
   if (mesh.soup.rest.cols() == 0) reject(reader, "the file has no vertex; give a mesh or points");
   faces.cut_into(mesh.soup, 0);
   return mesh;
+}
+
+/// The other count of vertices that fits the data, in words; "" if none nearby does.
+std::string fitting_count(const Reader& start, Header header, Needs needs) {
+  const auto vertex = std::ranges::find(header.elements, "vertex", &Element::name);
+  if (vertex == header.elements.end()) return "";
+  const std::size_t count = vertex->count;
+  for (const int more : {-1, 1, -2, 2, -3, 3, -4, 4}) {
+    vertex->count = count + std::size_t(more);
+    Reader reader = start;
+    try {
+      read_data(reader, header, needs);
+      return "the header counts " + std::to_string(count) + " vertices; " +
+             std::to_string(vertex->count) + " fit the file";
+    } catch (const InputError&) {
+    }
+  }
+  return "";
+}
+
+}  // namespace
+
+MeshFile read_ply_text(std::string_view text, const std::string& file, Needs needs) {
+  Reader reader{text, file};
+  const Header header = read_header(reader);
+  reader.form = header.form;
+  const Reader start = reader;
+  try {
+    return read_data(reader, header, needs);
+  } catch (const InputError& error) {
+    std::string why = fitting_count(start, header, needs);
+    if (why.empty()) why = reader.odd_row;
+    throw InputError(error.what() + (why.empty() ? "" : "; " + why));
+  }
 }
 
 }  // namespace foldproof
