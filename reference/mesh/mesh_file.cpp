@@ -79,7 +79,8 @@ std::vector<int> FaceList::cut_into(TriangleSoup& soup, int first_vertex) const 
     }
   }
   if (largest > 0 && largest < smallest_mesh)
-    throw InputError(soup.origin.file + ": no coordinate is as large as 1e-75 m, and areas would "
+    throw InputError(soup.origin.file +
+                     ": no coordinate is as large as 1e-75 m, and areas would "
                      "vanish; give numbers in m");
   return face_of_triangle;
 }

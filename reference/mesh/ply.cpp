@@ -59,9 +59,9 @@ struct Reader {
   std::string_view text;
   const std::string& file;
   std::size_t at = 0;
-  int line = 1;             // of the header and of ASCII
-  Form form = Form::ascii;  // of the next value to read
-  char line_end = '\n';     // or '\r', if the file's first line ends with that alone
+  int line = 1;              // of the header and of ASCII
+  Form form = Form::ascii;   // of the next value to read
+  char line_end = '\n';      // or '\r', if the file's first line ends with that alone
   std::string odd_row = {};  // the first that is not a line of its own, in words
 };
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "reference/bodies/closed_mesh.h"
 #include "reference/dynamics/integrator.h"
 #include "reference/forces/degenerate.h"
 #include "reference/mesh/box_tree.h"
@@ -56,6 +57,8 @@ std::string sizes_in_words(const Scene& scene) {
   const double mass = lumped_masses(scene.mesh, scene.density).sum();
   std::string words = "cloth " + extent_of(scene.x) + ", " + digits(mass / scene.density) +
                       " m^2, " + digits(mass) + " kg";
+  if (const int pieces = count_of_pieces(scene.mesh); pieces > 1)
+    words += ", in " + std::to_string(pieces) + " pieces";
   for (const SceneObject& part : scene.objects)
     if (part.field && part.vertices.cols() > 0)
       words += "; object '" + part.object.name + "' " + extent_of(part.vertices);

@@ -27,6 +27,7 @@ struct JudgedFrame {
   std::size_t frame;
   double time;  // s
   std::vector<oracles::EdgeInTriangle> pairs;
+  std::size_t repeated = 0, without_area = 0;  // faces that were left out
 };
 
 JudgedFrame judge_frame(const std::string& file, std::size_t frame, double time,
@@ -59,11 +60,18 @@ void judge_file(const std::string& file, double seams, std::vector<JudgedFrame>&
   require_input(file, is_mesh ? mesh_kind : run_kind);
   if (is_mesh) {
     TriangleSoup mesh = read_mesh_file(file).soup;
-    if (seams > 0)
-      mesh = close_seams(std::move(mesh), seams);
-    else
-      warn_of_open_seams(mesh);
-    all.push_back(judge_frame(file, 0, 0, mesh.rest, mesh.triangles));
+    if (seams > 0) mesh = close_seams(std::move(mesh), seams);
+    const SortedTriangles sorted = sorted_triangles(mesh);
+    if (const std::string words = flaws_in_words(sorted, mesh.origin); !words.empty())
+      log_line("warning: " + words + "; left out");
+    std::vector<Triangle> sound;
+    for (const int t : sorted.sound) sound.push_back(mesh.triangles[std::size_t(t)]);
+    if (seams == 0) warn_of_open_seams({mesh.rest, sound, {file, {}, {}}});
+    all.push_back(judge_frame(file, 0, 0, mesh.rest, sound));
+    for (oracles::EdgeInTriangle& pair : all.back().pairs)
+      pair.triangle = sorted.sound[std::size_t(pair.triangle)];
+    all.back().repeated = sorted.repeated.size();
+    all.back().without_area = sorted.without_area.size();
     return;
   }
   const StoredFrames run = read_stored_frames(file);
@@ -91,7 +99,9 @@ nlohmann::json to_json(const std::vector<JudgedFrame>& all) {
     nlohmann::json row = {{"file", frame.file},
                           {"frame", frame.frame},
                           {"time", frame.time},
-                          {"pairs", frame.pairs.size()}};
+                          {"pairs", frame.pairs.size()},
+                          {"repeated_faces", frame.repeated},
+                          {"faces_without_area", frame.without_area}};
     if (!frame.pairs.empty())
       row["first"] = {{"edge", frame.pairs.front().edge},
                       {"triangle", frame.pairs.front().triangle}};
@@ -108,7 +118,7 @@ int show_crossings(const CrossingsOptions& options) {
   else
     print(all);
   for (const JudgedFrame& frame : all)
-    if (!frame.pairs.empty()) return some_fail;
+    if (!frame.pairs.empty() || frame.repeated > 0) return some_fail;
   return all_hold;
 }
 
@@ -119,7 +129,7 @@ constexpr const char* below_crossings =
 
 Exit codes:
   0    nothing crosses
-  1    in some frame an edge crosses a triangle
+  1    in some frame an edge crosses a triangle, or a face is given twice
   2    bad input)";
 
 }  // namespace
