@@ -8,6 +8,7 @@
 #include "reference/forces/degenerate.h"
 #include "reference/mesh/box_tree.h"
 #include "reference/mesh/seams.h"
+#include "reference/mesh/self_intersection.h"
 
 namespace foldproof {
 
@@ -109,6 +110,22 @@ void warn_of_sizes(const KeyTable& cloth, Scene& scene) {
   if (!cloth.has("mesh") || cloth.has("seams")) return;
   if (const std::string words = open_seams_in_words(scene.mesh); !words.empty())
     scene.warnings.push_back(where + ": " + words);
+}
+
+std::string warning_of_start(const Scene& scene, const State& s) {
+  const std::vector<Triangle>& triangles = scene.mesh.triangles;
+  const auto flat = std::ranges::count_if(
+      triangles, [&](const Triangle& triangle) { return !has_area(s.x, triangle); });
+  if (flat > 0)
+    return std::to_string(flat) +
+           " triangles of the cloth have no area at the start, so that the "
+           "forces of their springs and hinges have no direction; change its places at the start";
+  if (scene.self_collision || !open_seams_in_words(scene.mesh).empty()) return "";
+  const size_t pairs = self_intersections(s.x, triangles).size();
+  if (pairs == 0) return "";
+  return "the cloth crosses itself at the start, in " + std::to_string(pairs) +
+         " pairs of triangles, and nothing parts them; move its layers apart, or give "
+         "[self_collision]";
 }
 
 std::string warning_of_step(const Scene& scene, const System& system, const State& s) {
