@@ -16,28 +16,27 @@ namespace {
 
 constexpr std::size_t most_parts = 64;  // elements and properties of a header
 
-enum class Type { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
-
-struct TypeName {
+struct Type {
   std::string_view name, other;
-  Type type;
   std::size_t bytes;
+  double (*read)(const char* from, bool is_swapped);
 };
 
-constexpr std::array<TypeName, 8> types = {{{"char", "int8", Type::int8, 1},
-                                            {"uchar", "uint8", Type::uint8, 1},
-                                            {"short", "int16", Type::int16, 2},
-                                            {"ushort", "uint16", Type::uint16, 2},
-                                            {"int", "int32", Type::int32, 4},
-                                            {"uint", "uint32", Type::uint32, 4},
-                                            {"float", "float32", Type::float32, 4},
-                                            {"double", "float64", Type::float64, 8}}};
+template <class Number>
+constexpr Type type_of(std::string_view name, std::string_view other) {
+  return {name, other, sizeof(Number), number_at<Number>};
+}
+
+constexpr std::array types = {
+    type_of<std::int8_t>("char", "int8"),    type_of<std::uint8_t>("uchar", "uint8"),
+    type_of<std::int16_t>("short", "int16"), type_of<std::uint16_t>("ushort", "uint16"),
+    type_of<std::int32_t>("int", "int32"),   type_of<std::uint32_t>("uint", "uint32"),
+    type_of<float>("float", "float32"),      type_of<double>("double", "float64")};
 
 struct Property {
   std::string_view name;
-  Type type;
-  bool is_list = false;
-  Type count_type = Type::uint8;  // of a list's length
+  const Type& type;
+  const Type* count_type = nullptr;  // of a list's length; null if it is no list
 };
 
 struct Element {
@@ -97,9 +96,9 @@ std::vector<std::string_view> header_line(Reader& reader) {
   return words_of(line);
 }
 
-Type type_named(const Reader& reader, std::string_view word) {
-  for (const TypeName& row : types)
-    if (word == row.name || word == row.other) return row.type;
+const Type& type_named(const Reader& reader, std::string_view word) {
+  for (const Type& type : types)
+    if (word == type.name || word == type.other) return type;
   reject(reader,
          quote(word) + " is no type; write char, uchar, short, ushort, int, uint, float or double");
 }
@@ -144,10 +143,10 @@ void read_property(Reader& reader, const std::vector<std::string_view>& words, H
   if (words.size() == 3) {
     properties.push_back({words[2], type_named(reader, words[1])});
   } else if (words.size() == 5 && words[1] == "list") {
-    const Type count = type_named(reader, words[2]);
-    if (count == Type::float32 || count == Type::float64)
+    const Type& count = type_named(reader, words[2]);
+    if (count.other.starts_with("float"))
       reject(reader, "the length of a list is no whole number; give it an integer type");
-    properties.push_back({words[4], type_named(reader, words[3]), true, count});
+    properties.push_back({words[4], type_named(reader, words[3]), &count});
   } else {
     reject(reader, "a property is written 'property TYPE NAME' or 'property list TYPE TYPE NAME'");
   }
@@ -191,36 +190,15 @@ std::string_view next_word(Reader& reader) {
   return reader.text.substr(start, reader.at - start);
 }
 
-double binary_number(Reader& reader, Type type) {
+double binary_number(Reader& reader, const Type& type) {
   static_assert(std::endian::native == std::endian::little);
-  const std::size_t bytes = types[std::size_t(type)].bytes;
-  if (reader.text.size() - reader.at < bytes)
+  if (reader.text.size() - reader.at < type.bytes)
     reject(reader, "the file ends before its last element; write it anew");
-  const char* from = reader.text.data() + reader.at;
-  reader.at += bytes;
-  const bool is_swapped = reader.form == Form::big_endian;
-  switch (type) {
-    case Type::int8:
-      return number_at<std::int8_t>(from, is_swapped);
-    case Type::uint8:
-      return number_at<std::uint8_t>(from, is_swapped);
-    case Type::int16:
-      return number_at<std::int16_t>(from, is_swapped);
-    case Type::uint16:
-      return number_at<std::uint16_t>(from, is_swapped);
-    case Type::int32:
-      return number_at<std::int32_t>(from, is_swapped);
-    case Type::uint32:
-      return number_at<std::uint32_t>(from, is_swapped);
-    case Type::float32:
-      return number_at<float>(from, is_swapped);
-    case Type::float64:
-      break;
-  }
-  return number_at<double>(from, is_swapped);
+  reader.at += type.bytes;
+  return type.read(reader.text.data() + reader.at - type.bytes, reader.form == Form::big_endian);
 }
 
-double next_number(Reader& reader, Type type) {
+double next_number(Reader& reader, const Type& type) {
   if (reader.form != Form::ascii) return binary_number(reader, type);
   const std::string_view word = next_word(reader);
   double value = 0;
@@ -233,7 +211,7 @@ double next_number(Reader& reader, Type type) {
 }
 
 /// A whole number in [0, below), or an InputError that names it.
-std::size_t next_whole(Reader& reader, Type type, std::size_t below, const char* of) {
+std::size_t next_whole(Reader& reader, const Type& type, std::size_t below, const char* of) {
   const double value = next_number(reader, type);
   if (!(value >= 0 && value < double(below) && value == std::floor(value)))
     reject(reader,
@@ -243,18 +221,19 @@ std::size_t next_whole(Reader& reader, Type type, std::size_t below, const char*
 
 void skip(Reader& reader, const Property& property) {
   std::size_t count = 1;
-  if (property.is_list)
-    count = next_whole(reader, property.count_type, reader.text.size(), "the length of a list");
+  if (property.count_type)
+    count = next_whole(reader, *property.count_type, reader.text.size(), "the length of a list");
   for (std::size_t k = 0; k < count; ++k) next_number(reader, property.type);
 }
 
-/// Rows need not be lines. If they are none, and the file does not fit its header, that is why.
+/// Notes the first row that is no line of its own. Rows need not be lines: it is said if the file
+/// does not fit its header.
 void note_row(Reader& reader, std::size_t start, const Element& element) {
   if (reader.form != Form::ascii || !reader.odd_row.empty()) return;
   start = std::min(reader.text.find_first_not_of(" \t\r\n\v\f", start), reader.at);
-  const std::string_view row = reader.text.substr(start, reader.at - start);
+  const auto breaks =
+      std::ranges::count(reader.text.substr(start, reader.at - start), reader.line_end);
   const std::size_t after = reader.text.find_first_not_of(" \t\v\f", reader.at);
-  const auto breaks = std::ranges::count(row, reader.line_end);
   if (breaks == 0 && (after >= reader.text.size() || reader.text[after] < ' ')) return;
   reader.odd_row = "line " + std::to_string(reader.line - breaks) + " does not hold what one " +
                    quote(element.name) + " has by the header";
@@ -275,7 +254,7 @@ void read_vertices(Reader& reader, const Element& element, TriangleSoup& soup) {
     const std::size_t start = reader.at;
     for (const Property& property : element.properties) {
       const std::size_t axis = std::string_view("xyz").find(property.name);
-      if (!property.is_list && property.name.size() == 1 && axis < 3)
+      if (!property.count_type && property.name.size() == 1 && axis < 3)
         place[Eigen::Index(axis)] = next_number(reader, property.type);
       else
         skip(reader, property);
@@ -296,7 +275,7 @@ void add_corner(const Reader& reader, double vertex, FaceList& faces) {
 
 void read_polygon(Reader& reader, const Property& property, FaceList& faces) {
   const std::size_t corners =
-      next_whole(reader, property.count_type, reader.text.size(), "the length of a face");
+      next_whole(reader, *property.count_type, reader.text.size(), "the length of a face");
   if (corners == 0) return;
   if (corners < 3) reject(reader, "a face of fewer than three vertices; give at least three");
   for (std::size_t k = 0; k < corners; ++k) {
@@ -309,7 +288,7 @@ void read_polygon(Reader& reader, const Property& property, FaceList& faces) {
 /// Each vertex of a strip makes a triangle with the two before it; every second one is turned.
 void read_strips(Reader& reader, const Property& property, FaceList& faces) {
   const std::size_t count =
-      next_whole(reader, property.count_type, reader.text.size(), "the length of a strip");
+      next_whole(reader, *property.count_type, reader.text.size(), "the length of a strip");
   std::vector<double> strip;
   for (std::size_t k = 0; k < count; ++k) {
     const double vertex = next_number(reader, property.type);
@@ -326,7 +305,8 @@ void read_strips(Reader& reader, const Property& property, FaceList& faces) {
 }
 
 bool has_corners(const Property& property) {
-  return property.is_list && (property.name == "vertex_indices" || property.name == "vertex_index");
+  return property.count_type &&
+         (property.name == "vertex_indices" || property.name == "vertex_index");
 }
 
 /// An element without properties has no data whose end would stop a loop over an untrusted count.

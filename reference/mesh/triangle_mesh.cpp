@@ -74,9 +74,8 @@ void reject_bad_indices(int particles, const std::vector<Triangle>& triangles,
   }
 }
 
-void reject_unused_vertices(const PerParticle3& rest, const std::vector<Triangle>& triangles,
+void reject_unused_vertices(int particles, const std::vector<Triangle>& triangles,
                             const MeshOrigin& origin) {
-  const int particles = int(rest.cols());
   std::vector<char> used(particles, 0);
   for (const Triangle& triangle : triangles) {
     for (int v : triangle) used[v] = 1;
@@ -84,14 +83,10 @@ void reject_unused_vertices(const PerParticle3& rest, const std::vector<Triangle
   const long unused = std::count(used.begin(), used.end(), 0);
   if (unused == 0) return;
   const int first = int(std::find(used.begin(), used.end(), 0) - used.begin());
-  bool lies_on_other = false;
-  for (int v = 0; v < particles; ++v) lies_on_other |= v != first && rest.col(v) == rest.col(first);
   throw InputError(vertex_location(origin, first) + "in no triangle, the first of " +
                    std::to_string(unused) +
-                   " unused vertices (they would have no mass); remove them" +
-                   (lies_on_other ? ", or join it to the vertex that it coincides with: seams of "
-                                    "[cloth], or --seams"
-                                  : ""));
+                   " unused vertices (they would have no mass); remove them, or, if they coincide "
+                   "with others, join these by seams of [cloth], or --seams");
 }
 
 void reject_zero_areas(const PerParticle3& rest, const std::vector<Triangle>& triangles,
@@ -225,7 +220,7 @@ TriangleMesh make_mesh_of_fans(PerParticle3 rest, std::vector<Triangle> triangle
   reject_bad_sizes(rest, triangles, origin);
   reject_bad_coordinates(rest, origin);
   reject_bad_indices(particles, triangles, origin);
-  reject_unused_vertices(rest, triangles, origin);
+  reject_unused_vertices(particles, triangles, origin);
   reject_zero_areas(rest, triangles, origin);
 
   TriangleMesh mesh{std::move(rest), std::move(triangles), {}, {}};
