@@ -16,27 +16,10 @@ namespace {
 
 constexpr std::size_t most_parts = 64;  // elements and properties of a header
 
-struct Type {
-  std::string_view name, other;
-  std::size_t bytes;
-  double (*read)(const char* from, bool is_swapped);
-};
-
-template <class Number>
-constexpr Type type_of(std::string_view name, std::string_view other) {
-  return {name, other, sizeof(Number), number_at<Number>};
-}
-
-constexpr std::array types = {
-    type_of<std::int8_t>("char", "int8"),    type_of<std::uint8_t>("uchar", "uint8"),
-    type_of<std::int16_t>("short", "int16"), type_of<std::uint16_t>("ushort", "uint16"),
-    type_of<std::int32_t>("int", "int32"),   type_of<std::uint32_t>("uint", "uint32"),
-    type_of<float>("float", "float32"),      type_of<double>("double", "float64")};
-
 struct Property {
   std::string_view name;
-  const Type& type;
-  const Type* count_type = nullptr;  // of a list's length; null if it is no list
+  const NumberType& type;
+  const NumberType* count_type = nullptr;  // of a list's length; null if it is no list
 };
 
 struct Element {
@@ -58,10 +41,9 @@ struct Reader {
   std::string_view text;
   const std::string& file;
   std::size_t at = 0;
-  int line = 1;              // of the header and of ASCII
-  Form form = Form::ascii;   // of the next value to read
-  char line_end = '\n';      // or '\r', if the file's first line ends with that alone
-  std::string odd_row = {};  // the first that is not a line of its own, in words
+  int line = 1;             // of the header and of ASCII
+  Form form = Form::ascii;  // of the next value to read
+  char line_end = '\n';     // or '\r', if the file's first line ends with that alone
 };
 
 [[noreturn]] void reject(const Reader& reader, const std::string& reason) {
@@ -96,8 +78,8 @@ std::vector<std::string_view> header_line(Reader& reader) {
   return words_of(line);
 }
 
-const Type& type_named(const Reader& reader, std::string_view word) {
-  for (const Type& type : types)
+const NumberType& type_named(const Reader& reader, std::string_view word) {
+  for (const NumberType& type : number_types)
     if (word == type.name || word == type.other) return type;
   reject(reader,
          quote(word) + " is no type; write char, uchar, short, ushort, int, uint, float or double");
@@ -143,7 +125,7 @@ void read_property(Reader& reader, const std::vector<std::string_view>& words, H
   if (words.size() == 3) {
     properties.push_back({words[2], type_named(reader, words[1])});
   } else if (words.size() == 5 && words[1] == "list") {
-    const Type& count = type_named(reader, words[2]);
+    const NumberType& count = type_named(reader, words[2]);
     if (count.other.starts_with("float"))
       reject(reader, "the length of a list is no whole number; give it an integer type");
     properties.push_back({words[4], type_named(reader, words[3]), &count});
@@ -190,7 +172,7 @@ std::string_view next_word(Reader& reader) {
   return reader.text.substr(start, reader.at - start);
 }
 
-double binary_number(Reader& reader, const Type& type) {
+double binary_number(Reader& reader, const NumberType& type) {
   static_assert(std::endian::native == std::endian::little);
   if (reader.text.size() - reader.at < type.bytes)
     reject(reader, "the file ends before its last element; write it anew");
@@ -198,7 +180,7 @@ double binary_number(Reader& reader, const Type& type) {
   return type.read(reader.text.data() + reader.at - type.bytes, reader.form == Form::big_endian);
 }
 
-double next_number(Reader& reader, const Type& type) {
+double next_number(Reader& reader, const NumberType& type) {
   if (reader.form != Form::ascii) return binary_number(reader, type);
   const std::string_view word = next_word(reader);
   double value = 0;
@@ -211,7 +193,7 @@ double next_number(Reader& reader, const Type& type) {
 }
 
 /// A whole number in [0, below), or an InputError that names it.
-std::size_t next_whole(Reader& reader, const Type& type, std::size_t below, const char* of) {
+std::size_t next_whole(Reader& reader, const NumberType& type, std::size_t below, const char* of) {
   const double value = next_number(reader, type);
   if (!(value >= 0 && value < double(below) && value == std::floor(value)))
     reject(reader,
@@ -226,19 +208,6 @@ void skip(Reader& reader, const Property& property) {
   for (std::size_t k = 0; k < count; ++k) next_number(reader, property.type);
 }
 
-/// Notes the first row that is no line of its own. Rows need not be lines: it is said if the file
-/// does not fit its header.
-void note_row(Reader& reader, std::size_t start, const Element& element) {
-  if (reader.form != Form::ascii || !reader.odd_row.empty()) return;
-  start = std::min(reader.text.find_first_not_of(" \t\r\n\v\f", start), reader.at);
-  const auto breaks =
-      std::ranges::count(reader.text.substr(start, reader.at - start), reader.line_end);
-  const std::size_t after = reader.text.find_first_not_of(" \t\v\f", reader.at);
-  if (breaks == 0 && (after >= reader.text.size() || reader.text[after] < ' ')) return;
-  reader.odd_row = "line " + std::to_string(reader.line - breaks) + " does not hold what one " +
-                   quote(element.name) + " has by the header";
-}
-
 /// Which lines a mesh has: none in a binary file.
 int line_of(const Reader& reader) { return reader.form == Form::ascii ? reader.line : 0; }
 
@@ -251,7 +220,6 @@ void read_vertices(Reader& reader, const Element& element, TriangleSoup& soup) {
   std::vector<Vector3> all;
   for (std::size_t v = 0; v < element.count; ++v) {
     Vector3 place = Vector3::Constant(std::nan(""));
-    const std::size_t start = reader.at;
     for (const Property& property : element.properties) {
       const std::size_t axis = std::string_view("xyz").find(property.name);
       if (!property.count_type && property.name.size() == 1 && axis < 3)
@@ -260,7 +228,6 @@ void read_vertices(Reader& reader, const Element& element, TriangleSoup& soup) {
         skip(reader, property);
     }
     all.push_back(place);
-    note_row(reader, start, element);
     if (line_of(reader) > 0) soup.origin.vertex_lines.push_back(line_of(reader));
   }
   soup.rest.resize(3, Eigen::Index(all.size()));
@@ -314,8 +281,7 @@ void read_element_data(Reader& reader, const Element& element, TriangleSoup& sou
                        FaceList& faces) {
   if (element.properties.empty()) return;
   if (element.name == "vertex") return read_vertices(reader, element, soup);
-  for (std::size_t k = 0; k < element.count; ++k) {
-    const std::size_t start = reader.at;
+  for (std::size_t k = 0; k < element.count; ++k)
     for (const Property& property : element.properties)
       if (element.name == "face" && has_corners(property))
         read_polygon(reader, property, faces);
@@ -323,8 +289,6 @@ void read_element_data(Reader& reader, const Element& element, TriangleSoup& sou
         read_strips(reader, property, faces);
       else
         skip(reader, property);
-    note_row(reader, start, element);
-  }
 }
 
 /// Data behind the last element are elements that the header does not count.
@@ -379,8 +343,7 @@ MeshFile read_ply_text(std::string_view text, const std::string& file, Needs nee
   try {
     return read_data(reader, header, needs);
   } catch (const InputError& error) {
-    std::string why = fitting_count(start, header, needs);
-    if (why.empty()) why = reader.odd_row;
+    const std::string why = fitting_count(start, header, needs);
     throw InputError(error.what() + (why.empty() ? "" : "; " + why));
   }
 }
