@@ -52,21 +52,19 @@ def main() -> int:
         "--out", metavar="DIR", type=Path, required=True,
         help="folder for the files; made if it is not there"
     )
-    parser.add_argument("--like", metavar="FILE.obj", type=Path, help="the file of the cloth: OBJ "
-                        "has its records, with new places")
+    parser.add_argument("--like", metavar="FILE.obj", type=Path, help="OBJ file of the cloth")
     options = parser.parse_args()
     with refusing_damage("export", options.case):
-        case = load_case(options.case)
-        like = Template(options.like, case.triangles) if options.like else None
         options.out.mkdir(parents=True, exist_ok=True)
-        files = (write_obj(case, bodies_of(case), options.out, like) if like
-                 else export(case, options.format, options.out))
+        files = export(load_case(options.case), options.format, options.out, options.like)
     print(f"{options.out}: {len(files)} files")
     return 0
 
 
-def export(case: Case, kind: str, folder: Path) -> list[Path]:
+def export(case: Case, kind: str, folder: Path, like: Path | None = None) -> list[Path]:
     """Writes all frames; returns the files."""
+    if like:
+        return write_obj(case, bodies_of(case), folder, Template(like, case.triangles))
     return WRITERS[kind](case, bodies_of(case), folder)
 
 
