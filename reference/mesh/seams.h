@@ -17,9 +17,9 @@ struct UnsewnMesh {
 /// Merges every vertex that lies within `distance` [m] of an earlier vertex that is not merged
 /// itself into the first such vertex. So no vertex moves farther than `distance`, nor twice.
 /// Triangles keep their numbers and places in the file; the remaining vertices keep their places in
-/// the file and are renumbered in order; the origin has their numbers there. Throws InputError "FILE:LINE: ..." for a distance that is
-/// not > 0 or not finite, coordinates that are not finite, and a triangle with two corners that
-/// merge.
+/// the file and are renumbered in order; the origin has their numbers there. Throws InputError
+/// "FILE:LINE: ..." for a distance that is not > 0 or not finite, coordinates that are not finite,
+/// and a triangle with two corners that merge.
 TriangleSoup close_seams(TriangleSoup panels, double distance);
 
 /// How many vertices on the border lie within a millionth of the mesh's extent of an earlier one

@@ -72,7 +72,7 @@ void reject_open_frame(const MeshSequence& animation, size_t k, const std::strin
   } catch (const InputError& error) {
     std::string message = error.what();
     if (!message.ends_with("sews it"))
-      message.replace(message.rfind(';') + 1, message.npos, " " + remedy);
+      message = message.substr(0, message.rfind(';')) + "; " + remedy;
     throw InputError(where + ": frame " + std::to_string(k) + " (" +
                      std::to_string(animation.times[k]) + " s): " + message);
   }
