@@ -234,6 +234,12 @@ void add_forces(const Scene& scene, Parts& parts) {
   });
   add_present(parts, scene.stretch && scene.stretch->damping > 0, "damping of springs",
               [](Scene& s) { s.stretch->damping = 0; });
+  add_present(parts, scene.membrane.has_value(), "membrane", [](Scene& s) { s.membrane.reset(); });
+  add_present(parts, !scene.fabrics.empty(), "differences of fabrics",
+              [](Scene& s) { s.fabrics = {}; });
+  add_present(parts, scene.air.has_value(), "air", [](Scene& s) { s.air.reset(); });
+  add_present(parts, scene.air && !scene.air->wind.isZero(0), "wind",
+              [](Scene& s) { s.air->wind.setZero(); });
   add_present(parts, scene.bending.has_value(), "bending", [](Scene& s) {
     s.bending.reset();
     s.rest_angles.clear();

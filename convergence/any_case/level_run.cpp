@@ -61,7 +61,9 @@ long stride_of(const Scene& scene, int times) {
 
 double elements(const Scene& scene) {
   return double((scene.stretch ? scene.mesh.edges.size() : 0) +
-                (scene.bending ? scene.mesh.hinges.size() : 0) + 1);
+                (scene.bending ? scene.mesh.hinges.size() : 0) +
+                (scene.membrane ? scene.mesh.triangles.size() : 0) +
+                (scene.air ? scene.mesh.triangles.size() : 0) + 1);
 }
 
 LevelRun tried_run(const Level& trial, const BuiltScene& built) {

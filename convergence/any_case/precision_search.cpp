@@ -117,8 +117,11 @@ bool needs_halving(const Survey& survey, const std::string& method, double most_
     return steps < most_parts &&
            is_affordable(survey, method, steps, most_work, survey.plan.budget);
   };
-  if (!is_whole(*run))
-    return parts * hopeless_step < beyond_limit * first && affordable(2. * parts);
+  if (!is_whole(*run)) {
+    // what a run costs that diverges, at the cap of its solves, says nothing of shorter steps
+    const bool is_told = family_of(method) != Family::mixed;
+    return parts * hopeless_step < beyond_limit * first && (!is_told || affordable(2. * parts));
+  }
   const size_t whole = fine_end(levels).size();
   const double error = curve_of(survey, method).runs.back().error;
   const double needed = parts_needed(survey, method, parts, error);

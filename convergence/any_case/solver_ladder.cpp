@@ -24,6 +24,10 @@ void require_portable(const Scene& scene) {
   if (is_driven(scene)) refuse("held particles that move");
   if (scene.strain_limits) refuse("strain limits; remove [strain_limits]");
   if (!scene.sticky.empty()) refuse("what cloth sticks to");
+  if (scene.air) refuse("air; remove [air]");
+  if (scene.membrane) refuse("a membrane; remove [membrane], or give [stretch] in its place");
+  if (!scene.fabrics.empty()) refuse("several fabrics; remove [[fabric]]");
+  if (!scene.mesh.pattern.empty()) refuse("a flat pattern; remove pattern");
 }
 
 /// Throws InputError unless it is rigid and stands still.
@@ -79,14 +83,14 @@ PortableMaterial material_of(const Scene& scene) {
 /// particles, fixed planes, boxes, spheres and capsules, thickness. `dt` is left to the caller.
 /// The reference's own method (bending law, weighting, time integrator) stays out. Throws
 /// InputError naming a part that the protocol cannot say: particles or objects that move, objects
-/// of other shapes, strain limits, sticking.
+/// of other shapes, strain limits, sticking, and what the paper does not have.
 PortableScene portable_case(const Scene& scene) {
   require_portable(scene);
   PortableScene portable;
   portable.name = scene.name;
   portable.mesh = scene.mesh;
   portable.x = scene.x, portable.v = scene.v;
-  portable.mass = lumped_masses(scene.mesh, scene.density);
+  portable.mass = masses_of(scene);
   for (const PrescribedParticle& p : scene.prescribed) portable.held.push_back(p.particle);
   if (scene.gravity) portable.gravity = *scene.gravity;
   portable.material = material_of(scene);

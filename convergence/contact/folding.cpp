@@ -123,8 +123,11 @@ CustomForce elastic_bed(double bed, double density, const PerParticle& mass) {
   force.elastic = [pull](const State& s, PerParticle3& f) {
     f.row(2) -= (pull.array() * s.x.row(2).transpose().array()).matrix().transpose();
   };
-  force.damping = [drag](const State&, const PerParticle3& v, PerParticle3& f) {
-    f.row(2) -= (drag.array() * v.row(2).transpose().array()).matrix().transpose();
+  force.damping = [=](const State&) -> DampingOperator::Custom {
+    return {[=](const PerParticle3& v, PerParticle3& f) {
+              f.row(2) -= (drag.array() * v.row(2).transpose().array()).matrix().transpose();
+            },
+            {}};
   };
   return force;
 }

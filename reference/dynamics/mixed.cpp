@@ -25,9 +25,10 @@ PerParticle3 implicit_half_step(const System& system, const Forces& at, const Pe
   return w;
 }
 
-/// The state h [s] later, with the positions moved by the velocity v.
+/// The state h [s] later, with the positions moved by the velocity v at the middle of the step, and
+/// that velocity extrapolated to the end. None of the paper's forces depends on it.
 State moved(const System& system, const State& now, const PerParticle3& v, double h) {
-  return {now.time + h, moved(system.team, now.x, h, v), v, now.bonds};
+  return {now.time + h, moved(system.team, now.x, h, v), 2 * v - now.v, now.bonds};
 }
 
 }  // namespace

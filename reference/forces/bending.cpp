@@ -188,6 +188,10 @@ Bending make_bending(const TriangleMesh& mesh, const BendingMaterial& material,
                      std::to_string(mesh.hinges.size()) + " hinges");
   bending_law(material.law);
 
+  // at a seam of a pattern only lengths and areas are known
+  const bool is_sewn = !mesh.pattern.empty();
+  const Eigen::VectorXd lengths = is_sewn ? rest_lengths(mesh) : Eigen::VectorXd(),
+                        areas = is_sewn ? edge_areas(mesh) : Eigen::VectorXd();
   Bending bending{material, {}};
   bending.hinges.reserve(mesh.hinges.size());
   for (size_t h = 0; h < mesh.hinges.size(); ++h) {
@@ -195,8 +199,13 @@ Bending make_bending(const TriangleMesh& mesh, const BendingMaterial& material,
     if (!(std::abs(theta0) <= pi))
       throw InputError("bending: rest angles must lie in [-pi, pi] rad");
     BendingHinge hinge{mesh.hinges[h].particles, 0, theta0, std::sin(theta0 / 2)};
-    const HingeShape shape = checked_hinge_shape(hinge, mesh.rest);
-    hinge.rest_weight = shape.edge * shape.edge / shape.area_sum;
+    const int edge = mesh.hinges[h].edge;
+    if (is_sewn) {
+      hinge.rest_weight = lengths[edge] * lengths[edge] / (2 * areas[edge]);
+    } else {
+      const HingeShape shape = checked_hinge_shape(hinge, mesh.rest);
+      hinge.rest_weight = shape.edge * shape.edge / shape.area_sum;
+    }
     bending.hinges.push_back(hinge);
   }
   return bending;

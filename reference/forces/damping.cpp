@@ -47,7 +47,7 @@ void DampingOperator::add_product(const PerParticle3& v, PerParticle3& f) const 
   add_pair_forces(pairs, v, f);
   add_hinge_forces(hinges, v, f);
   add_targets(targets, v, f);
-  for (const auto& add : custom) add(v, f);
+  for (const Custom& one : custom) one.add_product(v, f);
 }
 
 }  // namespace foldproof

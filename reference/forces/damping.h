@@ -42,10 +42,17 @@ struct TargetDamper {
 };
 
 struct DampingOperator {
+  /// Given as functions.
+  struct Custom {
+    std::function<void(const PerParticle3& v, PerParticle3& f)> add_product;  // f += D v
+    // adds a bound on each particle's row sum of D [N s/m], for automatic steps; {}: none is known
+    std::function<void(PerParticle& rows)> add_rows;
+  };
+
   Elements<PairDamper> pairs;
   Elements<HingeDamper> hinges;
   std::vector<TargetDamper> targets;
-  std::vector<std::function<void(const PerParticle3& v, PerParticle3& f)>> custom;
+  std::vector<Custom> custom;
 
   /// True if there are no dampers.
   bool empty() const {

@@ -8,15 +8,12 @@
 namespace foldproof {
 
 void CustomForce::prepare_damping(const State& s, DampingOperator& terms) const {
-  if (!damping) return;
-  terms.custom.push_back([this, s](const PerParticle3& v, PerParticle3& f) { damping(s, v, f); });
+  if (damping) terms.custom.push_back(damping(s));
 }
 
-void CustomForce::add_elastic_differential(const State& s, Definiteness,
+void CustomForce::add_elastic_differential(const State& s, Definiteness definiteness,
                                            ForceDifferential& sum) const {
-  if (!differential) return;
-  sum.custom.push_back(
-      [this, s](const PerParticle3& dx, PerParticle3& df) { differential(s, dx, df); });
+  if (differential) sum.custom.push_back(differential(s, definiteness));
 }
 
 void CustomForce::add_force_differential(const State& s, ForceDifferential& sum) const {
@@ -51,8 +48,10 @@ bool are_identical(const std::vector<Bond>& a, const std::vector<Bond>& b) {
       a, b, [](const Bond& one, const Bond& other) { return are_identical(one, other); });
 }
 
-/// Custom forces may depend on more than position, time and bonds.
-bool is_custom(const Force& force) { return std::holds_alternative<CustomForce>(force); }
+bool needs_velocity(const Force& force) {
+  const auto* const custom = std::get_if<CustomForce>(&force);
+  return custom && custom->needs_velocity;
+}
 
 Shapes computed_shapes(const std::vector<Force>& forces, const PerParticle3& x) {
   Shapes shapes(forces.size());
@@ -97,7 +96,7 @@ void update(const std::vector<Force>& forces, const PerParticle3& x, LatestForce
 void update(const std::vector<Force>& forces, const State& s, LatestForces& latest) {
   update(forces, s.x, latest);
   if (latest.time != s.time || !are_identical(latest.bonds, s.bonds) ||
-      std::ranges::any_of(forces, is_custom))
+      std::ranges::any_of(forces, needs_velocity))
     latest.forces = {};
   latest.time = s.time;
   latest.bonds = s.bonds;

@@ -18,17 +18,23 @@
 
 namespace foldproof {
 
-/// A force given as functions, for manufactured solutions and experiments. Empty
-/// functions add nothing.
+/// A force given as functions: of what the paper does not have (reference/beyond/), of manufactured
+/// solutions, of experiments. Empty functions add nothing.
 struct CustomForce {
-  static constexpr auto energy_term = &Energies::custom;
+  double Energies::*energy_term = &Energies::custom;
+  // False: all functions depend on time, positions and bonds alone, and their last values may be
+  // used again. True: on velocities, too. Schemes A, B and C evaluate them at the end of a step
+  // with a velocity extrapolated to it, 2 v_{n+1/2} - v_n.
+  bool needs_velocity = true;
 
-  std::function<void(const State& s, PerParticle3& f)> elastic;  // may depend on s.time; not on s.v
+  std::function<void(const State& s, PerParticle3& f)> elastic;
   // linear in v, symmetric, dissipating
-  std::function<void(const State& s, const PerParticle3& v, PerParticle3& f)> damping;
+  std::function<DampingOperator::Custom(const State& s)> damping;
   // derivative of `elastic` with respect to the positions: linear in dx, symmetric
-  std::function<void(const State& s, const PerParticle3& dx, PerParticle3& df)> differential;
-  std::function<double(const State& s)> potential;  // [J]
+  using Product = std::function<void(const PerParticle3& dx, PerParticle3& df)>;
+  std::function<Product(const State& s, Definiteness)> differential;
+  std::function<double(const State& s)> potential;                              // [J]
+  std::function<void(const State& s, PerParticle& rows)> stiffness_bound = {};  // see below [N/m]
 
   void add_elastic(const State& s, PerParticle3& f) const {
     if (elastic) elastic(s, f);
@@ -37,6 +43,9 @@ struct CustomForce {
   void prepare_damping(const State& s, DampingOperator& terms) const;
   void add_elastic_differential(const State& s, Definiteness, ForceDifferential& sum) const;
   void add_force_differential(const State& s, ForceDifferential& sum) const;
+  void add_stiffness_bound(const State& s, PerParticle& rows) const {
+    if (stiffness_bound) stiffness_bound(s, rows);
+  }
 };
 
 /// One force: an elastic or external part that depends on time and positions, and an energy. It may
@@ -61,7 +70,7 @@ concept ForceWith = requires(const F force, const State s, const Shapes... shape
                              Energies energies) {
   force.add_elastic(s, shapes..., f);  // f += F_e(t, x); adds and clears nothing
   { force.energy(s, shapes...) } -> std::convertible_to<double>;
-  { energies.*F::energy_term } -> std::same_as<double&>;  // the term of its energy
+  { energies.*force.energy_term } -> std::same_as<double&>;  // the term of its energy
 };
 
 using Force = std::variant<Gravity, StretchSprings, Bending, Sticking, CustomForce>;
@@ -94,8 +103,8 @@ struct Forces {
 };
 
 // All forces at a state. If the run keeps values (Work::kept), the last ones are reused: shapes for
-// the same x; forces for the same x, time and bonds if there are no custom forces. `work` counts
-// both alike.
+// the same x; forces for the same x, time and bonds if none needs velocities. `work` counts both
+// alike.
 std::shared_ptr<const Shapes> shapes_at(const std::vector<Force>& forces, const PerParticle3& x,
                                         const Work& work);
 std::shared_ptr<const DampingOperator> damping_at(const std::vector<Force>& forces, const State& s,

@@ -96,6 +96,8 @@ double damping_rate_bound(const DampingOperator& damping, const PerParticle& inv
   }
   for (const TargetDamper& t : damping.targets)
     add_row_sums(t.particle, t.frames, t.coefficient, rows);
+  for (const DampingOperator::Custom& one : damping.custom)
+    if (one.add_rows) one.add_rows(rows);
   return largest_over_mass(rows, inverse_mass);
 }
 

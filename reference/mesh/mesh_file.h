@@ -18,19 +18,21 @@ using FaceGroups = std::map<std::string, std::vector<int>>;
 
 struct MeshFile {
   TriangleSoup soup;
-  FaceGroups groups;           // of an OBJ file
+  FaceGroups groups;  // of an OBJ file
+  // M: of an OBJ file whose corners all have texture coordinates, those, in its units
+  std::vector<FlatTriangle> textures;
   std::optional<double> time;  // if a comment of a PLY file says "time T s", as exports do [s]
 };
 
 /// Whether a file without faces, such as a scan of points, is refused.
 enum class Needs { faces, vertices };
 
-/// Reads vertices [m] and faces; all else is ignored. A file that begins with the line "ply" is
-/// PLY, ASCII or binary of either byte order, with x, y, z of the element `vertex` and the list
-/// vertex_indices, or vertex_index, of `face` or of `tristrips` (strips parted by -1); every other
-/// file is OBJ, with records v and f: negative indices count back from the last vertex so far, and
-/// vertices may come after the faces that use them; comments and continued lines are understood,
-/// and line ends of every system.
+/// Reads vertices [m], faces, and texture coordinates of OBJ; all else is ignored. A file that
+/// begins with the line "ply" is PLY, ASCII or binary of either byte order, with x, y, z of the
+/// element `vertex` and the list vertex_indices, or vertex_index, of `face` or of `tristrips`
+/// (strips parted by -1); every other file is OBJ, with records v and f: negative indices count
+/// back from the last vertex so far, and vertices may come after the faces that use them; comments
+/// and continued lines are understood, and line ends of every system.
 /// Polygons are cut by triangles_of_polygon. Numbers are read the same in every locale, to the
 /// nearest double; what is too small for one is 0. A mark of UTF-8 is passed over.
 /// Throws InputError "FILE:LINE: reason; what to do" (of binary data "FILE: ..."): a file that

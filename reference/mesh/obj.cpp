@@ -1,6 +1,7 @@
 // Reads Wavefront OBJ files.
 #include <algorithm>
 #include <charconv>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -23,6 +24,11 @@ struct Contents {
   std::vector<Vector3> vertices;
   std::vector<int> vertex_lines;
   FaceList faces;  // indices from 0
+  std::vector<Eigen::Vector2d> textures;
+  // of each corner of each face its vertex and its texture coordinates, counted from 0 (-1: none),
+  // and the first corner of each face
+  std::vector<std::array<int, 2>> corners;
+  std::vector<size_t> first_corner;
   // of the groups that faces belong to, by g and by o; and for each face its place in both
   std::array<std::vector<Names>, 2> groups{{{{}}, {{}}}};
   std::vector<std::array<size_t, 2>> groups_of_face;
@@ -119,17 +125,31 @@ std::optional<int> take_index(std::string_view& word, bool& is_beyond) {
 }
 
 /// Valid suffixes of a vertex index: up to two slashes, each with an index behind it or without.
-bool ends_well(std::string_view rest) {
+/// texture: that behind the first; 0 if there is none.
+bool ends_well(std::string_view rest, int& texture) {
   for (int slashes = 0; slashes < 2 && rest.starts_with('/'); ++slashes) {
-    bool is_beyond = false;  // of no interest: textures and normals are ignored
+    bool is_beyond = false;  // of no interest
     rest.remove_prefix(1);
-    take_index(rest, is_beyond);
+    const std::optional<int> index = take_index(rest, is_beyond);
+    if (slashes == 0) texture = index.value_or(0);
   }
   return rest.empty();
 }
 
-/// The vertex of a corner, counted from 0. vertices: number of vertices so far.
-int vertex_index(const Cursor& cursor, std::string_view word, size_t vertices) {
+/// Two numbers, or more, which are ignored; NaN for what is none: only those who need texture
+/// coordinates refuse them.
+void read_texture(Cursor& cursor, Contents& contents) {
+  Eigen::Vector2d place = Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
+  for (double& number : place) {
+    double value = 0;
+    if (read_number(next_word(cursor), value) == std::errc()) number = value;
+  }
+  contents.textures.push_back(place);
+}
+
+/// The vertex of a corner, counted from 0. vertices: number of vertices so far. texture: as
+/// written, 0 for none.
+int vertex_index(const Cursor& cursor, std::string_view word, size_t vertices, int& texture) {
   std::string_view rest = word;
   bool is_beyond = false;
   const std::optional<int> taken = take_index(rest, is_beyond);
@@ -137,7 +157,7 @@ int vertex_index(const Cursor& cursor, std::string_view word, size_t vertices) {
     reject(cursor.file, cursor.line,
            "index " + std::string(word) + " is out of range; " + std::to_string(vertices) +
                " vertices come before this face");
-  if (!taken || !ends_well(rest)) {
+  if (!taken || !ends_well(rest, texture)) {
     reject(cursor.file, cursor.line,
            quote(word) + " is no corner of a face; write a, a/b, a//c or a/b/c");
   }
@@ -157,10 +177,16 @@ void read_face(Cursor& cursor, Contents& contents) {
   const int line = cursor.line;
   contents.faces.begin(line);
   contents.groups_of_face.push_back({contents.groups[0].size() - 1, contents.groups[1].size() - 1});
-  for (std::string_view word = next_word(cursor); !word.empty(); word = next_word(cursor))
-    if (!contents.faces.add(vertex_index(cursor, word, contents.vertices.size())))
+  contents.first_corner.push_back(contents.corners.size());
+  for (std::string_view word = next_word(cursor); !word.empty(); word = next_word(cursor)) {
+    int texture = 0;
+    const int vertex = vertex_index(cursor, word, contents.vertices.size(), texture);
+    if (!contents.faces.add(vertex))
       reject(cursor.file, line,
              "more than " + std::to_string(most_triangles) + " triangles, the most that is read");
+    const int before = int(contents.textures.size());
+    contents.corners.push_back({vertex, texture < 0 ? before + texture : texture - 1});
+  }
   if (contents.faces.corners() < 3)
     reject(
         cursor.file, line,
@@ -202,6 +228,7 @@ Contents contents_of(std::string_view text, const std::string& file, Needs needs
     if (first.empty()) first = record.substr(0, 40);
     if (record == "v") read_vertex(cursor, contents);
     if (record == "f") read_face(cursor, contents);
+    if (record == "vt") read_texture(cursor, contents);
     if (record == "g") begin_group(contents, 0, read_names(cursor));
     if (record == "o") begin_group(contents, 1, read_names(cursor));
     skip_rest_of_record(cursor);
@@ -232,6 +259,27 @@ FaceGroups groups_of(const Contents& contents, const std::vector<int>& face_of_t
   return groups;
 }
 
+/// The texture coordinates of the triangles' corners; {} unless all have some.
+std::vector<FlatTriangle> textures_of(const Contents& contents,
+                                      const std::vector<Triangle>& triangles,
+                                      const std::vector<int>& face_of_triangle) {
+  std::vector<FlatTriangle> flat;
+  if (contents.textures.empty()) return flat;
+  for (size_t t = 0; t < triangles.size(); ++t) {
+    FlatTriangle corners;
+    for (size_t k = 0; k < 3; ++k) {
+      auto corner = contents.corners.begin() +
+                    std::ptrdiff_t(contents.first_corner[size_t(face_of_triangle[t])]);
+      while ((*corner)[0] != triangles[t][k]) ++corner;  // it is one of the face's
+      const int texture = (*corner)[1];
+      if (texture < 0 || size_t(texture) >= contents.textures.size()) return {};
+      corners[k] = contents.textures[size_t(texture)];
+    }
+    flat.push_back(corners);
+  }
+  return flat;
+}
+
 }  // namespace
 
 MeshFile read_obj_text(std::string_view text, const std::string& file, Needs needs) {
@@ -241,7 +289,9 @@ MeshFile read_obj_text(std::string_view text, const std::string& file, Needs nee
   for (size_t v = 0; v < contents.vertices.size(); ++v)
     mesh.soup.rest.col(Eigen::Index(v)) = contents.vertices[v];
   mesh.soup.origin = {file, std::move(contents.vertex_lines), {}};
-  mesh.groups = groups_of(contents, contents.faces.cut_into(mesh.soup, 1));
+  const std::vector<int> faces = contents.faces.cut_into(mesh.soup, 1);
+  mesh.groups = groups_of(contents, faces);
+  mesh.textures = textures_of(contents, mesh.soup.triangles, faces);
   return mesh;
 }
 

@@ -285,36 +285,83 @@ double smallest_height(const std::vector<Triangle>& triangles, const PerParticle
   return least;
 }
 
-PerParticle lumped_masses(const TriangleMesh& mesh, double density) {
-  if (!(density > 0) || !std::isfinite(density)) {
-    std::ostringstream message;
-    message << "lumped_masses: density is " << density << " kg/m^2; give a positive, finite one";
-    throw InputError(message.str());
+Eigen::VectorXd rest_areas(const TriangleMesh& mesh) {
+  if (mesh.pattern.empty()) return triangle_areas(mesh.triangles, mesh.rest);
+  Eigen::VectorXd areas(mesh.pattern.size());
+  for (size_t t = 0; t < mesh.pattern.size(); ++t) {
+    const auto& [a, b, c] = mesh.pattern[t];
+    const Eigen::Vector2d side1 = b - a, side2 = c - a;
+    areas[Eigen::Index(t)] = 0.5 * std::abs(side1.x() * side2.y() - side1.y() * side2.x());
   }
-  const Eigen::VectorXd areas = triangle_areas(mesh.triangles, mesh.rest);
+  return areas;
+}
+
+PerParticle lumped_masses(const TriangleMesh& mesh, double density) {
+  return lumped_masses(mesh, std::vector<double>(mesh.triangles.size(), density));
+}
+
+PerParticle lumped_masses(const TriangleMesh& mesh, const std::vector<double>& densities) {
+  for (const double density : densities)
+    if (!(density > 0) || !std::isfinite(density)) {
+      std::ostringstream message;
+      message << "lumped_masses: density is " << density << " kg/m^2; give a positive, finite one";
+      throw InputError(message.str());
+    }
+  const Eigen::VectorXd areas = rest_areas(mesh);
   PerParticle masses = PerParticle::Zero(mesh.particles());
   for (size_t t = 0; t < mesh.triangles.size(); ++t) {
-    for (int v : mesh.triangles[t]) masses[v] += density * areas[t] / 3;
+    for (int v : mesh.triangles[t]) masses[v] += densities[t] * areas[t] / 3;
   }
   return masses;
 }
 
 Eigen::VectorXd rest_lengths(const TriangleMesh& mesh) {
   Eigen::VectorXd lengths(mesh.edges.size());
-  for (size_t e = 0; e < mesh.edges.size(); ++e) {
-    lengths[e] = (mesh.rest.col(mesh.edges[e].b) - mesh.rest.col(mesh.edges[e].a)).norm();
+  if (mesh.pattern.empty()) {
+    for (size_t e = 0; e < mesh.edges.size(); ++e) {
+      lengths[e] = (mesh.rest.col(mesh.edges[e].b) - mesh.rest.col(mesh.edges[e].a)).norm();
+    }
+    return lengths;
+  }
+  const std::vector<std::array<EdgeSide, 2>> sides = edge_sides(mesh);
+  for (size_t e = 0; e < sides.size(); ++e) {
+    const auto& [one, other] = sides[e];
+    // of each: stiffness A/L^2, tension A/L at the length 0
+    const double k1 = one.area / (one.length * one.length),
+                 k2 = other.triangle < 0 ? 0 : other.area / (other.length * other.length);
+    lengths[e] = one.length == other.length || other.triangle < 0
+                     ? one.length
+                     : (k1 * one.length + k2 * other.length) / (k1 + k2);
   }
   return lengths;
 }
 
 Eigen::VectorXd edge_areas(const TriangleMesh& mesh) {
-  const Eigen::VectorXd triangle = triangle_areas(mesh.triangles, mesh.rest);
+  const Eigen::VectorXd triangle = rest_areas(mesh);
   Eigen::VectorXd areas(mesh.edges.size());
   for (size_t e = 0; e < mesh.edges.size(); ++e) {
     const std::array<int, 2>& sides = mesh.edges[e].triangles;
     areas[e] = triangle[sides[0]] + (sides[1] < 0 ? 0 : triangle[sides[1]]);
   }
   return areas;
+}
+
+std::vector<std::array<EdgeSide, 2>> edge_sides(const TriangleMesh& mesh) {
+  const Eigen::VectorXd areas = rest_areas(mesh);
+  const auto side_of = [&](const Edge& edge, int t) -> EdgeSide {
+    if (t < 0) return {-1, 0, 0};
+    if (mesh.pattern.empty())
+      return {t, (mesh.rest.col(edge.b) - mesh.rest.col(edge.a)).norm(), areas[t]};
+    const FlatTriangle& flat = mesh.pattern[size_t(t)];
+    const int a = corner_of(mesh.triangles, t, edge.a) - 3 * t,
+              b = corner_of(mesh.triangles, t, edge.b) - 3 * t;
+    return {t, (flat[size_t(b)] - flat[size_t(a)]).norm(), areas[t]};
+  };
+  std::vector<std::array<EdgeSide, 2>> sides;
+  sides.reserve(mesh.edges.size());
+  for (const Edge& edge : mesh.edges)
+    sides.push_back({side_of(edge, edge.triangles[0]), side_of(edge, edge.triangles[1])});
+  return sides;
 }
 
 int euler_characteristic(const TriangleMesh& mesh) {

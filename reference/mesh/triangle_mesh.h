@@ -26,11 +26,18 @@ struct Hinge {
   int edge;                      // index into TriangleMesh::edges
 };
 
+/// The corners of a triangle in the flat pattern that it was cut from [m].
+using FlatTriangle = std::array<Eigen::Vector2d, 3>;
+
+/// The rest shape is `rest`, or, where the cloth was sewn from a flat pattern, the pattern: then
+/// `rest` holds the places of the particles when it was read, and lengths, areas and masses at rest
+/// are those of the pattern.
 struct TriangleMesh {
   PerParticle3 rest;                // 3 x N rest positions [m]
   std::vector<Triangle> triangles;  // M
   std::vector<Edge> edges;          // sorted by (a, b)
   std::vector<Hinge> hinges;  // one for each edge with two triangles, in the order of the edges
+  std::vector<FlatTriangle> pattern = {};  // M, or empty
 
   int particles() const { return int(rest.cols()); }
 };
@@ -71,14 +78,29 @@ Eigen::VectorXd triangle_areas(const std::vector<Triangle>& triangles, const Per
 /// The least height of a triangle at the positions x [m]; infinite without triangles.
 double smallest_height(const std::vector<Triangle>& triangles, const PerParticle3& x);
 
+/// Area of each triangle at rest; M values [m^2].
+Eigen::VectorXd rest_areas(const TriangleMesh& mesh);
+
 /// Lumped masses: a third of each adjacent triangle's rest area times the area density
-/// [kg/m^2]; N values [kg].
+/// [kg/m^2], one for all triangles or M; N values [kg].
 PerParticle lumped_masses(const TriangleMesh& mesh, double density);
+PerParticle lumped_masses(const TriangleMesh& mesh, const std::vector<double>& densities);
 
 /// Rest length of each edge [m], and the sum of the full rest areas of its one or two
-/// triangles [m^2].
+/// triangles [m^2]. Where a seam joins sides of different lengths L1, L2 in the pattern, the length
+/// at which springs of stiffness A1/L1^2 and A2/L2^2 side by side have no force together.
 Eigen::VectorXd rest_lengths(const TriangleMesh& mesh);
 Eigen::VectorXd edge_areas(const TriangleMesh& mesh);
+
+/// An edge seen from one of its triangles, at rest.
+struct EdgeSide {
+  int triangle;   // -1: there is none
+  double length;  // m
+  double area;    // of the triangle [m^2]
+};
+
+/// Both sides of each edge; they have one length but at seams of a pattern.
+std::vector<std::array<EdgeSide, 2>> edge_sides(const TriangleMesh& mesh);
 
 /// V - E + F.
 int euler_characteristic(const TriangleMesh& mesh);

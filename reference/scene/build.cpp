@@ -56,11 +56,13 @@ std::vector<Object> build_objects(const Scene& scene, const LevelSetProvider& le
 
 BuiltScene build(const Scene& scene, const LevelSetProvider& level_sets) {
   std::vector<Object> objects = build_objects(scene, level_sets);
-  System system = make_system(lumped_masses(scene.mesh, scene.density));
+  System system = make_system(masses_of(scene));
   if (scene.gravity) system.forces.push_back(Gravity{*scene.gravity, system.mass});
-  if (scene.stretch) system.forces.push_back(make_springs(scene.mesh, *scene.stretch));
+  if (scene.stretch) system.forces.push_back(springs_of(scene));
+  if (scene.membrane) system.forces.push_back(make_membrane(scene.mesh, *scene.membrane));
   if (scene.bending)
-    system.forces.push_back(make_bending(scene.mesh, *scene.bending, scene.rest_angles));
+    for (Bending& bending : bending_of(scene)) system.forces.push_back(std::move(bending));
+  if (scene.air) system.forces.push_back(make_air(scene.mesh.triangles, *scene.air));
   if (!scene.sticky.empty()) system.forces.push_back(Sticking{scene.sticky});
   for (const PrescribedParticle& particle : scene.prescribed) prescribe(system, particle);
   State start = start_state(scene);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "reference/mesh/pattern.h"
 #include "reference/mesh/rigidity_map.h"
 #include "reference/scene/key_file.h"
 #include "reference/scene/key_values.h"
@@ -121,7 +122,8 @@ const Fabric& fabric_named(const std::vector<Fabric>& fabrics, const std::string
   throw InputError(where + ": unknown fabric '" + name + "'; known: " + known);
 }
 
-FabricOnMesh fabric_on_mesh(const Fabric& fabric, const TriangleMesh& mesh) {
+FabricOnMesh fabric_on_mesh(const Fabric& fabric, const TriangleMesh& cloth) {
+  const TriangleMesh mesh = flat_panels(cloth);
   FabricOnMesh on{none, none, none, none, ""};
   RestPlane plane;
   if (is_flat(mesh, plane)) {

@@ -39,8 +39,8 @@ struct FabricOnMesh {
   std::string report;  // a summary in words
 };
 
-/// On a flat mesh the fabric's first direction is the x axis. On others ke follows from the median
-/// over particles of the mean of the least and greatest D/ke around them.
-FabricOnMesh fabric_on_mesh(const Fabric& fabric, const TriangleMesh& mesh);
+/// On a flat mesh, and in a flat pattern, the fabric's first direction is the x axis. On others ke
+/// follows from the median over particles of the mean of the least and greatest D/ke around them.
+FabricOnMesh fabric_on_mesh(const Fabric& fabric, const TriangleMesh& cloth);
 
 }  // namespace foldproof

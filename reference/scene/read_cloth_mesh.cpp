@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "reference/mesh/mesh_file.h"
+#include "reference/mesh/pattern.h"
 #include "reference/mesh/seams.h"
 #include "reference/mesh/shapes.h"
 #include "reference/mesh/split_fans.h"
@@ -132,7 +133,8 @@ PlacedMesh read_mesh(const KeyTable& keys, const std::string& folder) {
   const std::string file = mesh_file(keys, folder, "cloth");
   const auto repair = choice<ClothRepair>(
       keys, "repair", {{"refuse", ClothRepair::refuse}, {"split", ClothRepair::split}});
-  TriangleSoup soup = read_mesh_file(file).soup;
+  MeshFile read = read_mesh_file(file);
+  TriangleSoup soup = std::move(read.soup);
   UnsewnMesh unsewn;
   if (keys.has("seams")) {
     unsewn = {soup.triangles, soup.rest.cols(), positive(keys, "seams")};
@@ -142,11 +144,14 @@ PlacedMesh read_mesh(const KeyTable& keys, const std::string& folder) {
     return {make_triangle_mesh(std::move(soup.rest), std::move(soup.triangles), soup.origin),
             {},
             {},
-            std::move(unsewn)};
+            std::move(unsewn),
+            1,
+            std::move(read.groups)};
   const Eigen::Index vertices = soup.rest.cols();
   SplitMesh split = split_fans(std::move(soup));
   if (split.mesh.particles() == vertices) split.copy_of.clear();
-  return {std::move(split.mesh), {}, std::move(split.copy_of), std::move(unsewn)};
+  return {std::move(split.mesh), {}, std::move(split.copy_of),
+          std::move(unsewn),     1,  std::move(read.groups)};
 }
 
 PlacedMesh read_or_make(const KeyTable& cloth, const std::string& folder,
@@ -190,12 +195,45 @@ void copy(const KeyTable& keys, const SceneLimits& limits, PlacedMesh& cloth) {
   for (int c = 0; c < copies; ++c)
     for (const Triangle& t : cloth.mesh.triangles)
       triangles.push_back({c * n + t[0], c * n + t[1], c * n + t[2]});
+  const std::vector<FlatTriangle> pattern = std::move(cloth.mesh.pattern);
+  const FaceGroups groups = cloth.groups;
+  const int per_copy = int(cloth.mesh.triangles.size());
   cloth.mesh =
       make_triangle_mesh(repeat(cloth.mesh.rest, copies, turn, move), std::move(triangles));
   cloth.start = repeat(cloth.start, copies, turn, move);
   const std::vector<int> of_one = cloth.copy_of;
   for (int c = 1; c < copies; ++c)
     for (const int v : of_one) cloth.copy_of.push_back(c * n + v);
+  for (int c = 0; c < copies; ++c)
+    cloth.mesh.pattern.insert(cloth.mesh.pattern.end(), pattern.begin(), pattern.end());
+  for (const auto& [name, of_first] : groups)
+    for (int c = 1; c < copies; ++c)
+      for (const int t : of_first) cloth.groups[name].push_back(c * per_copy + t);
+}
+
+/// Gives the mesh the flat pattern that 'pattern' names.
+void read_flat_pattern(const KeyTable& cloth, const std::string& folder, TriangleMesh& mesh) {
+  for (const char* key : {"pleats", "repair"})
+    if (cloth.has(key))
+      throw InputError(cloth.where(key) + ": '" + std::string(key) +
+                       "' does not go with the flat pattern of a mesh");
+  if (cloth.text("pattern") == "vt") {
+    if (!cloth.has("pattern_scale"))
+      throw InputError(cloth.where("pattern") +
+                       ": texture coordinates have no unit; give pattern_scale, the metres in one "
+                       "of theirs");
+    MeshFile read = read_mesh_file(mesh_file(cloth, folder, "cloth"));
+    mesh.pattern = pattern_of_textures(std::move(read.textures), positive(cloth, "pattern_scale"),
+                                       read.soup.origin);
+    return;
+  }
+  const std::string file = path_of(cloth, "pattern", folder);
+  if (!std::filesystem::exists(file))
+    throw InputError(cloth.where("pattern") + ": there is no mesh file '" + file +
+                     "'; 'pattern' names the flat panels of the mesh");
+  const double scale =
+      positive_or(cloth, "pattern_scale", cloth.has("scale") ? positive(cloth, "scale") : 1);
+  mesh.pattern = pattern_of(read_mesh_file(file).soup, scale, mesh);
 }
 
 }  // namespace
@@ -250,6 +288,7 @@ PlacedMesh read_cloth_mesh(const KeyTable& cloth, const std::string& folder,
   result.unsewn.distance *= result.scale;
   place(cloth, result.start);
   if (!pleats) result.mesh.rest = result.start;
+  if (cloth.has("mesh") && cloth.has("pattern")) read_flat_pattern(cloth, folder, result.mesh);
   if (const auto copies = cloth.table("copies"))
     with_error_location(cloth.where("copies"), [&] { copy(*copies, limits, result); });
   for (const char* key : {"fit", "scale"})

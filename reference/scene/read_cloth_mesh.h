@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "reference/mesh/mesh_file.h"
 #include "reference/mesh/seams.h"
 #include "reference/mesh/triangle_mesh.h"
 #include "reference/scene/key_file.h"
@@ -17,6 +18,7 @@ struct PlacedMesh {
   std::vector<int> copy_of = {};  // as Scene::copy_of
   UnsewnMesh unsewn = {};         // as Scene::unsewn
   double scale = 1;               // by 'fit' or 'scale'
+  FaceGroups groups = {};         // of the mesh file, with all copies
 };
 
 /// Reads the keys of [cloth] for shape and place. folder: base of relative paths in the case.

@@ -31,6 +31,26 @@ StretchMaterial read_stretch(const KeyTable& keys) {
   return material;
 }
 
+MembraneMaterial read_membrane(const KeyTable& keys) {
+  MembraneMaterial material;
+  material.warp = positive(keys, "warp");
+  material.weft = positive_or(keys, "weft", material.warp);
+  material.poisson = non_negative_or(keys, "poisson", 0);
+  material.shear = positive_or(keys, "shear", material.warp / (2 * (1 + material.poisson)));
+  material.damping = non_negative_or(keys, "damping", 0);
+  material.direction = keys.number_or("direction", 0) * radians_per_degree;
+  return material;
+}
+
+Air read_air(const KeyTable& keys) {
+  Air air;
+  air.density = non_negative_or(keys, "density", air.density);
+  air.wind = keys.vector_or("wind", air.wind);
+  air.normal_drag = non_negative_or(keys, "normal_drag", air.normal_drag);
+  air.tangential_drag = non_negative_or(keys, "tangential_drag", air.tangential_drag);
+  return air;
+}
+
 BendingMaterial read_bending(const KeyTable& keys, const std::optional<FabricOnMesh>& fabric) {
   BendingMaterial material;
   material.stiffness = fabric && !keys.has("stiffness")
@@ -60,6 +80,7 @@ std::vector<double> read_rest_angles(const KeyTable& keys, const TriangleMesh& m
   const Source source = choice<Source>(
       keys, "rest_angle", {{"rest_shape", Source::rest_shape}, {"flat", Source::flat}});
   if (source == Source::flat) return std::vector<double>(mesh.hinges.size(), 0.0);
+  if (!mesh.pattern.empty()) return std::vector<double>(mesh.hinges.size(), 0.0);
   return hinge_angles(mesh, mesh.rest);
 }
 
@@ -170,7 +191,7 @@ void reject_overflow(const KeyTable& cloth, const Scene& scene) {
   if (!start.x.allFinite() || !start.v.allFinite() || !scene.mesh.rest.allFinite())
     throw InputError(cloth.where() +
                      ": a place or velocity at the start, or at rest, is not finite");
-  const PerParticle masses = lumped_masses(scene.mesh, scene.density);
+  const PerParticle masses = masses_of(scene);
   if (!(masses.minCoeff() > 0) || !masses.allFinite())
     throw InputError(cloth.where() + ": a particle has the mass 0, or one that is not finite");
 }
@@ -214,6 +235,7 @@ Scene scene_from(const CaseKeys& of, const SceneLimits& limits) {
   if (const auto gravity = keys.table("gravity"))
     scene.gravity = gravity->vector_or("acceleration", {0, -9.80665, 0});
   if (const auto stretch = keys.table("stretch")) scene.stretch = read_stretch(*stretch);
+  if (const auto membrane = keys.table("membrane")) scene.membrane = read_membrane(*membrane);
   read_strain_limits(keys, scene);
   if (const auto bending = keys.table("bending")) {
     std::optional<FabricOnMesh> on_mesh;
@@ -225,6 +247,9 @@ Scene scene_from(const CaseKeys& of, const SceneLimits& limits) {
     scene.bending = read_bending(*bending, on_mesh);
     scene.rest_angles = read_rest_angles(*bending, scene.mesh);
   }
+  read_cloth_fabrics(keys, folder, placed.groups, scene);
+  if (const auto air = keys.table("air")) scene.air = read_air(*air);
+  note_pattern(scene);
   refine(*cloth, limits, scene);
   for (const auto& hold : keys.tables("hold")) read_hold(*hold, scene);
   reject_overflow(*cloth, scene);

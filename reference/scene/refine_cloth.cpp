@@ -1,5 +1,6 @@
 #include "reference/scene/refine_cloth.h"
 
+#include "reference/mesh/pattern.h"
 #include "reference/mesh/subdivision.h"
 
 namespace foldproof {
@@ -34,7 +35,12 @@ int refinements_of(const KeyTable& cloth) {
 void refine_cloth(Scene& scene) {
   const Subdivision quarters = subdivision(scene.mesh, SubdivisionRule::midpoint, 1);
   TriangleMesh finer = make_triangle_mesh(quarters.of(scene.mesh.rest), quarters.triangles);
+  finer.pattern = divided_pattern(scene.mesh, finer.triangles);
   if (scene.bending) scene.rest_angles = rest_angles_of_halves(scene, finer);
+  std::vector<int> of_quarters;
+  for (const int fabric : scene.fabrics.of_triangle)
+    of_quarters.insert(of_quarters.end(), 4, fabric);
+  scene.fabrics.of_triangle = std::move(of_quarters);
   if (!scene.copy_of.empty())
     for (int i = scene.mesh.particles(); i < finer.particles(); ++i) scene.copy_of.push_back(i);
   scene.mesh = std::move(finer);

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "reference/beyond/air.h"
+#include "reference/beyond/membrane.h"
 #include "reference/dynamics/simulate.h"
 #include "reference/filters/object_collision.h"
 #include "reference/filters/self_collision.h"
@@ -15,6 +17,7 @@
 #include "reference/mesh/seams.h"
 #include "reference/mesh/triangle_mesh.h"
 #include "reference/motion/motion.h"
+#include "reference/scene/cloth_fabrics.h"
 #include "reference/scene/scene_limits.h"
 #include "reference/types.h"
 
@@ -57,15 +60,18 @@ struct Scene {
 
   TriangleMesh mesh;   // with the rest shape
   PerParticle3 x, v;   // start, 3 x N [m], [m/s]
-  double density = 0;  // area density [kg/m^2]
+  double density = 0;  // area density [kg/m^2], of the first fabric if there are several
   // N: the original of each particle whose vertex was split, else the particle itself
   // (mesh/split_fans.h); empty without splits
   std::vector<int> copy_of = {};
   UnsewnMesh unsewn = {};  // of a mesh file whose `seams` were closed, and of one copy
+  ClothFabrics fabrics = {};
 
-  std::optional<Vector3> gravity;  // m/s^2
-  std::optional<StretchMaterial> stretch;
+  std::optional<Vector3> gravity;          // m/s^2
+  std::optional<StretchMaterial> stretch;  // of the first fabric, as the next
   std::optional<BendingMaterial> bending;
+  std::optional<MembraneMaterial> membrane;
+  std::optional<Air> air;
   std::vector<double> rest_angles;  // one per hinge [rad], if there is bending
   std::vector<PrescribedParticle> prescribed;
   std::vector<std::string> notes;     // of how input is taken; a sentence each

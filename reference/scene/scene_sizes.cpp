@@ -7,6 +7,7 @@
 #include "reference/dynamics/integrator.h"
 #include "reference/forces/degenerate.h"
 #include "reference/mesh/box_tree.h"
+#include "reference/mesh/pattern.h"
 #include "reference/mesh/seams.h"
 #include "reference/mesh/self_intersection.h"
 
@@ -55,15 +56,27 @@ void warn_of_bodies(const std::string& where, Scene& scene) {
 }  // namespace
 
 std::string sizes_in_words(const Scene& scene) {
-  const double mass = lumped_masses(scene.mesh, scene.density).sum();
-  std::string words = "cloth " + extent_of(scene.x) + ", " + digits(mass / scene.density) +
-                      " m^2, " + digits(mass) + " kg";
+  std::string words = "cloth " + extent_of(scene.x) + ", " + digits(rest_areas(scene.mesh).sum()) +
+                      " m^2, " + digits(masses_of(scene).sum()) + " kg";
   if (const int pieces = count_of_pieces(scene.mesh); pieces > 1)
     words += ", in " + std::to_string(pieces) + " pieces";
   for (const SceneObject& part : scene.objects)
     if (part.field && part.vertices.cols() > 0)
       words += "; object '" + part.object.name + "' " + extent_of(part.vertices);
   return words;
+}
+
+void note_pattern(Scene& scene) {
+  if (scene.mesh.pattern.empty()) return;
+  const PatternFacts facts = facts_of_pattern(scene.mesh, scene.x);
+  const auto percent = [](double share) { return digits(100 * share) + " %"; };
+  scene.notes.push_back(
+      "pattern: " + std::to_string(facts.panels) + " panels, " + digits(facts.area) + " m^2; " +
+      (facts.seams > 0 ? "seams of " + digits(facts.seams) + " m, whose sides differ by at most " +
+                             percent(facts.ease < 1e-6 ? 0 : facts.ease)
+                       : "no seams") +
+      "; edges start at " + percent(facts.least) + " to " + percent(facts.greatest) +
+      " of their rest lengths");
 }
 
 void note_scales(const KeyTable& keys, double of_cloth, Scene& scene) {

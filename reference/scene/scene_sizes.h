@@ -11,6 +11,10 @@ namespace foldproof {
 /// "cloth 1 x 0.5 x 0 m, 0.5 m^2, 0.1 kg; object 'body' 0.4 x 1.7 x 0.3 m".
 std::string sizes_in_words(const Scene& scene);
 
+/// Notes what a flat pattern makes of the cloth, if it has one: panels, area, seams and their ease,
+/// how far the start stretches it.
+void note_pattern(Scene& scene);
+
 /// Notes by which factor 'fit' scales each mesh, of_cloth that of the cloth, and warns where it
 /// scales a cloth and a body given by --set differently. keys: of the whole case.
 void note_scales(const KeyTable& keys, double of_cloth, Scene& scene);

@@ -87,6 +87,9 @@ std::vector<std::string> describe_parts(const Scene& scene, const System& system
       parts.push_back(count_text(bending->hinges.size(), "hinge") + ", " +
                       describe(bending->material));
   }
+  if (scene.membrane) parts.push_back("a membrane");
+  if (!scene.fabrics.empty()) parts.push_back(count_text(scene.fabrics.fabrics.size(), "fabric"));
+  if (scene.air) parts.push_back(scene.air->wind.isZero(0) ? "still air" : "wind");
   if (!system.prescribed.empty())
     parts.push_back(count_text(system.prescribed.size(), "particle") + " with prescribed motion");
   for (const SceneObject& part : scene.objects) parts.push_back(describe(part));

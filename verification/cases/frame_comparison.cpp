@@ -202,8 +202,7 @@ FrameComparison compare_frame(const ComparedRun& run, const State& at, const Tim
   const std::vector<Triangle>& triangles = run.scene.mesh.triangles;
   FrameComparison c{frame.file, frame.time, {}, shape_of_particles(run, at.time, at.x), {}};
   if (run.matching == Matching::particles) {
-    c.distance = summary_of((at.x - frame.x).colwise().norm().transpose(),
-                            lumped_masses(run.scene.mesh, run.scene.density));
+    c.distance = summary_of((at.x - frame.x).colwise().norm().transpose(), masses_of(run.scene));
     c.frame = shape_of_particles(run, at.time, frame.x);
     return c;
   }

@@ -116,7 +116,7 @@ std::vector<Record> judge_expectations(const FrameMotion& motion) {
 /// The mean over the cloth, by mass [m/s]; NaN of another mesh.
 double mean_speed(const FrameMotion& motion, std::size_t k) {
   if (motion.matching == Matching::surface) return nan;
-  const PerParticle mass = lumped_masses(motion.of.scene.mesh, motion.of.scene.density);
+  const PerParticle mass = masses_of(motion.of.scene);
   return motion.states[k].v.colwise().norm().dot(mass.transpose()) / mass.sum();
 }
 

@@ -27,8 +27,7 @@ double energy_drift(const RunView& run) {
 
 /// An upper bound on sum m |v| at any time, by Cauchy and Schwarz from the kinetic energy [kg m/s].
 double momentum_scale(const RunView& run) {
-  return std::sqrt(2 * lumped_masses(run.scene.mesh, run.scene.density).sum() *
-                   run.summary.largest_kinetic);
+  return std::sqrt(2 * masses_of(run.scene).sum() * run.summary.largest_kinetic);
 }
 
 double linear_change(const RunView& run) {
@@ -129,7 +128,7 @@ double fastest(const Scene&, const State& s) {
 /// The rate of the rigid turn about the vertical axis through the origin that has the cloth's
 /// angular momentum.
 double turning_rate(const Scene& scene, const State& s) {
-  const PerParticle mass = lumped_masses(scene.mesh, scene.density);
+  const PerParticle mass = masses_of(scene);
   double momentum = 0, inertia = 0;  // kg m^2/s, kg m^2
   for (Eigen::Index i = 0; i < s.x.cols(); ++i) {
     momentum += mass[i] * (s.x(2, i) * s.v(0, i) - s.x(0, i) * s.v(2, i));

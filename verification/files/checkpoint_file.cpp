@@ -209,6 +209,9 @@ RunIdentity identity_of(const Scene& scene, const std::string& program) {
   ContentKey key;
   for (const PerParticle3* x : {&scene.mesh.rest, &scene.x, &scene.v}) add(*x, key);
   key.add(scene.mesh.triangles);
+  for (const FlatTriangle& flat : scene.mesh.pattern)
+    for (const Eigen::Vector2d& corner : flat) key.add(corner.data(), 2);
+  if (!scene.fabrics.empty()) key.add(scene.fabrics.of_triangle);
   for (const SceneObject& part : scene.objects) {
     add(part.vertices, key);
     key.add(part.triangles);

@@ -1,8 +1,8 @@
 """Forces. Each gives its elastic part f(x), and its damping as a
 matrix and a known part: D(x) v + g.
 
-A force has `elastic(time, x)` -> N x 3 [N], and `damping(time, x)` -> D:
-3N x 3N [N s/m], g: N x 3 [N].
+A force has `elastic(time, x)` -> N x 3 [N], and `damping(time, x, seen)` -> D: 3N x 3N [N s/m],
+g: N x 3 [N]; `seen`: the velocities that drag takes its factors from.
 """
 
 from dataclasses import dataclass
@@ -36,19 +36,30 @@ class Gravity:
     def elastic(self, _time: float, _x: np.ndarray) -> np.ndarray:
         return self.mass[:, None] * self.acceleration
 
-    def damping(self, _time: float, _x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def damping(self, _time: float, _x: np.ndarray,
+                _seen: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         return nothing(len(self.mass))
 
 
 class Springs:
     """F_a = Y A/L^2 (|d| - s L) d^ + kd A/L^2 ((v_b - v_a).d^) d^, F_b = -F_a; s: scale."""
 
-    def __init__(self, cloth: Surface, stiffness: float, damping: float, scale: float) -> None:
+    def __init__(self, cloth: Surface, keys: list[dict], scale: float) -> None:
+        """keys: the table [stretch] of each triangle."""
         self.a, self.b = cloth.edges.T
-        unscaled = np.linalg.norm(cloth.rest[self.b] - cloth.rest[self.a], axis=1)
-        self.length = scale * unscaled
-        self.stiffness = stiffness * cloth.edge_areas / unscaled**2  # N/m
-        self.damper = damping * cloth.edge_areas / unscaled**2  # N s/m
+        stiffness = np.array([one["stiffness"] for one in keys])
+        damper = np.array([one.get("damping", 0.0) for one in keys])
+        edge, triangle, length = cloth.sides.T
+        triangle, edge = triangle.astype(int), edge.astype(int)
+        shape = cloth.triangle_areas[triangle] / length**2
+
+        def summed(values: np.ndarray) -> np.ndarray:
+            return np.bincount(edge, values, len(cloth.edges))
+
+        # the springs of an edge's triangles side by side
+        self.stiffness, self.damper = (summed(each[triangle] * shape) for each in
+                                       (stiffness, damper))  # N/m, N s/m
+        self.length = scale * summed(stiffness[triangle] * shape * length) / self.stiffness
 
     def directions(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         d = x[self.b] - x[self.a]
@@ -63,7 +74,8 @@ class Springs:
         np.add.at(force, self.b, -pull)
         return force
 
-    def damping(self, _time: float, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def damping(self, _time: float, x: np.ndarray,
+                _seen: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         _, direction = self.directions(x)
         ends, modes = np.stack([self.a, self.b], axis=1), np.stack([direction, -direction], axis=1)
         return dampers(len(x), ends, modes, self.damper), np.zeros_like(x)
@@ -96,16 +108,23 @@ class Fold:
 class Bending:
     """F_i = ke |E|^2/(|N1|+|N2|) (sin(theta/2) - sin(theta0/2)) u_i and -kd |E| (u.v) u_i."""
 
-    def __init__(self, cloth: Surface, keys: dict) -> None:
+    def __init__(self, cloth: Surface, keys: list[dict]) -> None:
+        """keys: the table [bending] of each triangle."""
         self.hinges = cloth.hinges
-        self.stiffness, self.damper = keys["stiffness"], keys.get("damping", 0.0)
-        self.weighting = keys.get("weighting", "rest")
-        self.factor = keys.get("damping_factor", "edge")
-        at_rest = Fold(cloth.rest, cloth.hinges)
-        self.rest_weight = at_rest.edge**2 / at_rest.doubled_area
-        asked = keys.get("rest_angle", "rest_shape")
-        self.rest_angle = (at_rest.angle if asked == "rest_shape" else
-                           np.full(len(self.hinges), 0.0 if asked == "flat" else np.radians(asked)))
+        one, other = ([keys[t] for t in side] for side in cloth.hinge_triangles.T)
+        self.stiffness = np.array([2 / (1 / a["stiffness"] + 1 / b["stiffness"])
+                                   for a, b in zip(one, other)])
+        self.damper = np.array([(a.get("damping", 0.0) + b.get("damping", 0.0)) / 2
+                                for a, b in zip(one, other)])
+        self.weighting = keys[0].get("weighting", "rest")
+        self.factor = keys[0].get("damping_factor", "edge")
+        areas = cloth.triangle_areas[cloth.hinge_triangles].sum(axis=1)
+        self.rest_weight = cloth.hinge_lengths**2 / (2 * areas)
+        asked = keys[0].get("rest_angle", "rest_shape")
+        self.rest_angle = (Fold(cloth.rest, cloth.hinges).angle
+                           if asked == "rest_shape" and not cloth.has_pattern else
+                           np.full(len(self.hinges), 0.0 if asked in ("flat", "rest_shape")
+                                   else np.radians(asked)))
 
     def elastic(self, _time: float, x: np.ndarray) -> np.ndarray:
         fold = Fold(x, self.hinges)
@@ -115,7 +134,8 @@ class Bending:
         np.add.at(force, self.hinges, size[:, None, None] * fold.mode)
         return force
 
-    def damping(self, _time: float, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def damping(self, _time: float, x: np.ndarray,
+                _seen: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         fold = Fold(x, self.hinges)
         factor = self.damper * (fold.edge if self.factor == "edge" else
                                 fold.edge**2 / fold.doubled_area)

@@ -4,18 +4,19 @@ import tomllib
 from pathlib import Path
 import numpy as np
 
+from beyond import Air, Membrane
 from forces import Bending, Gravity, Springs
 from motion import Motion
 from objects import Collision, Object, points_of
 from state import Span, State, Unsupported
 from sticking import Carried, Sticky
 from strain import StrainLimits
-from surface import read_obj, sheet, surface_of
+from surface import Surface, read_obj, sheet, surface_of
 
 
 KNOWN = {
     "title", "about", "cloth", "start", "gravity", "stretch", "strain_limits", "bending", "hold",
-    "object", "collision", "sticky", "time", "solver"
+    "object", "collision", "sticky", "time", "solver", "air", "membrane", "fabric"
 }
 
 
@@ -26,8 +27,13 @@ class Model:
         if unknown := set(case) - KNOWN:
             raise Unsupported(f"tables {', '.join(sorted(unknown))}")
         self.case = case
-        self.cloth = surface_of(*rest_shape(case["cloth"], folder))
-        self.mass = case["cloth"]["density"] * self.cloth.areas  # kg
+        self.cloth = surface_of(*rest_shape(case["cloth"], folder),
+                                flat_pattern(case["cloth"], folder))
+        self.fabric_of = fabrics(case, self.cloth)
+        self.mass = np.zeros(len(self.cloth.rest))  # kg
+        for corners, area, t in zip(self.cloth.triangles, self.cloth.triangle_areas,
+                                    range(len(self.cloth.triangles))):
+            self.mass[corners] += self.of_fabric("cloth", t)["density"] * area / 3
         self.start = start_state(case.get("start", {}), self.cloth.rest)
         self.held = np.zeros(len(self.mass), dtype=bool)
         self.holds: list[tuple[np.ndarray, Motion]] = []
@@ -45,11 +51,17 @@ class Model:
         self.forces = forces_of(case, self)
         self.filters = filters_of(case, self)
 
+    def of_fabric(self, table: str, triangle: int) -> dict:
+        """The keys of [cloth], [stretch] or [bending] with those of the triangle's [[fabric]]."""
+        own = self.fabric_of[triangle]
+        return self.case[table] | (own if table == "cloth" else own.get(table, {}))
+
     def elastic(self, time: float, x: np.ndarray) -> np.ndarray:
         return sum((force.elastic(time, x) for force in self.forces), np.zeros_like(x))
 
-    def damping(self, time: float, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        parts = [force.damping(time, x) for force in self.forces]
+    def damping(self, time: float, x: np.ndarray,
+                seen: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        parts = [force.damping(time, x, seen) for force in self.forces]
         return sum(part[0] for part in parts), sum(part[1] for part in parts)
 
     def prescribed_velocity(self, v: np.ndarray, time: float, since: float) -> np.ndarray:
@@ -96,6 +108,22 @@ def rest_shape(keys: dict, folder: Path) -> tuple[np.ndarray, np.ndarray]:
     return points + np.array(keys.get("move", [0.0, 0.0, 0.0])), triangles
 
 
+def flat_pattern(keys: dict, folder: Path) -> np.ndarray | None:
+    if "mesh" not in keys or "pattern" not in keys:
+        return None
+    points, triangles = read_obj(folder / keys["pattern"])
+    return keys.get("pattern_scale", 1.0) * points[triangles]
+
+
+def fabrics(case: dict, cloth: Surface) -> list[dict]:
+    """The table [[fabric]] of each triangle, the last that names it; {} without."""
+    own: list[dict] = [{} for _ in cloth.triangles]
+    for keys in case.get("fabric", []):
+        for t in region(keys, "triangles", cloth.rest[cloth.triangles].mean(axis=1)):
+            own[t] = keys
+    return own
+
+
 def start_state(keys: dict, rest: np.ndarray) -> State:
     center = rest.mean(axis=0)
     x = center + (rest - center) * np.array(keys.get("stretch", 1.0))
@@ -120,11 +148,15 @@ def forces_of(case: dict, model: Model) -> list:
         acceleration = case["gravity"].get("acceleration", [0.0, -9.80665, 0.0])
         forces.append(Gravity(model.mass, np.array(acceleration)))
     if "stretch" in case:
-        keys = case["stretch"]
-        forces.append(Springs(model.cloth, keys["stiffness"], keys.get("damping", 0.0),
-                              rest_length_scale(case)))
+        each = [model.of_fabric("stretch", t) for t in range(len(model.cloth.triangles))]
+        forces.append(Springs(model.cloth, each, rest_length_scale(case)))
+    if "membrane" in case:
+        forces.append(Membrane(model.cloth, case["membrane"]))
     if "bending" in case:
-        forces.append(Bending(model.cloth, case["bending"]))
+        each = [model.of_fabric("bending", t) for t in range(len(model.cloth.triangles))]
+        forces.append(Bending(model.cloth, each))
+    if "air" in case:
+        forces.append(Air(model.cloth, case["air"]))
     return forces + model.patches
 
 

@@ -13,17 +13,17 @@ from state import Span, State
 
 
 def explicit(model: Model, time: float, x: np.ndarray, v: np.ndarray, h: float,
-             flow: np.ndarray) -> np.ndarray:
-    """v + h a(time, x, flow), as for particles that nothing holds."""
-    matrix, known = model.damping(time, x)
+             flow: np.ndarray, seen: np.ndarray) -> np.ndarray:
+    """v + h a(time, x, flow), as for particles that nothing holds; drag as at `seen`."""
+    matrix, known = model.damping(time, x, seen)
     force = model.elastic(time, x) + known + (matrix @ flow.ravel()).reshape(-1, 3)
     return v + h * force / model.mass[:, None]
 
 
 def implicit(model: Model, time: float, x: np.ndarray, v: np.ndarray, h: float,
-             known_flow: np.ndarray) -> np.ndarray:
+             known_flow: np.ndarray, seen: np.ndarray) -> np.ndarray:
     """The w with w = v + h a(time, x, w); prescribed particles have that of `known_flow`."""
-    matrix, known = model.damping(time, x)
+    matrix, known = model.damping(time, x, seen)
     mass = np.repeat(model.mass, 3)
     right = mass * v.ravel() + h * (model.elastic(time, x) + known).ravel()
     left = np.diag(mass) - h * matrix
@@ -35,28 +35,30 @@ def implicit(model: Model, time: float, x: np.ndarray, v: np.ndarray, h: float,
 
 
 def scheme_a(model: Model, now: State, h: float) -> State:
-    half = explicit(model, now.time, now.x, now.v, h / 2, now.v)
+    half = explicit(model, now.time, now.x, now.v, h / 2, now.v, now.v)
     flow = model.mean_velocity(now, half, h)
     flow = model.modify(Span(now.time, now.time + h, h), now.x, flow)
     x, time = now.x + h * flow, now.time + h
-    v = implicit(model, time, x, half, h / 2, model.prescribed_velocity(half, time, now.time))
+    v = implicit(model, time, x, half, h / 2, model.prescribed_velocity(half, time, now.time),
+                 2 * flow - now.v)
     return State(time, x, model.modify(Span(time, time, h), x, v))
 
 
 def scheme_b(model: Model, now: State, h: float) -> State:
-    half = implicit(model, now.time, now.x, now.v, h / 2, model.mean_velocity(now, now.v, h))
+    half = implicit(model, now.time, now.x, now.v, h / 2, model.mean_velocity(now, now.v, h), now.v)
     half = model.modify(Span(now.time, now.time + h, h), now.x, half)
     x, time = now.x + h * half, now.time + h
-    v = explicit(model, time, x, half, h / 2, half)
+    v = explicit(model, time, x, half, h / 2, half, 2 * half - now.v)
     return State(time, x, model.prescribed_velocity(v, time, now.time))
 
 
 def scheme_c(model: Model, now: State, h: float) -> State:
-    flow = implicit(model, now.time, now.x, now.v, h / 2, model.mean_velocity(now, now.v, h))
+    flow = implicit(model, now.time, now.x, now.v, h / 2, model.mean_velocity(now, now.v, h), now.v)
     flow = model.modify(Span(now.time, now.time + h, h), now.x, flow)
     x, time = now.x + h * flow, now.time + h
-    half = explicit(model, now.time, now.x, now.v, h / 2, now.v)
-    v = implicit(model, time, x, half, h / 2, model.prescribed_velocity(half, time, now.time))
+    half = explicit(model, now.time, now.x, now.v, h / 2, now.v, now.v)
+    v = implicit(model, time, x, half, h / 2, model.prescribed_velocity(half, time, now.time),
+                 2 * flow - now.v)
     return State(time, x, model.modify(Span(time, time, h), x, v))
 
 
@@ -85,7 +87,7 @@ def runge_kutta(tableau: Tableau, model: Model, now: State, h: float) -> State:
         x = model.prescribed_place(x, time, now.time)
         v = model.prescribed_velocity(v, time, now.time)
         flows.append(v)
-        accelerations.append(explicit(model, time, x, np.zeros_like(v), 1.0, v))
+        accelerations.append(explicit(model, time, x, np.zeros_like(v), 1.0, v, v))
     flow = model.mean_velocity(now, weighted(tableau.weights, flows, now.x), h)
     v = now.v + h * weighted(tableau.weights, accelerations, now.v)
     corrected = model.modify(Span(now.time, now.time + h, h), now.x, flow)

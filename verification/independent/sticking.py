@@ -123,7 +123,8 @@ class Sticky:
                         force[corner] -= jacobian.T @ pull / len(bonds)
         return force
 
-    def damping(self, time: float, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def damping(self, time: float, x: np.ndarray,
+                _seen: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """-k tau G^T G with G v = v_t - v; what a moving object adds to v_t is known."""
         matrix, known = nothing(len(x))
         corners = self.corners(time, x)

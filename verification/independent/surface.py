@@ -10,9 +10,15 @@ class Surface(NamedTuple):
     """A triangle mesh at rest. N particles, M triangles, E edges, H hinges."""
     rest: np.ndarray  # N x 3 [m]
     triangles: np.ndarray  # M x 3
+    corners: np.ndarray  # M x 3 x 3: of each triangle, in its panel if there is a pattern [m]
+    has_pattern: bool
+    triangle_areas: np.ndarray  # M, at rest [m^2]
     edges: np.ndarray  # E x 2, in the order in which triangles name them
+    sides: np.ndarray  # 3M rows: an edge, one of its triangles, and its length there [m]
     edge_areas: np.ndarray  # E: rest area of the one or two triangles of an edge [m^2]
     hinges: np.ndarray  # H x 4: x1, x2, x3, x4 of BMF03 section 4
+    hinge_triangles: np.ndarray  # H x 2
+    hinge_lengths: np.ndarray  # H: of the edge at rest; of two sides, see KEYS.md [m]
     areas: np.ndarray  # N: a third of the rest area of a particle's triangles [m^2]
 
 
@@ -37,10 +43,12 @@ def read_obj(path: Path) -> tuple[np.ndarray, np.ndarray]:
     return np.array(points), np.array(faces)
 
 
-def surface_of(points: np.ndarray, triangles: np.ndarray) -> Surface:
-    """Springs, hinges and areas of an oriented mesh whose edges have one or two triangles."""
-    spanned = np.cross(points[triangles[:, 1]] - points[triangles[:, 0]],
-                       points[triangles[:, 2]] - points[triangles[:, 0]])
+def surface_of(points: np.ndarray, triangles: np.ndarray,
+               pattern: np.ndarray | None = None) -> Surface:
+    """Springs, hinges and areas of an oriented mesh whose edges have one or two triangles.
+    pattern: M x 3 x 3, the corners in the flat panels."""
+    corners = points[triangles] if pattern is None else pattern
+    spanned = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     area = np.linalg.norm(spanned, axis=1) / 2
     sides: dict[tuple[int, int], list[tuple[int, int, int]]] = {}
     for number, (a, b, c) in enumerate(triangles.tolist()):
@@ -48,14 +56,25 @@ def surface_of(points: np.ndarray, triangles: np.ndarray) -> Surface:
             sides.setdefault((min(start, end), max(start, end)), []).append(
                 (number, start, opposite)
             )
-    hinges = []
-    for (low, high), both in sides.items():
+    hinges, hinge_triangles, hinge_lengths, lengths = [], [], [], []
+    for number, ((low, high), both) in enumerate(sides.items()):
+        pulls = weights = 0.0
+        for t, _, _ in both:
+            a, b = (corners[t, np.flatnonzero(triangles[t] == end)[0]] for end in (low, high))
+            length = np.linalg.norm(b - a)
+            lengths.append((number, t, length))
+            pulls, weights = pulls + area[t] / length, weights + area[t] / length**2
         if len(both) == 2:
             one, two = both
             start, end = (low, high) if one[1] == low else (high, low)
             hinges.append((one[2], two[2], start, end))
+            hinge_triangles.append((one[0], two[0]))
+            hinge_lengths.append(pulls / weights)
     lumped = np.zeros(len(points))
     np.add.at(lumped, triangles, area[:, None] / 3)
-    return Surface(points, triangles, np.array(list(sides)),
+    return Surface(points, triangles, corners, pattern is not None, area,
+                   np.array(list(sides)), np.array(lengths),
                    np.array([sum(area[side[0]] for side in both) for both in sides.values()]),
-                   np.array(hinges, dtype=int).reshape(-1, 4), lumped)
+                   np.array(hinges, dtype=int).reshape(-1, 4),
+                   np.array(hinge_triangles, dtype=int).reshape(-1, 2), np.array(hinge_lengths),
+                   lumped)

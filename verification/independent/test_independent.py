@@ -98,6 +98,17 @@ class IndependentTest(unittest.TestCase):
     def test_sticking_to_a_body_that_moves(self) -> None:
         self.agrees("carried")
 
+    def test_two_fabrics_in_wind_by_schemes_a_b_c_and_rk4(self) -> None:
+        for scheme in ("A", "B", "C", "RK4"):
+            self.agrees("wind", {"time.integrator": scheme})
+
+    def test_membrane_at_an_angle_to_the_warp(self) -> None:
+        for degrees in (0.0, 31.0):
+            self.agrees("membrane", {"membrane.direction": degrees})
+
+    def test_cloth_sewn_from_a_pattern(self) -> None:
+        self.agrees("sewn")
+
     def test_sticking_of_one_layer_to_another(self) -> None:
         self.agrees("layers")
 

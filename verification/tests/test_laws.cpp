@@ -68,8 +68,7 @@ TEST_CASE("subject: a strip without bending fails the laws of bent strips, and t
   }
 }
 
-TEST_CASE("subject: bent strips raise no alarm for bending of another kind or rigidity",
-          "[long][alarm]") {
+TEST_CASE("subject: bent strips raise no alarm for bending of another kind or rigidity", "[long]") {
   require_found({"bends", "bends_fourfold"}, {"strip"}, {});
 }
 

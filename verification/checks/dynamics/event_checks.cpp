@@ -25,11 +25,11 @@ System led_spring() {
   System system = make_system(PerParticle::Constant(2, mass));
   CustomForce force;
   force.elastic = [](const State& s, PerParticle3& f) { add_pull(s.x, stiffness, f); };
-  force.damping = [](const State&, const PerParticle3& v, PerParticle3& f) {
-    add_pull(v, damping, f);
+  force.damping = [](const State&) -> DampingOperator::Custom {
+    return {[](const PerParticle3& v, PerParticle3& f) { add_pull(v, damping, f); }, {}};
   };
-  force.differential = [](const State&, const PerParticle3& dx, PerParticle3& df) {
-    add_pull(dx, stiffness, df);
+  force.differential = [](const State&, Definiteness) {
+    return [](const PerParticle3& dx, PerParticle3& df) { add_pull(dx, stiffness, df); };
   };
   system.forces.push_back(force);
   Motion motion;

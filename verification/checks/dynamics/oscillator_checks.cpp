@@ -27,8 +27,8 @@ System oscillator_system(const Oscillator& oscillator) {
   System system = make_system(PerParticle::Constant(1, m));
   CustomForce force;
   force.elastic = [m, k](const State& s, PerParticle3& f) { f -= m * (k * s.x); };
-  force.damping = [m, c](const State&, const PerParticle3& v, PerParticle3& f) {
-    f -= m * (c * v);
+  force.damping = [=](const State&) -> DampingOperator::Custom {
+    return {[=](const PerParticle3& v, PerParticle3& f) { f -= m * (c * v); }, {}};
   };
   system.forces.push_back(force);
   system.solver.tolerance = 1e-15;

@@ -128,9 +128,13 @@ SolveResult solve_with_rates(int k, unsigned seed) {
   for (double& m : mass) m = random.uniform(0.13, 0.57);
   System system = make_system(mass);
   CustomForce force;
-  force.damping = [mass, k](const State&, const PerParticle3& v, PerParticle3& f) {
-    for (Eigen::Index i = 0; i < mass.size(); ++i)
-      if (i % (k + 1) != 0) f.col(i) -= mass[i] * (1.7 + 3.1 * double(i % (k + 1))) * v.col(i);
+  force.damping = [=](const State&) -> DampingOperator::Custom {
+    return {[=](const PerParticle3& v, PerParticle3& f) {
+              for (Eigen::Index i = 0; i < mass.size(); ++i)
+                if (i % (k + 1) != 0)
+                  f.col(i) -= mass[i] * (1.7 + 3.1 * double(i % (k + 1))) * v.col(i);
+            },
+            {}};
   };
   system.forces.push_back(force);
   PerParticle3 v = random.vectors(particles, 0.8);

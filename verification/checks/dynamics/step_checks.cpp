@@ -104,7 +104,9 @@ double end_velocity(const std::string& integrator, double h, double c, double g,
   System system = make_system(PerParticle::Constant(1, m));
   CustomForce force;
   force.elastic = [=](const State&, PerParticle3& f) { f.row(0).array() += m * g; };
-  force.damping = [=](const State&, const PerParticle3& w, PerParticle3& f) { f -= m * c * w; };
+  force.damping = [=](const State&) -> DampingOperator::Custom {
+    return {[=](const PerParticle3& w, PerParticle3& f) { f -= m * c * w; }, {}};
+  };
   system.forces.push_back(force);
   CustomFilter filter;
   filter.modify = [=](const Span& span, const State&, PerParticle3& w) {

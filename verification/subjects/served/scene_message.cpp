@@ -89,6 +89,10 @@ void require_portable(const Scene& scene) {
   if (scene.strain_limits) throw NotOffered{"strain limits over the pipe"};
   if (scene.self_collision) throw NotOffered{"self-collision over the pipe"};
   if (!scene.sticky.empty()) throw NotOffered{"sticking over the pipe"};
+  if (scene.air) throw NotOffered{"air over the pipe"};
+  if (scene.membrane) throw NotOffered{"a membrane over the pipe"};
+  if (!scene.fabrics.empty()) throw NotOffered{"several fabrics over the pipe"};
+  if (!scene.mesh.pattern.empty()) throw NotOffered{"a flat pattern over the pipe"};
 }
 
 void read_extension(const Json& extension, Scene& scene) {

@@ -26,11 +26,11 @@ struct DynamicsSpecimen {
   DynamicsSpecimen() {
     CustomForce force;
     force.elastic = [](const State& s, PerParticle3& f) { f -= 7.3 * s.x; };
-    force.damping = [](const State& s, const PerParticle3& v, PerParticle3& f) {
-      f -= (1 + 0.3 * s.time) * v;
+    force.damping = [](const State& s) -> DampingOperator::Custom {
+      return {[s](const PerParticle3& v, PerParticle3& f) { f -= (1 + 0.3 * s.time) * v; }, {}};
     };
-    force.differential = [](const State&, const PerParticle3& dx, PerParticle3& df) {
-      df -= 7.3 * dx;
+    force.differential = [](const State&, Definiteness) {
+      return [](const PerParticle3& dx, PerParticle3& df) { df -= 7.3 * dx; };
     };
     system.forces.emplace_back(std::move(force));
     now.x.col(prescribed) = path(now.time);

@@ -27,8 +27,10 @@ struct Oscillator {
       if (s.x.norm() > farthest) throw DegenerateElement("too far", {0});
       f.col(0) += k * (rest - s.x.col(0));
     };
-    force.differential = [this](const State&, const PerParticle3& dx, PerParticle3& df) {
-      df -= (2 / length - mass) / (h * h) * dx;
+    force.differential = [this](const State&, Definiteness) {
+      return [this](const PerParticle3& dx, PerParticle3& df) {
+        df -= (2 / length - mass) / (h * h) * dx;
+      };
     };
     system.forces.assign(1, std::move(force));
     return backward_euler(system, {&start, 1}, h, work);

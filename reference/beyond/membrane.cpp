@@ -1,0 +1,216 @@
+#include "reference/beyond/membrane.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "reference/mesh/rigidity_map.h"
+
+namespace foldproof {
+
+namespace {
+
+using Eigen::Matrix2d;
+using Matrix32 = Eigen::Matrix<double, 3, 2>;
+using Matrix23 = Eigen::Matrix<double, 2, 3>;
+
+/// C of the header.
+struct Stiffness {
+  double c11, c12, c22, shear;  // N/m
+
+  /// S of a symmetric E.
+  Matrix2d stress(const Matrix2d& E) const {
+    Matrix2d S;
+    S << c11 * E(0, 0) + c12 * E(1, 1), 2 * shear * E(0, 1),  //
+        2 * shear * E(0, 1), c12 * E(0, 0) + c22 * E(1, 1);
+    return S;
+  }
+  /// The largest of |S|/|E| [N/m].
+  double largest() const {
+    const double mean = (c11 + c22) / 2;
+    return std::max(mean + std::hypot((c11 - c22) / 2, c12), 2 * shear);
+  }
+};
+
+/// A triangle at rest. Column k of `gradients` is the gradient of corner k's share [1/m]:
+/// F = sum of x_k gradients_k^T.
+struct RestTriangle {
+  Triangle corners;
+  Matrix23 gradients;
+  double area;  // m^2
+
+  Matrix32 gradient_of(const PerParticle3& x) const {
+    Matrix32 F = Matrix32::Zero();
+    for (int k = 0; k < 3; ++k) F += x.col(corners[size_t(k)]) * gradients.col(k).transpose();
+    return F;
+  }
+  void push(const Matrix32& P, PerParticle3& f) const {
+    for (int k = 0; k < 3; ++k) f.col(corners[size_t(k)]) -= area * (P * gradients.col(k));
+  }
+};
+
+Matrix2d symmetric(const Matrix2d& A) { return (A + A.transpose()) / 2; }
+
+Matrix2d strain_of(const Matrix32& F) { return (F.transpose() * F - Matrix2d::Identity()) / 2; }
+
+/// The symmetric matrix with its negative eigenvalues set to zero.
+Matrix2d positive_part(const Matrix2d& S) {
+  const Eigen::SelfAdjointEigenSolver<Matrix2d> modes(S);
+  return modes.eigenvectors() * modes.eigenvalues().cwiseMax(0).asDiagonal() *
+         modes.eigenvectors().transpose();
+}
+
+struct Membrane {
+  std::vector<RestTriangle> triangles;
+  Stiffness stiffness;
+  double damping;
+
+  void add_elastic(const PerParticle3& x, PerParticle3& f) const {
+    for (const RestTriangle& t : triangles) {
+      const Matrix32 F = t.gradient_of(x);
+      t.push(F * stiffness.stress(strain_of(F)), f);
+    }
+  }
+
+  double energy(const PerParticle3& x) const {
+    double sum = 0;
+    for (const RestTriangle& t : triangles) {
+      const Matrix2d E = strain_of(t.gradient_of(x));
+      sum += t.area / 2 * stiffness.stress(E).cwiseProduct(E).sum();
+    }
+    return sum;
+  }
+
+  /// F and S of each triangle.
+  struct Shape {
+    Matrix32 F;
+    Matrix2d S;
+  };
+  std::vector<Shape> shapes_at(const PerParticle3& x) const {
+    std::vector<Shape> shapes;
+    shapes.reserve(triangles.size());
+    for (const RestTriangle& t : triangles) {
+      const Matrix32 F = t.gradient_of(x);
+      shapes.push_back({F, stiffness.stress(strain_of(F))});
+    }
+    return shapes;
+  }
+
+  /// F times the stress of the strain that changes by sym(F^T dF).
+  Matrix32 changed(const Matrix32& F, const Matrix32& dF) const {
+    return F * stiffness.stress(symmetric(F.transpose() * dF));
+  }
+
+  /// With S : a bound on a row is A |g_i| sum |g_j| (|S| + |F|^2 |C|), norms of matrices.
+  void add_stiffness_bound(const PerParticle3& x, PerParticle& rows) const {
+    for (const RestTriangle& t : triangles) {
+      const Matrix32 F = t.gradient_of(x);
+      const Matrix2d FF = F.transpose() * F;
+      const double size = stiffness.stress(strain_of(F)).norm() + FF.trace() * stiffness.largest();
+      const Eigen::RowVector3d norms = t.gradients.colwise().norm();
+      for (int k = 0; k < 3; ++k)
+        rows[t.corners[size_t(k)]] += t.area * norms[k] * norms.sum() * size;
+    }
+  }
+};
+
+Stiffness stiffness_of(const MembraneMaterial& m) {
+  for (const double number : {m.warp, m.weft, m.shear, m.poisson, m.damping})
+    if (!(number >= 0) || !std::isfinite(number))
+      throw InputError("membrane: moduli, Poisson's ratio and damping must be finite and >= 0");
+  const double other = m.warp > 0 ? m.poisson * m.weft / m.warp : 0, left = 1 - m.poisson * other;
+  if (!(left > 0))
+    throw InputError("membrane: nu12^2 E2/E1 must be below 1; such a sheet would gain energy");
+  const double c22 = m.weft / left;
+  return {m.warp / left, m.poisson * c22, c22, m.shear};
+}
+
+/// The corners in the pattern, or in the plane of a flat mesh.
+std::vector<FlatTriangle> flat_corners(const TriangleMesh& mesh) {
+  if (!mesh.pattern.empty()) return mesh.pattern;
+  RestPlane plane;
+  if (!is_flat(mesh, plane))
+    throw InputError(
+        "membrane: the rest shape is not flat; give [cloth] pattern, which says where "
+        "warp and weft run");
+  std::vector<FlatTriangle> corners;
+  for (const Triangle& t : mesh.triangles) {
+    FlatTriangle flat;
+    for (size_t k = 0; k < 3; ++k)
+      flat[k] = {plane.first.dot(mesh.rest.col(t[k])), plane.second.dot(mesh.rest.col(t[k]))};
+    corners.push_back(flat);
+  }
+  return corners;
+}
+
+RestTriangle rest_triangle(const Triangle& corners, const FlatTriangle& flat, double direction) {
+  const Matrix2d turn = Eigen::Rotation2Dd(-direction).toRotationMatrix();
+  Matrix2d sides;
+  sides << turn * (flat[1] - flat[0]), turn * (flat[2] - flat[0]);
+  const Matrix2d inverse = sides.inverse();
+  Matrix23 gradients;
+  gradients.col(1) = inverse.row(0).transpose();
+  gradients.col(2) = inverse.row(1).transpose();
+  gradients.col(0) = -(gradients.col(1) + gradients.col(2));
+  return {corners, gradients, std::abs(sides.determinant()) / 2};
+}
+
+}  // namespace
+
+CustomForce make_membrane(const TriangleMesh& mesh, const MembraneMaterial& material) {
+  const auto all =
+      std::make_shared<Membrane>(Membrane{{}, stiffness_of(material), material.damping});
+  const std::vector<FlatTriangle> corners = flat_corners(mesh);
+  for (size_t t = 0; t < corners.size(); ++t)
+    all->triangles.push_back(rest_triangle(mesh.triangles[t], corners[t], material.direction));
+
+  CustomForce force;
+  force.energy_term = &Energies::stretch;
+  force.needs_velocity = false;
+  force.elastic = [all](const State& s, PerParticle3& f) { all->add_elastic(s.x, f); };
+  force.potential = [all](const State& s) { return all->energy(s.x); };
+  force.stiffness_bound = [all](const State& s, PerParticle& rows) {
+    all->add_stiffness_bound(s.x, rows);
+  };
+  force.differential = [all](const State& s, Definiteness definiteness) -> CustomForce::Product {
+    std::vector<Membrane::Shape> shapes = all->shapes_at(s.x);
+    if (definiteness == Definiteness::semidefinite)
+      for (Membrane::Shape& shape : shapes) shape.S = positive_part(shape.S);
+    return [all, shapes = std::move(shapes)](const PerParticle3& dx, PerParticle3& df) {
+      for (size_t k = 0; k < shapes.size(); ++k) {
+        const RestTriangle& t = all->triangles[k];
+        const Matrix32 dF = t.gradient_of(dx);
+        t.push(dF * shapes[k].S + all->changed(shapes[k].F, dF), df);
+      }
+    };
+  };
+  if (material.damping > 0)
+    force.damping = [all](const State& s) -> DampingOperator::Custom {
+      const auto shapes = std::make_shared<const std::vector<Membrane::Shape>>(all->shapes_at(s.x));
+      return {[all, shapes](const PerParticle3& v, PerParticle3& f) {
+                for (size_t k = 0; k < shapes->size(); ++k) {
+                  const RestTriangle& t = all->triangles[k];
+                  t.push(all->damping * all->changed((*shapes)[k].F, t.gradient_of(v)), f);
+                }
+              },
+              [all, shapes](PerParticle& rows) {
+                for (size_t k = 0; k < shapes->size(); ++k) {
+                  const RestTriangle& t = all->triangles[k];
+                  const Eigen::RowVector3d norms = t.gradients.colwise().norm();
+                  const double size =
+                      all->damping * (*shapes)[k].F.squaredNorm() * all->stiffness.largest();
+                  for (int i = 0; i < 3; ++i)
+                    rows[t.corners[size_t(i)]] += t.area * norms[i] * norms.sum() * size;
+                }
+              }};
+    };
+  return force;
+}
+
+double strip_modulus(const MembraneMaterial& m, double angle) {
+  const double c = std::pow(std::cos(angle), 2), s = std::pow(std::sin(angle), 2);
+  return 1 / (c * c / m.warp + (1 / m.shear - 2 * m.poisson / m.warp) * s * c + s * s / m.weft);
+}
+
+}  // namespace foldproof
