@@ -30,6 +30,7 @@ import numpy as np  # noqa: E402
 
 from data.cloth_values import all_values  # noqa: E402
 from data.results import Case, load_case  # noqa: E402
+from data.unreadable import Unreadable  # noqa: E402
 from data.whole_file import write_whole  # noqa: E402
 
 
@@ -51,16 +52,19 @@ def main() -> int:
         "--out", metavar="DIR", type=Path, required=True,
         help="folder for the files; made if it is not there"
     )
+    parser.add_argument("--like", metavar="FILE.obj", type=Path, help="OBJ file of the cloth")
     options = parser.parse_args()
     with refusing_damage("export", options.case):
         options.out.mkdir(parents=True, exist_ok=True)
-        files = export(load_case(options.case), options.format, options.out)
+        files = export(load_case(options.case), options.format, options.out, options.like)
     print(f"{options.out}: {len(files)} files")
     return 0
 
 
-def export(case: Case, kind: str, folder: Path) -> list[Path]:
+def export(case: Case, kind: str, folder: Path, like: Path | None = None) -> list[Path]:
     """Writes all frames; returns the files."""
+    if like:
+        return write_obj(case, bodies_of(case), folder, Template(like, case.triangles))
     return WRITERS[kind](case, bodies_of(case), folder)
 
 
@@ -81,16 +85,54 @@ def bodies_of(case: Case) -> list[Body]:
     ]
 
 
-def write_obj(case: Case, bodies: list[Body], folder: Path) -> list[Path]:
+class Template:
+    """An OBJ file of the cloth, before sewing: its records serve all frames, but v and vn."""
+
+    def __init__(self, path: Path, triangles: np.ndarray) -> None:
+        text = path.read_text(encoding="utf-8-sig", errors="surrogateescape").replace("\\\n", " ")
+        self.records: list[tuple[str, str]] = []  # the first word, and the line
+        fans: list[tuple[int, ...]] = []
+        count = 0  # of vertices so far
+        for line in text.split("\n"):
+            kind, *words = line.partition("#")[0].split() or [""]
+            count += kind == "v"
+            if kind == "f":
+                corners = [int(word.partition("/")[0]) for word in words]
+                corners = [corner - 1 if corner > 0 else count + corner for corner in corners]
+                fans += [(corners[0], *two) for two in zip(corners[1:], corners[2:])]
+                line = " ".join(["f"] + ["/".join(w.split("/")[:2]).rstrip("/") for w in words])
+            self.records.append((kind, line))
+        ends = list(zip(np.ravel(fans).tolist(), triangles.ravel().tolist()))
+        self.particles = dict(ends)  # of each vertex that a face uses
+        if np.shape(fans) != triangles.shape or set(ends) != set(self.particles.items()):
+            raise Unreadable(f"{path}: its faces are not the cloth's triangles; give the file that "
+                             "the run read, without concave polygons, copies, refine or repair")
+
+    def lines(self, x: np.ndarray) -> Iterator[str]:
+        """x: N x 3 [m]. Vertices of no face stay."""
+        vertex = -1
+        for kind, line in self.records:
+            vertex += kind == "v"
+            if kind == "v" and vertex in self.particles:
+                line = "v {:.17g} {:.17g} {:.17g}".format(*x[self.particles[vertex]].tolist())
+            if kind != "vn":  # of another shape
+                yield line
+
+
+def write_obj(case: Case, bodies: list[Body], folder: Path,
+              like: Template | None = None) -> list[Path]:
     """Wavefront OBJ: positions with all their digits, triangles; times.txt for what OBJ lacks."""
     def lines(body: Body, frame: int) -> Iterator[str]:
+        if like and body is bodies[0]:
+            yield from like.lines(body.x[frame])
+            return
         yield f"o {body.name}"
         yield from (f"v {x:.17g} {y:.17g} {z:.17g}" for x, y, z in body.x[frame].tolist())
         yield from (f"f {a} {b} {c}" for a, b, c in (body.triangles + 1).tolist())
     return [_write_times(case, folder)] + [
         _write(
             folder / f"{body.name}.{frame:04d}.obj",
-            ("\n".join(lines(body, frame)) + "\n").encode("utf-8"),
+            ("\n".join(lines(body, frame)) + "\n").encode("utf-8", "surrogateescape"),
         )
         for body in bodies
         for frame in range(len(body.x))

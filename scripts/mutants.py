@@ -31,7 +31,8 @@ PYTHON_TESTS = {
         "EvaluateTest": "test_evaluate", "ResumeTest": "test_resume",
         "CampaignTest": "test_campaign", "SlicesTest": "test_campaign", "Judge": "test_judge",
         "JudgeFrames": "test_judge_frames", "SolverTest": "test_converge_solver",
-        "PrecisionSolverTest": "test_precision_solver", "Compare": "test_compare"
+        "PrecisionSolverTest": "test_precision_solver", "Compare": "test_compare",
+        "DamagedMeshes": "test_damaged_meshes"
     }.items()
 } | {"IndependentTest": ROOT / "verification/independent/test_independent.py"}
 SHARED_BY_TESTS = ("program_case", "judge_case", "campaign_case")

@@ -11,6 +11,7 @@
 #include "reference/mesh/self_intersection.h"
 #include "reference/level_set/winding.h"
 #include "reference/mesh/mesh_locations.h"
+#include "reference/mesh/seams.h"
 
 namespace foldproof {
 
@@ -44,6 +45,8 @@ void reject_holes(const TriangleMesh& mesh, const MeshOrigin& origin) {
     join(parent, edge.a, edge.b);
   }
   if (border.empty()) return;
+  if (const std::string open = open_seams_in_words(mesh, "[[object]]"); !open.empty())
+    throw InputError(triangle_location(origin, border.front()->triangles[0]) + open);
   std::set<int> loops;
   for (const Edge* edge : border) loops.insert(root(parent, edge->a));
   const Edge& first = *border.front();
@@ -67,7 +70,7 @@ void reject_self_intersections(const TriangleMesh& mesh, const MeshOrigin& origi
 /// Normals point outward on a piece outside all others, inward on a piece inside another.
 void reject_inside_out(const TriangleMesh& mesh, const MeshOrigin& origin) {
   const std::vector<int> piece = pieces_of(mesh);
-  const int pieces = *std::max_element(piece.begin(), piece.end()) + 1;
+  const int pieces = count_of_pieces(mesh);
   for (int own = 0; own < pieces; ++own) {
     std::vector<Triangle> inside, others;
     for (size_t t = 0; t < piece.size(); ++t)
@@ -97,6 +100,8 @@ std::vector<int> pieces_of(const TriangleMesh& mesh) {
     piece[t] = root(parent, t) == t ? pieces++ : piece[root(parent, t)];
   return piece;
 }
+
+int count_of_pieces(const TriangleMesh& mesh) { return std::ranges::max(pieces_of(mesh)) + 1; }
 
 double enclosed_volume(const PerParticle3& x, const std::vector<Triangle>& triangles) {
   const Vector3 origin = x.col(triangles[0][0]);

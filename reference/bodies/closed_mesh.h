@@ -13,6 +13,8 @@ namespace foldproof {
 /// order of the pieces' first triangles.
 std::vector<int> pieces_of(const TriangleMesh& mesh);
 
+int count_of_pieces(const TriangleMesh& mesh);
+
 /// The volume that the triangles enclose, positive where normals point outward [m^3].
 double enclosed_volume(const PerParticle3& x, const std::vector<Triangle>& triangles);
 

@@ -14,8 +14,7 @@ namespace {
 void look_for_solid(const TriangleSoup& soup, MeshInspection& found) {
   try {
     const TriangleMesh mesh = make_closed_mesh(soup);
-    const std::vector<int> pieces = pieces_of(mesh);
-    found.pieces = *std::max_element(pieces.begin(), pieces.end()) + 1;
+    found.pieces = count_of_pieces(mesh);
     found.volume = enclosed_volume(mesh.rest, mesh.triangles);
   } catch (const InputError& error) {
     found.rejection = error.what();

@@ -22,14 +22,6 @@ double area_of(const PerParticle3& x, const Triangle& t) {
   return 0.5 * (x.col(t[1]) - x.col(t[0])).cross(x.col(t[2]) - x.col(t[0])).norm();
 }
 
-/// The same limit as in make_triangle_mesh: below it the normal is rounding error.
-bool has_area(const PerParticle3& x, const Triangle& t) {
-  double longest = 0;
-  for (int k = 0; k < 3; ++k)
-    longest = std::max(longest, (x.col(t[(k + 1) % 3]) - x.col(t[k])).squaredNorm());
-  return area_of(x, t) > 1e-12 * longest;
-}
-
 /// A neighbour across an edge, and whether the two run along the edge the same way.
 struct Neighbour {
   int triangle;

@@ -26,6 +26,17 @@ std::errc read_number(std::string_view word, double& value) {
   return result.ec;
 }
 
+void reject_bad_place(const Vector3& x, const std::string& where) {
+  if (!x.allFinite()) throw InputError(where + "a coordinate is not finite; give numbers in m");
+  if (x.cwiseAbs().maxCoeff() > largest_coordinate)
+    throw InputError(where + "a coordinate is too large, beyond 1e75 m; give numbers in m");
+}
+
+void reject_bad_places(const PerParticle3& x, const std::string& file) {
+  for (Eigen::Index v = 0; v < x.cols(); ++v)
+    reject_bad_place(x.col(v), file + ": vertex " + std::to_string(v) + ": ");
+}
+
 bool FaceList::add(int vertex) {
   corners_.push_back(vertex);
   if (corners() > 2) ++triangles_;
@@ -34,7 +45,10 @@ bool FaceList::add(int vertex) {
 
 std::vector<int> FaceList::cut_into(TriangleSoup& soup, int first_vertex) const {
   const int vertices = int(soup.rest.cols());
+  for (int v = 0; v < vertices && starts_.empty(); ++v)  // points alone
+    reject_bad_place(soup.rest.col(v), vertex_location(soup.origin, v));
   std::vector<int> face_of_triangle;
+  double largest = 0;  // coordinate [m]
   for (size_t f = 0; f < starts_.size(); ++f) {
     const auto reject = [&](const std::string& reason) {
       const std::string where =
@@ -47,9 +61,8 @@ std::vector<int> FaceList::cut_into(TriangleSoup& soup, int first_vertex) const 
       if (v < 0 || v >= vertices)
         reject("index " + std::to_string(v + first_vertex) + " is out of range; the file has " +
                std::to_string(vertices) + " vertices");
-      if (!soup.rest.col(v).allFinite())
-        throw InputError(vertex_location(soup.origin, v) +
-                         "a coordinate is not finite; give numbers in m");
+      reject_bad_place(soup.rest.col(v), vertex_location(soup.origin, v));
+      largest = std::max(largest, soup.rest.col(v).cwiseAbs().maxCoeff());
     }
     const std::vector<Triangle> cut = triangles_of_polygon(corners, soup.rest);
     if (cut.empty())
@@ -65,6 +78,10 @@ std::vector<int> FaceList::cut_into(TriangleSoup& soup, int first_vertex) const 
       if (lines_[f] > 0) soup.origin.triangle_lines.push_back(lines_[f]);
     }
   }
+  if (largest > 0 && largest < smallest_mesh)
+    throw InputError(soup.origin.file +
+                     ": no coordinate is as large as 1e-75 m, and areas would "
+                     "vanish; give numbers in m");
   return face_of_triangle;
 }
 

@@ -28,11 +28,14 @@ std::string mesh_location(const MeshOrigin& origin) {
   return (origin.file.empty() ? "mesh" : origin.file) + ": ";
 }
 
+int number_of(const MeshOrigin& origin, int v) {
+  return origin.vertex_numbers.empty() ? v + 1 : origin.vertex_numbers[size_t(v)];
+}
+
 std::string vertex_name(const MeshOrigin& origin, int v) {
-  if (origin.vertex_lines.empty()) return "vertex " + std::to_string(v);
-  const int number = origin.vertex_numbers.empty() ? v + 1 : origin.vertex_numbers[v];
-  return "vertex " + std::to_string(number) + " (line " + std::to_string(origin.vertex_lines[v]) +
-         ")";
+  if (origin.vertex_lines.empty()) return "vertex " + std::to_string(number_of(origin, v) - 1);
+  return "vertex " + std::to_string(number_of(origin, v)) + " (line " +
+         std::to_string(origin.vertex_lines[v]) + ")";
 }
 
 std::string triangle_name(const MeshOrigin& origin, int t) {

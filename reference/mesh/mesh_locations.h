@@ -13,6 +13,9 @@ std::string triangle_location(const MeshOrigin& origin, int t);
 std::string vertex_location(const MeshOrigin& origin, int v);
 std::string mesh_location(const MeshOrigin& origin);
 
+/// Of a vertex in its file, from 1.
+int number_of(const MeshOrigin& origin, int v);
+
 // Inside a sentence: "vertex 4 (line 4)", "the face of line 17"; files count vertices from
 // 1, as OBJ does.
 std::string vertex_name(const MeshOrigin& origin, int v);

@@ -1,12 +1,11 @@
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 
 #include "reference/mesh/mesh_frames.h"
+#include "reference/mesh/mesh_reading.h"
 #include "reference/mesh/zip_archive.h"
 
 namespace foldproof {
@@ -43,29 +42,6 @@ std::vector<std::size_t> shape_in(std::string_view text) {
   return shape;
 }
 
-template <class Number>
-double number_at(const char* from, bool is_big) {
-  std::array<char, sizeof(Number)> bytes;
-  std::memcpy(bytes.data(), from, sizeof(Number));
-  if (is_big) std::ranges::reverse(bytes);
-  return double(std::bit_cast<Number>(bytes));
-}
-
-using Reader = double (*)(const char* from, bool is_big);
-
-/// Reads a number of this type ("f4", "i8", ...); nullptr: it is none of these.
-Reader reader_of(std::string_view type) {
-  constexpr std::pair<std::string_view, Reader> readers[] = {
-      {"f4", number_at<float>},        {"f8", number_at<double>},
-      {"i1", number_at<std::int8_t>},  {"u1", number_at<std::uint8_t>},
-      {"i2", number_at<std::int16_t>}, {"u2", number_at<std::uint16_t>},
-      {"i4", number_at<std::int32_t>}, {"u4", number_at<std::uint32_t>},
-      {"i8", number_at<std::int64_t>}, {"u8", number_at<std::uint64_t>}};
-  for (const auto& [name, reader] : readers)
-    if (name == type) return reader;
-  return nullptr;
-}
-
 /// The place in a Fortran-ordered array of the value at place k with the last index fastest.
 std::size_t fortran_place(const std::vector<std::size_t>& shape, std::size_t k) {
   std::size_t place = 0;
@@ -88,10 +64,12 @@ Array array_of(std::string_view bytes, const std::string& where) {
   const std::string_view header = bytes.substr(prefix, length);
   const std::string_view data = bytes.substr(std::min(bytes.size(), prefix + length));
   const std::string_view type = value_of(header, "'descr'");
-  const Reader read = type.size() < 3 ? nullptr : reader_of(type.substr(1, 2));
-  if (!read) throw InputError(where + " holds no numbers; give float32, float64 or integers");
+  const auto of = type.size() < 3
+                      ? number_types.end()
+                      : std::ranges::find(number_types, type.substr(1, 2), &NumberType::code);
+  if (of == number_types.end())
+    throw InputError(where + " holds no numbers; give float32, float64 or integers");
   Array array{shape_in(value_of(header, "'shape'")), {}};
-  const std::size_t width = std::size_t(type[2] - '0');
   std::size_t count = 1;
   for (const std::size_t each : array.shape) {
     if (each > 0 && count > data.size() / each)
@@ -99,13 +77,13 @@ Array array_of(std::string_view bytes, const std::string& where) {
     else
       count *= each;
   }
-  if (count * width != data.size())
+  if (count * of->bytes != data.size())
     throw InputError(where + " has another size than its shape says; write it anew");
   const bool is_fortran = value_of(header, "'fortran_order'").starts_with("True");
   array.values.resize(count);
   for (std::size_t k = 0; k < count; ++k)
-    array.values[k] = read(data.data() + width * (is_fortran ? fortran_place(array.shape, k) : k),
-                           type[0] == '>');
+    array.values[k] = of->read(
+        data.data() + of->bytes * (is_fortran ? fortran_place(array.shape, k) : k), type[0] == '>');
   return array;
 }
 
@@ -166,8 +144,7 @@ std::vector<MeshFrame> read_npz_bytes(std::string_view bytes, const std::string&
     if (!times.empty()) frame.time = times[k];
     frame.x = Eigen::Map<const PerParticle3>(vertices.values.data() + 3 * particles * k, 3,
                                              Eigen::Index(particles));
-    if (!frame.x.allFinite())
-      throw InputError(frame.file + ": a coordinate is not finite; give numbers in m");
+    reject_bad_places(frame.x, frame.file);
     if (frame.time && !std::isfinite(*frame.time))
       throw InputError(frame.file + ": its time is not finite; give seconds");
     frames.push_back(std::move(frame));

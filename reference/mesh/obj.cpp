@@ -222,8 +222,10 @@ Contents contents_of(std::string_view text, const std::string& file, Needs needs
   if (text.empty()) reject(file, 1, "the file is empty; give v and f records");
   Contents contents;
   Cursor cursor{text, file};
+  std::string_view first;
   while (cursor.at < text.size()) {
     const std::string_view record = next_word(cursor);
+    if (first.empty()) first = record.substr(0, 40);
     if (record == "v") read_vertex(cursor, contents);
     if (record == "f") read_face(cursor, contents);
     if (record == "vt") read_texture(cursor, contents);
@@ -235,8 +237,9 @@ Contents contents_of(std::string_view text, const std::string& file, Needs needs
     reject(
         file, cursor.line - 1,
         contents.vertices.empty()
-            ? "the file ends without a record v or f; give an OBJ file, or PLY, which begins with "
-              "the line 'ply'"
+            ? "the file ends without a record v or f" +
+                  (first.empty() ? "" : "; its first is " + quote(first)) +
+                  "; give an OBJ file (in small letters), or PLY, which begins with the line 'ply'"
             : "the file ends without a face; give f records");
   return contents;
 }

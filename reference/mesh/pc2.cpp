@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "reference/mesh/mesh_frames.h"
+#include "reference/mesh/mesh_reading.h"
 
 namespace foldproof {
 
@@ -54,8 +55,7 @@ std::vector<MeshFrame> read_pc2_bytes(std::string_view bytes, const std::string&
                     {},
                     {}};
     frame.x = Eigen::Map<const Eigen::Matrix3Xf>(points.data(), 3, header.points).cast<double>();
-    if (!frame.x.allFinite())
-      throw InputError(frame.file + ": a coordinate is not finite; give numbers in m");
+    reject_bad_places(frame.x, frame.file);
     frames.push_back(std::move(frame));
   }
   return frames;

@@ -5,7 +5,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -17,28 +16,10 @@ namespace {
 
 constexpr std::size_t most_parts = 64;  // elements and properties of a header
 
-enum class Type { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
-
-struct TypeName {
-  std::string_view name, other;
-  Type type;
-  std::size_t bytes;
-};
-
-constexpr std::array<TypeName, 8> types = {{{"char", "int8", Type::int8, 1},
-                                            {"uchar", "uint8", Type::uint8, 1},
-                                            {"short", "int16", Type::int16, 2},
-                                            {"ushort", "uint16", Type::uint16, 2},
-                                            {"int", "int32", Type::int32, 4},
-                                            {"uint", "uint32", Type::uint32, 4},
-                                            {"float", "float32", Type::float32, 4},
-                                            {"double", "float64", Type::float64, 8}}};
-
 struct Property {
   std::string_view name;
-  Type type;
-  bool is_list = false;
-  Type count_type = Type::uint8;  // of a list's length
+  const NumberType& type;
+  const NumberType* count_type = nullptr;  // of a list's length; null if it is no list
 };
 
 struct Element {
@@ -97,9 +78,9 @@ std::vector<std::string_view> header_line(Reader& reader) {
   return words_of(line);
 }
 
-Type type_named(const Reader& reader, std::string_view word) {
-  for (const TypeName& row : types)
-    if (word == row.name || word == row.other) return row.type;
+const NumberType& type_named(const Reader& reader, std::string_view word) {
+  for (const NumberType& type : number_types)
+    if (word == type.name || word == type.other) return type;
   reject(reader,
          quote(word) + " is no type; write char, uchar, short, ushort, int, uint, float or double");
 }
@@ -144,10 +125,10 @@ void read_property(Reader& reader, const std::vector<std::string_view>& words, H
   if (words.size() == 3) {
     properties.push_back({words[2], type_named(reader, words[1])});
   } else if (words.size() == 5 && words[1] == "list") {
-    const Type count = type_named(reader, words[2]);
-    if (count == Type::float32 || count == Type::float64)
+    const NumberType& count = type_named(reader, words[2]);
+    if (count.other.starts_with("float"))
       reject(reader, "the length of a list is no whole number; give it an integer type");
-    properties.push_back({words[4], type_named(reader, words[3]), true, count});
+    properties.push_back({words[4], type_named(reader, words[3]), &count});
   } else {
     reject(reader, "a property is written 'property TYPE NAME' or 'property list TYPE TYPE NAME'");
   }
@@ -191,44 +172,15 @@ std::string_view next_word(Reader& reader) {
   return reader.text.substr(start, reader.at - start);
 }
 
-template <class Number>
-double number_at(const char* bytes, bool is_swapped) {
-  std::array<char, sizeof(Number)> copy;
-  std::memcpy(copy.data(), bytes, sizeof(Number));
-  if (is_swapped) std::ranges::reverse(copy);
-  return double(std::bit_cast<Number>(copy));
-}
-
-double binary_number(Reader& reader, Type type) {
+double binary_number(Reader& reader, const NumberType& type) {
   static_assert(std::endian::native == std::endian::little);
-  const std::size_t bytes = types[std::size_t(type)].bytes;
-  if (reader.text.size() - reader.at < bytes)
+  if (reader.text.size() - reader.at < type.bytes)
     reject(reader, "the file ends before its last element; write it anew");
-  const char* from = reader.text.data() + reader.at;
-  reader.at += bytes;
-  const bool is_swapped = reader.form == Form::big_endian;
-  switch (type) {
-    case Type::int8:
-      return number_at<std::int8_t>(from, is_swapped);
-    case Type::uint8:
-      return number_at<std::uint8_t>(from, is_swapped);
-    case Type::int16:
-      return number_at<std::int16_t>(from, is_swapped);
-    case Type::uint16:
-      return number_at<std::uint16_t>(from, is_swapped);
-    case Type::int32:
-      return number_at<std::int32_t>(from, is_swapped);
-    case Type::uint32:
-      return number_at<std::uint32_t>(from, is_swapped);
-    case Type::float32:
-      return number_at<float>(from, is_swapped);
-    case Type::float64:
-      break;
-  }
-  return number_at<double>(from, is_swapped);
+  reader.at += type.bytes;
+  return type.read(reader.text.data() + reader.at - type.bytes, reader.form == Form::big_endian);
 }
 
-double next_number(Reader& reader, Type type) {
+double next_number(Reader& reader, const NumberType& type) {
   if (reader.form != Form::ascii) return binary_number(reader, type);
   const std::string_view word = next_word(reader);
   double value = 0;
@@ -241,7 +193,7 @@ double next_number(Reader& reader, Type type) {
 }
 
 /// A whole number in [0, below), or an InputError that names it.
-std::size_t next_whole(Reader& reader, Type type, std::size_t below, const char* of) {
+std::size_t next_whole(Reader& reader, const NumberType& type, std::size_t below, const char* of) {
   const double value = next_number(reader, type);
   if (!(value >= 0 && value < double(below) && value == std::floor(value)))
     reject(reader,
@@ -251,8 +203,8 @@ std::size_t next_whole(Reader& reader, Type type, std::size_t below, const char*
 
 void skip(Reader& reader, const Property& property) {
   std::size_t count = 1;
-  if (property.is_list)
-    count = next_whole(reader, property.count_type, reader.text.size(), "the length of a list");
+  if (property.count_type)
+    count = next_whole(reader, *property.count_type, reader.text.size(), "the length of a list");
   for (std::size_t k = 0; k < count; ++k) next_number(reader, property.type);
 }
 
@@ -270,7 +222,7 @@ void read_vertices(Reader& reader, const Element& element, TriangleSoup& soup) {
     Vector3 place = Vector3::Constant(std::nan(""));
     for (const Property& property : element.properties) {
       const std::size_t axis = std::string_view("xyz").find(property.name);
-      if (!property.is_list && property.name.size() == 1 && axis < 3)
+      if (!property.count_type && property.name.size() == 1 && axis < 3)
         place[Eigen::Index(axis)] = next_number(reader, property.type);
       else
         skip(reader, property);
@@ -290,7 +242,7 @@ void add_corner(const Reader& reader, double vertex, FaceList& faces) {
 
 void read_polygon(Reader& reader, const Property& property, FaceList& faces) {
   const std::size_t corners =
-      next_whole(reader, property.count_type, reader.text.size(), "the length of a face");
+      next_whole(reader, *property.count_type, reader.text.size(), "the length of a face");
   if (corners == 0) return;
   if (corners < 3) reject(reader, "a face of fewer than three vertices; give at least three");
   for (std::size_t k = 0; k < corners; ++k) {
@@ -303,7 +255,7 @@ void read_polygon(Reader& reader, const Property& property, FaceList& faces) {
 /// Each vertex of a strip makes a triangle with the two before it; every second one is turned.
 void read_strips(Reader& reader, const Property& property, FaceList& faces) {
   const std::size_t count =
-      next_whole(reader, property.count_type, reader.text.size(), "the length of a strip");
+      next_whole(reader, *property.count_type, reader.text.size(), "the length of a strip");
   std::vector<double> strip;
   for (std::size_t k = 0; k < count; ++k) {
     const double vertex = next_number(reader, property.type);
@@ -320,7 +272,8 @@ void read_strips(Reader& reader, const Property& property, FaceList& faces) {
 }
 
 bool has_corners(const Property& property) {
-  return property.is_list && (property.name == "vertex_indices" || property.name == "vertex_index");
+  return property.count_type &&
+         (property.name == "vertex_indices" || property.name == "vertex_index");
 }
 
 /// An element without properties has no data whose end would stop a loop over an untrusted count.
@@ -344,12 +297,9 @@ void require_end(Reader& reader) {
     reject(reader, "data behind the last element; the counts of the header do not fit");
 }
 
-}  // namespace
-
-MeshFile read_ply_text(std::string_view text, const std::string& file, Needs needs) {
-  Reader reader{text, file};
-  const Header header = read_header(reader);
-  reader.form = header.form;
+/// reader: behind the header.
+MeshFile read_data(Reader& reader, const Header& header, Needs needs) {
+  const std::string& file = reader.file;
   MeshFile mesh;
   mesh.time = header.time;
   mesh.soup.origin.file = file;
@@ -363,6 +313,39 @@ MeshFile read_ply_text(std::string_view text, const std::string& file, Needs nee
   if (mesh.soup.rest.cols() == 0) reject(reader, "the file has no vertex; give a mesh or points");
   faces.cut_into(mesh.soup, 0);
   return mesh;
+}
+
+/// The other count of vertices that fits the data, in words; "" if none nearby does.
+std::string fitting_count(const Reader& start, Header header, Needs needs) {
+  const auto vertex = std::ranges::find(header.elements, "vertex", &Element::name);
+  if (vertex == header.elements.end()) return "";
+  const std::size_t count = vertex->count;
+  for (const int more : {-1, 1, -2, 2, -3, 3, -4, 4}) {
+    vertex->count = count + std::size_t(more);
+    Reader reader = start;
+    try {
+      read_data(reader, header, needs);
+      return "the header counts " + std::to_string(count) + " vertices; " +
+             std::to_string(vertex->count) + " fit the file";
+    } catch (const InputError&) {
+    }
+  }
+  return "";
+}
+
+}  // namespace
+
+MeshFile read_ply_text(std::string_view text, const std::string& file, Needs needs) {
+  Reader reader{text, file};
+  const Header header = read_header(reader);
+  reader.form = header.form;
+  const Reader start = reader;
+  try {
+    return read_data(reader, header, needs);
+  } catch (const InputError& error) {
+    const std::string why = fitting_count(start, header, needs);
+    throw InputError(error.what() + (why.empty() ? "" : "; " + why));
+  }
 }
 
 }  // namespace foldproof

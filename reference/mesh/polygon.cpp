@@ -75,6 +75,20 @@ bool is_fan(const std::vector<Vector2>& p) {
   return true;
 }
 
+/// A fan of so many triangles meets itself in boxes, as pairs do: of a convex polygon every second
+/// corner is cut off instead, and again. Empty if one of these triangles has no area.
+std::vector<Triangle> halving_cut(std::span<const int> corners, const std::vector<Vector2>& p) {
+  std::vector<Triangle> triangles;
+  for (size_t step = 1; step < p.size(); step *= 2)
+    for (size_t a = 0; a + step < p.size(); a += 2 * step) {
+      const size_t b = a + step, c = a + 2 * step < p.size() ? a + 2 * step : 0;
+      if (c == 0 && a == 0) continue;  // the side between them closes the polygon
+      if (!(quality(p[a], p[b], p[c]) > least_area)) return {};
+      triangles.push_back({corners[a], corners[b], corners[c]});
+    }
+  return triangles;
+}
+
 bool crosses_itself(const std::vector<Vector2>& p) {
   const size_t n = p.size();
   const auto parts = [&](size_t i, size_t j) {  // side i has the ends of side j on both its sides
@@ -129,7 +143,11 @@ std::vector<Triangle> triangles_of_polygon(std::span<const int> corners, const P
   if (kept.size() < 3) return fan_of(corners);
   const std::vector<Vector2> shadow = shadow_of(kept, x);
   if (shadow.empty()) return are_in_line(kept, x) ? fan_of(corners) : std::vector<Triangle>();
-  if (is_fan(shadow)) return fan_of(kept);
+  if (is_fan(shadow)) {
+    const bool is_large = int(kept.size()) > most_concave_corners;
+    std::vector<Triangle> cut = is_large ? halving_cut(kept, shadow) : std::vector<Triangle>();
+    return cut.empty() ? fan_of(kept) : cut;
+  }
   if (int(kept.size()) > most_concave_corners || crosses_itself(shadow)) return {};
   return best_cut(kept, shadow);
 }

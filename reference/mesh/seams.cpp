@@ -68,7 +68,7 @@ TriangleSoup close_seams(TriangleSoup panels, double distance) {
     throw InputError(mesh_location(panels.origin) + "seams need a distance > 0 m");
   const int count = int(panels.rest.cols());
   Kept kept(panels.rest, distance);
-  std::vector<int> becomes, lines, left;
+  std::vector<int> becomes, lines, left, numbers;
   std::vector<int> number(panels.rest.cols());  // of a vertex that stays
   for (int v = 0; v < count; ++v) {
     if (!panels.rest.col(v).allFinite())
@@ -81,6 +81,7 @@ TriangleSoup close_seams(TriangleSoup panels, double distance) {
     number[size_t(v)] = int(left.size());
     left.push_back(v);
     if (!panels.origin.vertex_lines.empty()) lines.push_back(panels.origin.vertex_lines[size_t(v)]);
+    numbers.push_back(number_of(panels.origin, v));
   }
   reject_lost_side(panels, becomes);
   for (Triangle& triangle : panels.triangles)
@@ -88,10 +89,23 @@ TriangleSoup close_seams(TriangleSoup panels, double distance) {
   const PerParticle3 rest = panels.rest(Eigen::all, left);
   panels.rest = rest;
   panels.origin.vertex_lines = std::move(lines);
+  panels.origin.vertex_numbers = std::move(numbers);
   return panels;
 }
 
-std::string open_seams_in_words(const TriangleMesh& mesh) {
+void close_seams_in_motion(std::vector<PerParticle3>& frames, std::vector<Triangle>& triangles,
+                           double distance, const std::string& file) {
+  TriangleSoup sewn = close_seams({frames.front(), triangles, {file, {}, {}}}, distance);
+  triangles = std::move(sewn.triangles);
+  for (PerParticle3& x : frames) {
+    PerParticle3 kept(3, sewn.rest.cols());
+    for (Eigen::Index v = 0; v < kept.cols(); ++v)
+      kept.col(v) = x.col(sewn.origin.vertex_numbers[size_t(v)] - 1);
+    x = std::move(kept);
+  }
+}
+
+std::string open_seams_in_words(const TriangleMesh& mesh, const std::string& table) {
   const double distance = 1e-6 * bounds_of(mesh.rest).sizes().maxCoeff();
   std::set<int> border;
   for (const Edge& edge : mesh.edges)
@@ -105,11 +119,11 @@ std::string open_seams_in_words(const TriangleMesh& mesh) {
       kept.add(v);
   if (coincident == 0) return "";
   char words[200];
-  std::snprintf(
-      words, sizeof words,
-      "at %d places vertices coincide, so the cloth is cut there; seams = %.1g of [cloth], "
-      "or --seams %.1g, sews it",
-      coincident, distance, distance);
+  std::snprintf(words, sizeof words,
+                "at %d places vertices coincide, so the %s is cut there; seams = %.1g of %s, "
+                "or --seams %.1g, sews it",
+                coincident, table == "[cloth]" ? "cloth" : "body", distance, table.c_str(),
+                distance);
   return words;
 }
 

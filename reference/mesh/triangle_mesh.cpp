@@ -85,20 +85,8 @@ void reject_unused_vertices(int particles, const std::vector<Triangle>& triangle
   const int first = int(std::find(used.begin(), used.end(), 0) - used.begin());
   throw InputError(vertex_location(origin, first) + "in no triangle, the first of " +
                    std::to_string(unused) +
-                   " unused vertices (they would have no mass); remove them");
-}
-
-/// True when the area exceeds 1e-12 of the longest side squared. Independent of scale: the sides
-/// are divided by their largest component first, so that squares neither overflow nor vanish.
-bool has_area(const PerParticle3& rest, const Triangle& triangle) {
-  Vector3 side1 = rest.col(triangle[1]) - rest.col(triangle[0]);
-  Vector3 side2 = rest.col(triangle[2]) - rest.col(triangle[0]);
-  const double scale = std::max(side1.cwiseAbs().maxCoeff(), side2.cwiseAbs().maxCoeff());
-  side1 /= scale;
-  side2 /= scale;
-  const double longest_squared =
-      std::max({side1.squaredNorm(), side2.squaredNorm(), (side2 - side1).squaredNorm()});
-  return 0.5 * side1.cross(side2).norm() > 1e-12 * longest_squared;
+                   " unused vertices (they would have no mass); remove them, or, if they coincide "
+                   "with others, join these by seams of [cloth], or --seams");
 }
 
 void reject_zero_areas(const PerParticle3& rest, const std::vector<Triangle>& triangles,
@@ -152,9 +140,21 @@ SideLists list_sides(int particles, const std::vector<Triangle>& triangles) {
                    " the same way; reverse the order of one triangle's vertices");
 }
 
+/// Triangles at one edge whose third corners are the same, too.
+void reject_repeated_triangle(const Side* first, int count, const MeshOrigin& origin,
+                              const TriangleMesh& mesh) {
+  for (int i = 1; i < std::min(count, 3); ++i)
+    for (int k = 0; k < i; ++k)
+      if (opposite(mesh.triangles, first[i].half) == opposite(mesh.triangles, first[k].half))
+        throw InputError(triangle_location(origin, first[i].half / 3) +
+                         "a face given twice: it has the same three corners as " +
+                         triangle_name(origin, first[k].half / 3) + "; remove one");
+}
+
 /// Appends the edge from a that is common to the `count` sides at `first`, and its hinge if it has
 /// two triangles.
 void add_edge(int a, const Side* first, int count, const MeshOrigin& origin, TriangleMesh& mesh) {
+  reject_repeated_triangle(first, count, origin, mesh);
   if (count > 2) reject_third_triangle(a, first, origin);
   if (count == 1) {
     mesh.edges.push_back({a, first->b, {first->half / 3, -1}});
@@ -249,6 +249,19 @@ TriangleMesh make_triangle_mesh(PerParticle3 rest, std::vector<Triangle> triangl
   TriangleMesh mesh = make_mesh_of_fans(std::move(rest), std::move(triangles), origin);
   reject_several_fans(mesh, origin);
   return mesh;
+}
+
+// Independent of scale: the sides are divided by their largest component first, so that squares
+// neither overflow nor vanish.
+bool has_area(const PerParticle3& rest, const Triangle& triangle) {
+  Vector3 side1 = rest.col(triangle[1]) - rest.col(triangle[0]);
+  Vector3 side2 = rest.col(triangle[2]) - rest.col(triangle[0]);
+  const double scale = std::max(side1.cwiseAbs().maxCoeff(), side2.cwiseAbs().maxCoeff());
+  side1 /= scale;
+  side2 /= scale;
+  const double longest_squared =
+      std::max({side1.squaredNorm(), side2.squaredNorm(), (side2 - side1).squaredNorm()});
+  return 0.5 * side1.cross(side2).norm() > 1e-12 * longest_squared;
 }
 
 Eigen::VectorXd triangle_areas(const std::vector<Triangle>& triangles, const PerParticle3& x) {

@@ -55,8 +55,8 @@ struct MeshOrigin {
 /// Finds edges and hinges of the triangles over the N rest positions (3 x N [m]).
 /// Refuses anything but an oriented manifold with boundary; the InputError names origin's file and
 /// line, and the reason: no triangles, indices out of range, NaN or infinite coordinates, unused
-/// vertices, zero-area triangles, edges with three triangles or more, two neighbours of opposite
-/// orientation, a vertex whose triangles do not form one fan.
+/// vertices, zero-area triangles, two of the same three corners, edges with three triangles or more,
+/// two neighbours of opposite orientation, a vertex whose triangles do not form one fan.
 TriangleMesh make_triangle_mesh(PerParticle3 rest, std::vector<Triangle> triangles,
                                 const MeshOrigin& origin = {});
 
@@ -68,6 +68,9 @@ TriangleMesh make_mesh_of_fans(PerParticle3 rest, std::vector<Triangle> triangle
 /// their triangles share an edge there, directly or through others: for each corner (3 M) the first
 /// one of its fan.
 std::vector<int> fans_of(const TriangleMesh& mesh);
+
+/// Whether the triangle's area at x exceeds 1e-12 of its longest side squared, in any unit.
+bool has_area(const PerParticle3& x, const Triangle& triangle);
 
 /// Area of each triangle at the positions x (3 x N [m]); M values [m^2].
 Eigen::VectorXd triangle_areas(const std::vector<Triangle>& triangles, const PerParticle3& x);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "reference/mesh/mesh_frames.h"
+#include "reference/mesh/mesh_reading.h"
 #include "reference/mesh/polygon.h"
 
 namespace foldproof {
@@ -203,6 +204,7 @@ std::vector<MeshFrame> read_usda_text(std::string_view text, const std::string& 
     const std::string name = file + " sample " + std::to_string(frames.size());
     if (points.empty() || points.size() % 3 != 0) reject(name, "no points of three coordinates");
     const PerParticle3 x = points_of(points, metres, is_z_up);
+    reject_bad_places(x, name);
     if (frames.empty())
       triangles = faces_of(values, x, file);
     else if (x.cols() != frames.front().x.cols())

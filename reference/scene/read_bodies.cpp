@@ -7,6 +7,7 @@
 #include "reference/bodies/body_deformation.h"
 #include "reference/bodies/closed_mesh.h"
 #include "reference/mesh/mesh_file.h"
+#include "reference/mesh/seams.h"
 #include "reference/mesh/shapes.h"
 #include "reference/scene/key_values.h"
 #include "reference/scene/read_cloth_mesh.h"
@@ -27,6 +28,7 @@ TriangleSoup read_soup(const KeyTable& keys, const CaseContext& context, double&
                      ": a body that deforms needs a mesh: shape = \"statue\", 'mesh' or 'frames'");
   if (keys.has("mesh")) {
     soup = without_unused_vertices(read_mesh_file(mesh_file(keys, context.folder, "object")).soup);
+    if (keys.has("seams")) soup = close_seams(std::move(soup), positive(keys, "seams"));
   } else {
     const int subdivisions = int(count_or(keys, "subdivisions", 4));
     reject_many_triangles(keys, "subdivisions", std::ldexp(20.0, 2 * subdivisions), context.limits);
@@ -68,10 +70,11 @@ void reject_open_frame(const MeshSequence& animation, size_t k, const std::strin
   try {
     make_closed_mesh({animation.positions[k], animation.triangles, {}});
   } catch (const InputError& error) {
-    const std::string message = error.what();
+    std::string message = error.what();
+    if (!message.ends_with("sews it"))
+      message = message.substr(0, message.rfind(';')) + "; " + remedy;
     throw InputError(where + ": frame " + std::to_string(k) + " (" +
-                     std::to_string(animation.times[k]) +
-                     " s): " + message.substr(0, message.rfind(';')) + "; " + remedy);
+                     std::to_string(animation.times[k]) + " s): " + message);
   }
 }
 
@@ -105,6 +108,8 @@ MeshSequence read_frames(const KeyTable& keys, const CaseContext& context, Repai
                               read_triangles(keys, context), long(context.limits.frames),
                               repair == Repair::winding ? Inside::winding : Inside::normals};
   MeshSequence animation = with_error_location(where, [&] { return read_mesh_sequence(source); });
+  if (keys.has("seams"))
+    close_seams_in_motion(animation.positions, animation.triangles, positive(keys, "seams"), path);
   scale = fit_factor(keys, animation.positions.front());
   for (PerParticle3& x : animation.positions) x *= scale;
   if (repair == Repair::winding)

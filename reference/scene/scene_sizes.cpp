@@ -3,11 +3,13 @@
 #include <cmath>
 #include <sstream>
 
+#include "reference/bodies/closed_mesh.h"
 #include "reference/dynamics/integrator.h"
 #include "reference/forces/degenerate.h"
 #include "reference/mesh/box_tree.h"
 #include "reference/mesh/pattern.h"
 #include "reference/mesh/seams.h"
+#include "reference/mesh/self_intersection.h"
 
 namespace foldproof {
 
@@ -56,6 +58,8 @@ void warn_of_bodies(const std::string& where, Scene& scene) {
 std::string sizes_in_words(const Scene& scene) {
   std::string words = "cloth " + extent_of(scene.x) + ", " + digits(rest_areas(scene.mesh).sum()) +
                       " m^2, " + digits(masses_of(scene).sum()) + " kg";
+  if (const int pieces = count_of_pieces(scene.mesh); pieces > 1)
+    words += ", in " + std::to_string(pieces) + " pieces";
   for (const SceneObject& part : scene.objects)
     if (part.field && part.vertices.cols() > 0)
       words += "; object '" + part.object.name + "' " + extent_of(part.vertices);
@@ -119,6 +123,22 @@ void warn_of_sizes(const KeyTable& cloth, Scene& scene) {
   if (!cloth.has("mesh") || cloth.has("seams")) return;
   if (const std::string words = open_seams_in_words(scene.mesh); !words.empty())
     scene.warnings.push_back(where + ": " + words);
+}
+
+std::string warning_of_start(const Scene& scene, const State& s) {
+  const std::vector<Triangle>& triangles = scene.mesh.triangles;
+  const auto flat = std::ranges::count_if(
+      triangles, [&](const Triangle& triangle) { return !has_area(s.x, triangle); });
+  if (flat > 0)
+    return std::to_string(flat) +
+           " triangles of the cloth have no area at the start, so that the "
+           "forces of their springs and hinges have no direction; change its places at the start";
+  if (scene.self_collision || !open_seams_in_words(scene.mesh).empty()) return "";
+  const size_t pairs = self_intersections(s.x, triangles).size();
+  if (pairs == 0) return "";
+  return "the cloth crosses itself at the start, in " + std::to_string(pairs) +
+         " pairs of triangles, and nothing parts them; move its layers apart, or give "
+         "[self_collision]";
 }
 
 std::string warning_of_step(const Scene& scene, const System& system, const State& s) {

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "reference/bodies/closed_mesh.h"
 #include "reference/dynamics/system.h"
 #include "reference/mesh/box_tree.h"
 #include "reference/mesh/rigidity_map.h"
@@ -36,6 +37,7 @@ struct ClothInspection {
   bool is_flat = false;
   Vector3 size = Vector3::Zero();  // m
   double area = 0;                 // m^2
+  int pieces = 1;                  // connected by edges
   std::string open_seams = {};     // in words
   // D/ke, B/ke of a narrow strip, and Young's modulus over Y, every 15 degrees from x; flat meshes
   // only [1]
@@ -84,6 +86,7 @@ ClothInspection inspect_as_cloth(const TriangleMesh& mesh) {
   ClothInspection found{mesh.particles(), int(mesh.triangles.size())};
   found.size = bounds_of(mesh.rest).sizes();
   found.area = triangle_areas(mesh.triangles, mesh.rest).sum();
+  found.pieces = count_of_pieces(mesh);
   found.open_seams = open_seams_in_words(mesh);
   RestPlane plane;
   found.is_flat = is_flat(mesh, plane);
@@ -123,6 +126,7 @@ void print(const std::string& file, const TriangleMesh& mesh, const ClothInspect
              found.triangles, found.is_flat ? "flat" : "not flat");
   fmt::print("size {:.3g} x {:.3g} x {:.3g} m, area {:.4g} m^2\n", found.size.x(), found.size.y(),
              found.size.z(), found.area);
+  if (found.pieces > 1) fmt::print("the cloth is in {} pieces\n", found.pieces);
   if (!found.open_seams.empty()) fmt::print("{}\n", found.open_seams);
   if (!found.by_direction.empty()) {
     fmt::print("rigidity D/ke by direction from x: {:.4g} to {:.4g}, ratio {}\n", found.least,
@@ -169,6 +173,7 @@ nlohmann::json to_json(const std::string& file, const ClothInspection& found) {
           {"modulus_every_15_degrees", found.moduli},
           {"size", {found.size.x(), found.size.y(), found.size.z()}},
           {"area", found.area},
+          {"pieces", found.pieces},
           {"open_seams", found.open_seams},
           {"median_anisotropy", found.median_anisotropy},
           {"most_anisotropic", places},

@@ -146,6 +146,8 @@ int simulate_case(const Options& options) {
   const BuiltCase of = built_with_notice(std::move(input_case), options);
   const Scene& scene = of.input_case.scene;
   log_warnings(scene);
+  if (const std::string text = warning_of_start(scene, of.built.start); !text.empty())
+    log_line("warning: " + text);
   warn_of_step(scene, of.built.system, of.built.start);
   log_line(fmt::format("{}: {}", scene.name, sizes_in_words(scene)));
   log_line(

@@ -110,6 +110,23 @@ class Compare(ProgramCase):
         self.assertEqual(told["matching"], "by nearest points")
         self.assertIsNone(told["frames"][0]["frame"]["stretch"])
 
+    def test_frames_like_a_file_keep_its_records_and_sewn_frames_match(self) -> None:
+        places = ["0 0 0", "1 0 0", "2 0 0", "0 1 0", "1 1 0", "1 0 0", "2 1 0", "1 1 0"]
+        vertices = [f"v {place}" for place in places]
+        records = ["vt 0 1", "g left", "f 1/1 2/1 5/1 4/1", "g right", "f 6//1 3/1/1 -2 -1 # e"]
+        self.write("two.obj", "\n".join(vertices + records))
+        case = ('[cloth]\nmesh = "two.obj"\nseams = 1e-6\ndensity = 1\nmove = [0, 0, 0.5]\n'
+                "[stretch]\nstiffness = 1\n[time]\nend = 0.1\n")
+        self.assert_holds(self.simulate(self.write("two.toml", case)))
+        stored, like = str(self.path / "out/two.h5"), str(self.path / "two.obj")
+        self.assert_holds(run("export", stored, "--format", "obj", "--like", like, "--out",
+                              self.path / "like"))
+        lines = (self.path / "like/two.0000.obj").read_text(encoding="utf-8").split("\n")
+        self.assertEqual(lines, [f"{vertex[:-1]}0.5" for vertex in vertices] + records[:4]
+                         + ["f 6 3/1 -2 -1", ""])
+        told = self.told("compare", stored, str(self.path / "like"), codes=(0,))
+        self.assertEqual((told["matching"], told["frames"][-1]["rms"]), ("vertex by vertex", 0))
+
     def test_the_result_is_a_study_that_the_report_shows(self) -> None:
         self.compare(str(self.path / "ply"), "--out", str(self.path / "result"))
         with h5py.File(self.path / "result/run.h5") as file:

@@ -68,14 +68,6 @@ class DamagedFiles(FileTest):
         project = ["project", hurt, "--map", "plain", "--tau", "0.01", "--out", self.out]
         self.trials(self.store_small_run(), Path(hurt), self.TRIALS, ["crossings", hurt], project)
 
-    def test_frames_that_are_compared(self) -> None:
-        stored, frames = str(self.store_small_run()), self.path / "frames"
-        whole = self.path / "whole"
-        self.assert_holds(run("export", stored, "--format", "ply", "--out", whole))
-        frames.mkdir()
-        self.trials(whole / "small.0001.ply", frames / "small.0001.ply", self.TRIALS,
-                    ["compare", stored, str(frames)])
-
     def test_runs_and_cases_in_reports(self) -> None:
         first = self.store_small_run().parent
         self.assert_holds(run("check", "bending.forces-sum-to-zero", "--out", first))

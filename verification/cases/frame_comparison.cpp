@@ -7,6 +7,8 @@
 
 #include "reference/level_set/mesh_distance.h"
 #include "reference/level_set/object.h"
+#include "reference/mesh/box_tree.h"
+#include "reference/mesh/seams.h"
 #include "verification/oracles/exact_crossings.h"
 
 namespace foldproof {
@@ -34,6 +36,23 @@ std::string first_other_triangle(const std::vector<Triangle>& triangles,
                        is_reversed ? "one of the case's turned over" : "none of the case's");
   }
   return "";
+}
+
+/// ", of them 2 in no triangle" and the like: where other vertices than the case's may come from.
+std::string vertices_to_spare(const TimedMesh& frame) {
+  const TriangleSoup used = without_unused_vertices({frame.x, frame.triangles, {}});
+  std::string words;
+  if (const auto unused = frame.x.cols() - used.rest.cols(); unused > 0)
+    words += fmt::format(", of them {} in no triangle", unused);
+  const double near = 1e-6 * bounds_of(used.rest).sizes().maxCoeff();
+  if (!(near > 0)) return words;
+  const auto joined = used.rest.cols() - close_seams({used.rest, {}, {}}, near).rest.cols();
+  if (joined > 0)
+    words += fmt::format(
+        ", of them {} that coincide with others, as at UV seams (seams = {:.1g} "
+        "joins them)",
+        joined, near);
+  return words;
 }
 
 /// A third of each adjacent triangle's area [m^2].
@@ -157,8 +176,8 @@ std::string mesh_difference(const TriangleMesh& cloth, std::span<const TimedMesh
       return fmt::format("{} has {} points without faces, the case {} vertices", frame.file,
                          frame.x.cols(), cloth.rest.cols());
     if (frame.x.cols() != cloth.rest.cols())
-      return fmt::format("{} has {} vertices, the case {}", frame.file, frame.x.cols(),
-                         cloth.rest.cols());
+      return fmt::format("{} has {} vertices{}, the case {}", frame.file, frame.x.cols(),
+                         vertices_to_spare(frame), cloth.rest.cols());
     if (const std::string other = first_other_triangle(frame.triangles, faces); !other.empty())
       return fmt::format("{}: vertex order cannot match, {}", frame.file, other);
     if (sorted_faces(frame.triangles) != faces)

@@ -48,6 +48,22 @@ PerParticle3 sewn(const TimedMesh& frame, const std::vector<int>& particles, Eig
   return x;
 }
 
+/// Takes the vertices that no triangle uses out of frames with more than `wanted`; in words.
+std::string left_out(std::vector<TimedMesh>& frames, Eigen::Index wanted) {
+  std::string words;
+  for (TimedMesh& frame : frames) {
+    if (frame.triangles.empty() || frame.x.cols() == wanted) continue;
+    TriangleSoup used = without_unused_vertices({frame.x, frame.triangles, {}});
+    const Eigen::Index unused = frame.x.cols() - used.rest.cols();
+    if (unused > 0 && words.empty())
+      words =
+          fmt::format("{}: {} unused vertices, in no triangle, are left out", frame.file, unused);
+    frame.x = std::move(used.rest);
+    frame.triangles = std::move(used.triangles);
+  }
+  return words;
+}
+
 bool is_unsewn(const Scene& scene, const std::vector<TimedMesh>& frames) {
   const Eigen::Index vertices = scene.unsewn.vertices;
   return vertices != scene.x.cols() && has_faces(vertices, scene.unsewn.triangles, frames);
@@ -64,7 +80,10 @@ CaseFrames frames_of_case(const Scene& scene, std::vector<TimedMesh> frames) {
     else if (!particles.empty() && frame.x.cols() == scene.unsewn.vertices)
       frame.triangles = scene.unsewn.triangles;
   }
-  if (particles.empty() || !is_unsewn(scene, frames)) return {std::move(frames), ""};
+  if (particles.empty() || !is_unsewn(scene, frames)) {
+    std::string words = left_out(frames, scene.x.cols());
+    return {std::move(frames), std::move(words)};
+  }
   std::vector<TimedMesh> all;
   double widest = 0;  // m
   for (const TimedMesh& frame : frames) {

@@ -139,7 +139,8 @@ Box box_of(const PerParticle3& x, const Corners& t) {
   return {a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
 }
 
-/// Boxes sorted by their start along an axis, and the farthest end of each and the ones before it.
+/// Boxes sorted by their start along an axis: a tree whose root is the middle one, with the
+/// farthest end in each part of it.
 class Sweep {
  public:
   Sweep(std::vector<Box> boxes, int axis)
@@ -147,22 +148,35 @@ class Sweep {
     std::iota(order_.begin(), order_.end(), 0);
     std::sort(order_.begin(), order_.end(),
               [&](int i, int k) { return begin_of(i) < begin_of(k); });
-    double farthest = -std::numeric_limits<double>::infinity();
-    for (const int i : order_)
-      farthest_.push_back(farthest = std::max(farthest, boxes_[std::size_t(i)].high[axis_]));
+    farthest_.resize(order_.size());
+    find_farthest(0, order_.size());
   }
 
   /// Calls visit(i) for every box i that meets the given one.
   template <class Visit>
   void meeting(const Box& box, const Visit& visit) const {
-    const auto first =
-        std::lower_bound(farthest_.begin(), farthest_.end(), box.low[axis_]) - farthest_.begin();
-    for (std::size_t k = std::size_t(first);
-         k < order_.size() && begin_of(order_[k]) <= box.high[axis_]; ++k)
-      if (boxes_meet(boxes_[std::size_t(order_[k])], box)) visit(order_[k]);
+    meeting_in(0, order_.size(), box, visit);
   }
 
  private:
+  double find_farthest(std::size_t first, std::size_t end) {
+    if (first == end) return -std::numeric_limits<double>::infinity();
+    const std::size_t middle = first + (end - first) / 2;
+    return farthest_[middle] =
+               std::max({boxes_[std::size_t(order_[middle])].high[axis_],
+                         find_farthest(first, middle), find_farthest(middle + 1, end)});
+  }
+
+  template <class Visit>
+  void meeting_in(std::size_t first, std::size_t end, const Box& box, const Visit& visit) const {
+    const std::size_t middle = first + (end - first) / 2;
+    if (first == end || farthest_[middle] < box.low[axis_]) return;
+    meeting_in(first, middle, box, visit);
+    if (begin_of(order_[middle]) > box.high[axis_]) return;
+    if (boxes_meet(boxes_[std::size_t(order_[middle])], box)) visit(order_[middle]);
+    meeting_in(middle + 1, end, box, visit);
+  }
+
   double begin_of(int i) const { return boxes_[std::size_t(i)].low[axis_]; }
 
   std::vector<Box> boxes_;

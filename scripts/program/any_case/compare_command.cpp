@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scripts/program/command_line/options_of_commands.h"
+#include "reference/mesh/seams.h"
 #include "scripts/program/command_line/input_files.h"
 #include "scripts/program/command_line/out_folder.h"
 #include "scripts/program/frame_files.h"
@@ -22,12 +23,17 @@ namespace foldproof {
 
 namespace {
 
+struct CompareOptions : Options {
+  double seams = 0;  // distance within which vertices of frames are joined [m]; 0: none
+};
+
 struct Comparison {
   std::string name;  // of the run's case
   Matching matching = Matching::particles;
   std::vector<FrameComparison> frames;
-  std::size_t left_out = 0;  // frames before the run's first or after its last
-  std::string seams = {};    // as CaseFrames::seams
+  std::size_t left_out = 0;     // frames before the run's first or after its last
+  std::string seams = {};       // as CaseFrames::seams
+  std::string difference = {};  // of the meshes, in words
 };
 
 /// The run's state at t, which lies between its first and its last frame [s].
@@ -50,14 +56,27 @@ std::vector<TimedMesh> frames_of_run(const Options& options) {
   return frames;
 }
 
-CaseFrames read_other(const Options& options, const Scene& scene) {
+/// Joins the vertices that are near in the first frame, in all that have its mesh.
+void sew(std::vector<TimedMesh>& frames, double distance) {
+  const TimedMesh first = frames.front();
+  for (TimedMesh& frame : frames) {
+    if (frame.triangles.empty()) continue;
+    const bool is_same = frame.triangles == first.triangles && frame.x.cols() == first.x.cols();
+    std::vector<PerParticle3> motion{is_same ? first.x : frame.x, std::move(frame.x)};
+    close_seams_in_motion(motion, frame.triangles, distance, frame.file);
+    frame.x = std::move(motion.back());
+  }
+}
+
+CaseFrames read_other(const CompareOptions& options, const Scene& scene) {
   if (std::filesystem::path(options.frames).extension() == run_kind.ending) {
     require_input(options.frames, run_kind);
     return {frames_of_run(options), ""};
   }
-  return frames_of_case(
-      scene,
-      read_frames(options.frames, {options.times, options.rate, options.first_time}, scene.name));
+  std::vector<TimedMesh> frames =
+      read_frames(options.frames, {options.times, options.rate, options.first_time}, scene.name);
+  if (options.seams > 0) sew(frames, options.seams);
+  return frames_of_case(scene, std::move(frames));
 }
 
 /// Takes out the frames outside of the run; times that round to its ends count.
@@ -73,7 +92,7 @@ std::size_t leave_out(const StoredRun& run, std::vector<TimedMesh>& frames) {
   return left_out;
 }
 
-Comparison compared(const Options& options) {
+Comparison compared(const CompareOptions& options) {
   const StoredRun run = read_stored_run(options.file);
   if (run.times.empty()) throw InputError(options.file + ": holds no frame");
   CaseFrames other = read_other(options, run.scene);
@@ -81,6 +100,7 @@ Comparison compared(const Options& options) {
   Comparison comparison{
       run.scene.name, Matching::particles, {}, leave_out(run, frames), other.seams};
   comparison.matching = matching_of(run.scene.mesh, frames);
+  comparison.difference = mesh_difference(run.scene.mesh, frames);
   const BuiltScene built =
       build(run.scene, provider_for(options.cache, threads_of(options.running)));
   for (const TimedMesh& frame : frames) {
@@ -102,7 +122,7 @@ std::string in_words(const Comparison& c) {
     words += fmt::format("; {} frame{} outside of the run's time left out", c.left_out,
                          c.left_out == 1 ? "" : "s");
   if (c.matching == Matching::surface)
-    words += "; another mesh than the run's, so its energies are not known";
+    words += "; another mesh than the run's, so its energies are not known: " + c.difference;
   if (c.matching == Matching::points)
     words += "; points have no surface, so what of the run they leave out is not measured";
   if (!c.seams.empty()) words += "; " + c.seams;
@@ -141,6 +161,8 @@ nlohmann::json to_json(const Comparison& c) {
   nlohmann::json told = {{"case", c.name},
                          {"matching", name_of(c.matching)},
                          {"left_out", c.left_out},
+                         {"difference", c.difference},
+                         {"seams", c.seams},
                          {"fold_bands", nlohmann::json::array()},
                          {"frames", nlohmann::json::array()}};
   for (std::size_t b = 0; b <= fold_band_ends.size(); ++b)
@@ -176,7 +198,7 @@ void write_result(const Comparison& c, const Options& options) {
 
 }  // namespace
 
-int compare_frames(const Options& options) {
+int compare_frames(const CompareOptions& options) {
   require_input(options.file, run_kind);
   const OutFolder folder(options.out);
   const Comparison comparison = compared(options);
@@ -220,6 +242,7 @@ void add_compare_command(CLI::App& app, Program& program) {
   add_input(compare, "FRAMES", options.frames,
             "Folder of OBJ or PLY files, one a frame [m]; a cache; or another run");
   add_frame_times(compare, options);
+  add_seams(compare, options.seams);
   add_cache(compare, options);
   add_out_if_typed(compare, options, "Also write run.h5 into this folder, for `foldproof report`");
   add_json(compare, options);

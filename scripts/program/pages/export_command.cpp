@@ -1,4 +1,5 @@
 // foldproof export: the frames of a stored run as files for other programs.
+#include "reference/types.h"
 #include "scripts/program/command_line/input_files.h"
 #include "scripts/program/command_line/options_of_commands.h"
 #include "scripts/program/command_line/out_folder.h"
@@ -10,13 +11,19 @@ namespace {
 
 struct ExportOptions : Options {
   std::string format;  // obj, ply, pc2, npz, usda or xdmf
+  std::string like;    // an OBJ file of the cloth; "": none
 };
 
 int export_frames(const ExportOptions& options) {
   require_input(options.file, run_kind);
+  if (!options.like.empty()) {
+    if (options.format != "obj") throw InputError("--like needs --format obj");
+    require_input(options.like, mesh_kind);
+  }
   const OutFolder folder(options.out);
-  return run_report_script("files", "export.py",
-                           {options.file, "--format", options.format, "--out", options.out});
+  std::vector<std::string> words{options.file, "--format", options.format, "--out", options.out};
+  add_option(words, "--like", options.like);
+  return run_report_script("files", "export.py", words);
 }
 
 constexpr const char* below_export =
@@ -45,6 +52,10 @@ void add_export_command(CLI::App& app, Program& program) {
       ->type_name("FORMAT")
       ->check(one_of({"obj", "ply", "pc2", "npz", "usda", "xdmf"}))
       ->required();
+  files
+      ->add_option("--like", options.like,
+                   "OBJ file of the run's cloth: keeps its numbering, groups, polygons and vt")
+      ->type_name("FILE.obj");
   add_folder(files, options, "Folder for the files")->required();
 }
 

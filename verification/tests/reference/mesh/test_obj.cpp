@@ -162,12 +162,3 @@ TEST_CASE("an OBJ file is written with 17 digits, indices from 1, and read back 
   CHECK_THROWS_WITH(write_obj(folder.file("no/folder"), x, {{0, 1, 2}}),
                     Catch::Contains("no/folder: cannot be written"));
 }
-
-TEST_CASE("lines of a mesh may end with CR alone; UTF-16 and other bytes are named") {
-  std::string text = "# drawn\n" + four + "f 1 2 3 4\n", wide = "\xFF\xFE";
-  for (const char c : text) wide += std::string{c, '\0'};
-  CHECK(said_of(wide) == ":1: the file is in UTF-16; save it as UTF-8");
-  CHECK(said_of(wide.substr(2)).starts_with(":1: holds zero bytes"));
-  std::ranges::replace(text, '\n', '\r');
-  CHECK(triangles_of(text).size() == 2);
-}

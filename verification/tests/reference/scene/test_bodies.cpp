@@ -166,3 +166,18 @@ TEST_CASE("how 'fit' scales is noted, and warned of where meshes of --set come a
   CHECK(unset.notes.empty());
   CHECK(unset.objects[0].vertices.row(1).maxCoeff() == 3);
 }
+
+TEST_CASE("bodies and frames whose faces are each apart name the key that sews them", "[scene]") {
+  const Bodies bodies;
+  const std::string v[] = {"v 0 1 5\n", "v 1 1 5\n", "v 0 1 5.5\n", "v 0.25 3 5\n"};
+  std::string soup;
+  for (const auto& [a, b, c] : {Triangle{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}})
+    soup += v[a] + v[b] + v[c] + "f -3 -2 -1\n";
+  bodies.folder.write("body.obj", soup);
+  for (const char* file : {"frames/0.obj", "frames/1.obj"}) bodies.folder.write(file, soup);
+  for (const std::string& keys : {body, frames}) {
+    CHECK_THAT(bodies.refusal(keys), Contains("at 8 places vertices coincide") &&
+                                         Contains("seams = 2e-06 of [[object]]"));
+    CHECK(bodies.object(keys + "seams = 1e-6\n").vertices.cols() == 4);
+  }
+}
