@@ -56,13 +56,12 @@ class Quarter {
     const Hessian hessian(build_system(scene_), freedoms);
     const double scale = sheet_.young * strain * edge_;  // N
     return settle(SheetSettling{probe_, hessian, freedoms, Eigen::VectorXd::Zero(freedoms.count),
-                   Eigen::VectorXd::Constant(freedoms.count, scale), 1e-9, edge_ / 4},
+                                Eigen::VectorXd::Constant(freedoms.count, scale), 1e-9, edge_ / 4},
                   std::move(x));
   }
 
   SparseMatrix stiffness(const Freedoms& freedoms, const PerParticle3& x) const {
-    return Hessian(build_system(scene_), freedoms)
-        .at(resting_state(x), Definiteness::exact, 0);
+    return Hessian(build_system(scene_), freedoms).at(resting_state(x), Definiteness::exact, 0);
   }
 
   /// Pull on the clamp over half the width.

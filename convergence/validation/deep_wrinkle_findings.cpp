@@ -68,9 +68,8 @@ class HalfWave {
     load[moving_clamp] = sheet_.tension * sheet_.edges * edge_ / 2;
     const Eigen::VectorXd scale =
         Eigen::VectorXd::Constant(freedoms_.count, sheet_.tension * edge_);
-    const Settled rest =
-        settle(SheetSettling{probe_, hessian, freedoms_, load, scale, 1e-9, start_height() / 4},
-               start());
+    const Settled rest = settle(
+        SheetSettling{probe_, hessian, freedoms_, load, scale, 1e-9, start_height() / 4}, start());
     const SparseFactors factors(hessian.at(resting_state(rest.x), Definiteness::exact, 0));
     DeepWrinkle result{amplitudes_of(rest.x), 0, rest.unbalanced, positive_pivots(factors)};
     const std::size_t middle = std::size_t(sheet_.rows + 1) / 2,

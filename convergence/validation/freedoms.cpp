@@ -18,8 +18,8 @@ Settled settle(const SheetSettling& settling, PerParticle3 x) {
   const auto moved = [&](const PerParticle3& at, const Eigen::VectorXd& by) {
     return settling.freedoms.moved(at, by);
   };
-  return settle(
-      Settling{push, stiffness, moved, {}, {}, settling.tolerance, settling.longest}, std::move(x));
+  return settle(Settling{push, stiffness, moved, {}, {}, settling.tolerance, settling.longest},
+                std::move(x));
 }
 
 Equilibrium equilibrium_of(const Subject& subject, const Scene& scene) {

@@ -14,8 +14,8 @@ namespace {
 constexpr double standard_gravity = 9.80665;  // m/s^2
 
 constexpr double first_step = 0.005;  // s
-constexpr double in_flight = 1e-6;     // clearance over the longest step [1]
-constexpr int most_landings = 4;       // rounds of a step in which points reach objects
+constexpr double in_flight = 1e-6;    // clearance over the longest step [1]
+constexpr int most_landings = 4;      // rounds of a step in which points reach objects
 
 // A touching point is held by a stiffness that much larger than the cloth's [1].
 constexpr double held_over_elastic = 1e5;
@@ -51,11 +51,11 @@ Eigen::VectorXd displacements(const Settling& settling, SparseFactors& factors,
 struct Touch {
   CollisionPoint point;
   Vector3 normal;
-  double phi;        // m
-  double mu;         // 1
-  bool sticks;       // held by friction
-  double used;       // |F_T| over mu |F_N| [1]
-  double load;       // force on the object, over the point's mass [m/s^2]
+  double phi;            // m
+  double mu;             // 1
+  bool sticks;           // held by friction
+  double used;           // |F_T| over mu |F_N| [1]
+  double load;           // force on the object, over the point's mass [m/s^2]
   Eigen::Matrix3d turn;  // derivative of the normal by the place [1/m]
 };
 
@@ -131,10 +131,15 @@ void Search::find_touches(const PerParticle3& v) {
         const double push = -(at[part].phi + tau * u.dot(N)) / tau;  // m/s
         if (!(push > 0)) continue;
         const double slide = (u - u.dot(N) * N).norm(), most = at[part].friction * push;
-        Touch touch{point, N, at[part].phi, at[part].friction, most > 0 && slide <= most,
-                    most > 0 ? slide / most : 0, push / h, Eigen::Matrix3d::Zero()};
-        if (!touch.sticks)
-          touch.turn = turn_of_normal(objects, part, p, N, 1e-3 * search_.longest);
+        Touch touch{point,
+                    N,
+                    at[part].phi,
+                    at[part].friction,
+                    most > 0 && slide <= most,
+                    most > 0 ? slide / most : 0,
+                    push / h,
+                    Eigen::Matrix3d::Zero()};
+        if (!touch.sticks) touch.turn = turn_of_normal(objects, part, p, N, 1e-3 * search_.longest);
         touches_.push_back(touch);
       }
     }
@@ -338,7 +343,8 @@ std::string what_moves(const System& system, double t) {
 
 Rest settle(const System& system, const State& start, const RestSearch& search) {
   if (const std::string moves = what_moves(system, start.time); !moves.empty())
-    throw InputError(moves + " moves; a rest needs what holds and touches the cloth to stand still");
+    throw InputError(moves +
+                     " moves; a rest needs what holds and touches the cloth to stand still");
   return Search(system, start, search).rest();
 }
 

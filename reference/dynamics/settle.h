@@ -1,7 +1,7 @@
 // Rest: where the forces balance, found without inertia and without a guessed damping.
 //
-// Pseudo-transient continuation (Kelley and Keyes, SIAM J. Numer. Anal. 35, 1998): steps of backward
-// Euler that forget their velocity,
+// Pseudo-transient continuation (Kelley and Keyes, SIAM J. Numer. Anal. 35, 1998): steps of
+// backward Euler that forget their velocity,
 //   (M/h^2 - dF/dx) dx = F,   x += dx,
 // no longer than a given length, whose h grows until they are Newton's. Where cloth touches, F is
 // the force that the filters leave, and a touching point is held along the normal: the primal-dual

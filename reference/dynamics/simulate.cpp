@@ -193,9 +193,9 @@ bool Run::is_at_rest() {
   const double fixed = schedule_.step.fixed;
   const double h = fixed > 0 ? fixed : schedule_.step.safety * elastic_limit(system, now);
   Work uncounted;
-  const Unbalanced left =
-      largest_unbalanced(system, unbalanced_forces(system, now, h, uncounted));
-  rest_ = Resting{now.v.colwise().norm().maxCoeff(), left.over_weight, what_moves(system, now.time)};
+  const Unbalanced left = largest_unbalanced(system, unbalanced_forces(system, now, h, uncounted));
+  rest_ =
+      Resting{now.v.colwise().norm().maxCoeff(), left.over_weight, what_moves(system, now.time)};
   if (rest_->moves.empty() && std::isfinite(events_.next())) rest_->moves = "something, later,";
   rest_->reached = rest_->speed < schedule_.rest->speed && rest_->force < schedule_.rest->force &&
                    rest_->moves.empty();

@@ -38,7 +38,7 @@ struct Schedule {
   double end = 1;             // s
   double frame_interval = 1;  // s
   StepRule step;
-  long max_steps = 100'000'000;  // a run that reaches it stops and reports it
+  long max_steps = 100'000'000;         // a run that reaches it stops and reports it
   std::optional<RestLimits> rest = {};  // none: the run goes on to its end
 };
 
@@ -85,7 +85,7 @@ struct RunResult {
   State last;  // the last good state
   long steps = 0;
   Work work;
-  std::optional<Stop> stop;     // empty when the end, or rest, was reached
+  std::optional<Stop> stop;          // empty when the end, or rest, was reached
   std::optional<Resting> rest = {};  // of the last frame, if the schedule asks for it
 };
 

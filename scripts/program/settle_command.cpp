@@ -73,14 +73,13 @@ SettledCase settled_case(const BuiltCase& of, const SettleOptions& options) {
   SettledCase settled;
   settled.step = step_of(scene, of.built.system, of.built.start);
   settled.rounding = rounding_over_weight(of.built.system, of.built.start);
-  settled.rest = settle(of.built.system, of.built.start,
-                        {std::max(options.force, settled.rounding),
-                         2 * smallest_height(scene.mesh.triangles, scene.mesh.rest), settled.step,
-                         options.steps});
+  settled.rest = settle(
+      of.built.system, of.built.start,
+      {std::max(options.force, settled.rounding),
+       2 * smallest_height(scene.mesh.triangles, scene.mesh.rest), settled.step, options.steps});
   watch(of, settled);
   settled.strip = clamped_strip(scene, settled.rest.state.x);
-  settled.seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  settled.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return settled;
 }
 
@@ -114,12 +113,12 @@ std::vector<Record> findings_of(const Scene& scene, const SettledCase& settled,
               {std::max(0.0, -rest.smallest_eigenvalue), 1e-6 * neutral_scale(rest.state.x), 0,
                "1/s^2", "a millionth of how strongly gravity holds a pendulum of the cloth's size"},
               "the smallest eigenvalue of the stiffness over the masses, as a negative number"),
-      finding(scene, "stays",
-              fmt::format("The case's own method, started there, stays for {} steps.",
-                          steps_watched),
-              {settled.stopped.empty() ? settled.speed : nan, 1e-6, 0, "m/s",
-               "a thousandth of a millimetre a second is seen by nobody"},
-              settled.stopped)};
+      finding(
+          scene, "stays",
+          fmt::format("The case's own method, started there, stays for {} steps.", steps_watched),
+          {settled.stopped.empty() ? settled.speed : nan, 1e-6, 0, "m/s",
+           "a thousandth of a millimetre a second is seen by nobody"},
+          settled.stopped)};
   if (rest.used_friction > 0)
     findings.push_back(finding(
         scene, "within-friction", "No touching point needs more friction than its load gives it.",
@@ -135,11 +134,12 @@ void print(const Scene& scene, const SettledCase& settled) {
   const auto line = [](const std::string& name, const std::string& value) {
     fmt::print("  {:<38} {}\n", name, value);
   };
-  line("unbalanced force / weight",
-       fmt::format("{:.3g}, on particle {}", rest.unbalanced.over_weight, rest.unbalanced.particle));
-  line("largest speed, watched", fmt::format("{:.3g} m/s in {} steps of {} by {:.3g} s",
-                                             settled.speed, steps_watched, scene.integrator,
-                                             settled.step));
+  line(
+      "unbalanced force / weight",
+      fmt::format("{:.3g}, on particle {}", rest.unbalanced.over_weight, rest.unbalanced.particle));
+  line("largest speed, watched",
+       fmt::format("{:.3g} m/s in {} steps of {} by {:.3g} s", settled.speed, steps_watched,
+                   scene.integrator, settled.step));
   line("smallest eigenvalue", fmt::format("{:.6g} 1/s^2", rest.smallest_eigenvalue));
   line("steps", fmt::format("{}", rest.steps));
   line("force evaluations", fmt::format("{}, and {} factorisations", rest.work.elastic_evaluations,
@@ -149,10 +149,10 @@ void print(const Scene& scene, const SettledCase& settled) {
          fmt::format("{}, {} of them held by friction", rest.touching, rest.sticking));
   if (!settled.strip) return;
   const ClampedStrip& strip = *settled.strip;
-  line("tip below the clamp", fmt::format("{:.6g} m; elastica: {:.6g} m", strip.drop,
-                                          strip.elastica_drop));
-  line("tip out from the clamp", fmt::format("{:.6g} m; elastica: {:.6g} m", strip.reach,
-                                             strip.elastica_reach));
+  line("tip below the clamp",
+       fmt::format("{:.6g} m; elastica: {:.6g} m", strip.drop, strip.elastica_drop));
+  line("tip out from the clamp",
+       fmt::format("{:.6g} m; elastica: {:.6g} m", strip.reach, strip.elastica_reach));
   line("strip", fmt::format("L = {:.4g} m, B = {:.4g} N m, rho g L^3/B = {:.4g}", strip.length,
                             strip.rigidity, strip.gamma));
 }
@@ -193,13 +193,13 @@ nlohmann::json to_json(const SettledCase& settled, const std::vector<Record>& fi
 int settle_case(const SettleOptions& options) {
   Case input_case = read_case(case_file(options.file), options.overrides);
   const OutFolder folder(options.out);
-  const BuiltCase of = built_case(std::move(input_case),
-                                  provider_for(options.cache, threads_of(options.running)));
+  const BuiltCase of =
+      built_case(std::move(input_case), provider_for(options.cache, threads_of(options.running)));
   const Scene& scene = of.input_case.scene;
   log_warnings(scene);
   const std::string name = scene.name + ".h5";
-  TrajectoryFile file((std::filesystem::path(options.out) / name).string(), scene,
-                      of.built.system, of.built.objects, provenance(options.command));
+  TrajectoryFile file((std::filesystem::path(options.out) / name).string(), scene, of.built.system,
+                      of.built.objects, provenance(options.command));
   const SettledCase settled = settled_case(of, options);
   const std::vector<Record> findings = findings_of(scene, settled, options);
   State last = settled.rest.state;
@@ -221,15 +221,15 @@ int settle_case(const SettleOptions& options) {
 }
 
 constexpr const char* below_settle =
-    R"(Follows the forces without inertia and without a guessed damping: steps of backward Euler that
+    R"(Follows the forces without inertia or a guessed damping: steps of backward Euler that
 forget their velocity and grow to Newton's. Velocities and damping of the case count for nothing;
 what holds and touches the cloth must stand still. The force is what contact and friction leave. A
 rest with friction is one of many: its shape depends on the way. A strip that is clamped at one end
-(case `cantilever`) is compared with the elastica of its rigidity.
+(cases/cantilever.toml) is compared with the elastica of its rigidity.
 
 Examples:
   foldproof settle hanging_sheet --out mine
-  foldproof settle cantilever --set cloth.fabric=denim --set cloth.density= --out mine
+  foldproof settle cases/cantilever.toml --set cloth.fabric=wool --out mine
 
 Exit codes:
   0    at rest, stable, and the case's own method stays there

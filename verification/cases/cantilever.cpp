@@ -70,8 +70,8 @@ std::optional<ClampedStrip> clamped_strip(const Scene& scene, const PerParticle3
       strip.length = end - last / 2;
       strip.rigidity = scene.bending->stiffness *
                        rigidity_of(scene.mesh, plane).of_strip(axis * std::numbers::pi / 2);
-      strip.gamma = scene.density * scene.gravity->norm() * std::pow(strip.length, 3) /
-                    strip.rigidity;
+      strip.gamma =
+          scene.density * scene.gravity->norm() * std::pow(strip.length, 3) / strip.rigidity;
       if (!(strip.gamma > 0 && strip.gamma < 1e5)) return {};
       const Vector3 from = tip - (first + second) / 2;
       strip.drop = -from.dot(up);

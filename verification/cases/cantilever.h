@@ -9,10 +9,10 @@ namespace foldproof {
 
 /// A strip at rest beside the elastica of its rigidity. Lengths in m.
 struct ClampedStrip {
-  double length;                          // L, from the middle of the clamped cell to the tip
-  double rigidity;                        // B of a narrow strip of this mesh [N m]
-  double gamma;                           // rho_A g L^3/B [1]
-  double drop, reach;                     // of the tip's middle, below and out from the clamp
+  double length;                         // L, from the middle of the clamped cell to the tip
+  double rigidity;                       // B of a narrow strip of this mesh [N m]
+  double gamma;                          // rho_A g L^3/B [1]
+  double drop, reach;                    // of the tip's middle, below and out from the clamp
   double elastica_drop, elastica_reach;  // the same of an inextensible strip
 };
 

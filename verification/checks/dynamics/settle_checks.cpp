@@ -99,9 +99,8 @@ Finding eigenvalues_agree() {
 Scene particles_on_slope(double angle, double friction) {
   Scene scene = loose_particles(3);
   const Vector3 normal(0, std::cos(angle), std::sin(angle));
-  SceneObject slope =
-      object_at("slope", HalfSpace{},
-                {oracles::rotation_between(Vector3::UnitZ(), normal), Vector3::Zero()});
+  SceneObject slope = object_at(
+      "slope", HalfSpace{}, {oracles::rotation_between(Vector3::UnitZ(), normal), Vector3::Zero()});
   slope.object.friction = friction;
   scene.objects.push_back(slope);
   scene.gravity = Vector3(0, -1.3 * g, 0);
@@ -111,8 +110,8 @@ Scene particles_on_slope(double angle, double friction) {
 }
 
 Finding slopes_leave_what_friction_cannot_hold() {
-  Table slopes{{"angle", "rad"}, {"friction", "1"}, {"left over the weight", "1"},
-               {"difference", "1"}};
+  Table slopes{
+      {"angle", "rad"}, {"friction", "1"}, {"left over the weight", "1"}, {"difference", "1"}};
   for (const auto& [angle, friction] :
        {std::pair{0.31, 0.0}, std::pair{0.31, 0.29}, std::pair{0.31, 0.34}, std::pair{0.7, 0.4}}) {
     const BuiltScene of = build(particles_on_slope(angle, friction), computing_provider());
@@ -145,7 +144,9 @@ Scene sheet_on_ball(double radius, double friction) {
 
 /// Forces are the subject's, the ball's normal is by its centre: the filters are not asked.
 Finding balls_hold_within_the_cone(const Subject& subject) {
-  Table particles{{"friction", "1"}, {"touching", "1"}, {"least load over the weight", "1"},
+  Table particles{{"friction", "1"},
+                  {"touching", "1"},
+                  {"least load over the weight", "1"},
                   {"largest excess over the weight", "1"}};
   for (const double friction : {0.6, 0.37}) {
     const double radius = 0.13;

@@ -15,8 +15,7 @@ namespace {
 
 /// A damped strip, held by its first two columns, that starts level.
 Scene strip(double length) {
-  Scene scene =
-      scene_at_rest(make_sheet({SheetPattern::alternating, length, 0.02, 12, 3}), 0.21);
+  Scene scene = scene_at_rest(make_sheet({SheetPattern::alternating, length, 0.02, 12, 3}), 0.21);
   scene.stretch = StretchMaterial{300, 0.02, 1};
   add_flat_hinges(scene, 6e-5, 2e-6);
   scene.gravity = Vector3(0, 0, -9.80665);
