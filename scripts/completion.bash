@@ -21,7 +21,7 @@ _foldproof_case_findings() { _foldproof_cases "$1" | sed 's|.*/||; s|^|case.|'; 
 
 _foldproof_kind() {
   case $1 in
-    simulate | ablate | converge | precision | campaign) echo toml ;;
+    simulate | settle | ablate | converge | precision | campaign) echo toml ;;
     inspect) echo obj ;;
     project | film | export | compare) echo h5 ;;
     crossings) echo 'h5|obj' ;;

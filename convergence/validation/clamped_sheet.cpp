@@ -53,15 +53,15 @@ class Quarter {
   }
 
   Settled settled(const Freedoms& freedoms, PerParticle3 x, double strain) const {
-    const Hessian hessian(scene_, freedoms);
+    const Hessian hessian(build_system(scene_), freedoms);
     const double scale = sheet_.young * strain * edge_;  // N
-    return settle({probe_, hessian, freedoms, Eigen::VectorXd::Zero(freedoms.count),
-                   Eigen::VectorXd::Constant(freedoms.count, scale), 1e-9, edge_ / 4},
+    return settle(SheetSettling{probe_, hessian, freedoms, Eigen::VectorXd::Zero(freedoms.count),
+                                Eigen::VectorXd::Constant(freedoms.count, scale), 1e-9, edge_ / 4},
                   std::move(x));
   }
 
   SparseMatrix stiffness(const Freedoms& freedoms, const PerParticle3& x) const {
-    return Hessian(scene_, freedoms).at(x, Definiteness::exact, 0);
+    return Hessian(build_system(scene_), freedoms).at(resting_state(x), Definiteness::exact, 0);
   }
 
   /// Pull on the clamp over half the width.

@@ -63,14 +63,14 @@ class HalfWave {
   }
 
   DeepWrinkle settled() const {
-    const Hessian hessian(scene_, freedoms_);
+    const Hessian hessian(build_system(scene_), freedoms_);
     Eigen::VectorXd load = Eigen::VectorXd::Zero(freedoms_.count);
     load[moving_clamp] = sheet_.tension * sheet_.edges * edge_ / 2;
     const Eigen::VectorXd scale =
         Eigen::VectorXd::Constant(freedoms_.count, sheet_.tension * edge_);
-    const Settled rest =
-        settle({probe_, hessian, freedoms_, load, scale, 1e-9, start_height() / 4}, start());
-    const SparseFactors factors(hessian.at(rest.x, Definiteness::exact, 0));
+    const Settled rest = settle(
+        SheetSettling{probe_, hessian, freedoms_, load, scale, 1e-9, start_height() / 4}, start());
+    const SparseFactors factors(hessian.at(resting_state(rest.x), Definiteness::exact, 0));
     DeepWrinkle result{amplitudes_of(rest.x), 0, rest.unbalanced, positive_pivots(factors)};
     const std::size_t middle = std::size_t(sheet_.rows + 1) / 2,
                       other = std::size_t(sheet_.rows + 2) / 2;

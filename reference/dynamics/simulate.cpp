@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "reference/dynamics/events.h"
+#include "reference/dynamics/settle.h"
 #include "reference/fast/kept_values.h"
 #include "reference/forces/degenerate.h"
 
@@ -27,6 +28,8 @@ void check(const Schedule& schedule, const State& start) {
   if (!(schedule.step.fixed >= 0))
     throw InputError("time: the step must be > 0 s, or 0 for an automatic one");
   if (!(schedule.step.safety > 0)) throw InputError("time: the safety factor must be > 0");
+  if (schedule.rest && !(schedule.rest->speed > 0 && schedule.rest->force > 0))
+    throw InputError("time: the limits of rest must be > 0");
   if (!(schedule.step.strain_per_step > 0)) throw InputError("time: strain_per_step must be > 0");
 }
 
@@ -106,6 +109,7 @@ class Run {
   void step_to_frame(double target);
   void step_to(double target);
   void step(double target);
+  bool is_at_rest();
   std::optional<double> prescribed_end(double target) const;
   void hand_out_row(const State& s, double h, double limit, const Work& work);
   void hand_out_checkpoint() const;
@@ -128,6 +132,7 @@ class Run {
   double damping_power_;           // at the latest row [W]
   double seconds_before_;          // of clock time, in the part of the run before the checkpoint
   std::optional<Stop> stop_ = {};  // the failure, if any
+  std::optional<Resting> rest_ = {};
   // values reused from step to step, for speed only
   std::shared_ptr<KeptValues> kept_ = std::make_shared<KeptValues>();
 };
@@ -168,7 +173,7 @@ void Run::start() {
 }
 
 RunResult Run::finish() {
-  while (!stop_ && history_.now().time < schedule_.end) {
+  while (!stop_ && !is_at_rest() && history_.now().time < schedule_.end) {
     const double next_frame = start_time_ + double(frame_ + 1) * schedule_.frame_interval;
     const double close = closest_event * schedule_.frame_interval;
     step_to_frame(next_frame < schedule_.end - close ? next_frame : schedule_.end);
@@ -177,7 +182,24 @@ RunResult Run::finish() {
     if (observer_.frame) observer_.frame(history_.now());
     hand_out_checkpoint();
   }
-  return {history_.now(), steps_, work_, stop_};
+  return {history_.now(), steps_, work_, stop_, rest_};
+}
+
+/// Measured only where the schedule asks for it.
+bool Run::is_at_rest() {
+  if (!schedule_.rest) return false;
+  const System& system = events_.system();
+  const State& now = history_.now();
+  const double fixed = schedule_.step.fixed;
+  const double h = fixed > 0 ? fixed : schedule_.step.safety * elastic_limit(system, now);
+  Work uncounted;
+  const Unbalanced left = largest_unbalanced(system, unbalanced_forces(system, now, h, uncounted));
+  rest_ =
+      Resting{now.v.colwise().norm().maxCoeff(), left.over_weight, what_moves(system, now.time)};
+  if (rest_->moves.empty() && std::isfinite(events_.next())) rest_->moves = "something, later,";
+  rest_->reached = rest_->speed < schedule_.rest->speed && rest_->force < schedule_.rest->force &&
+                   rest_->moves.empty();
+  return rest_->reached;
 }
 
 /// Steps to the time `target` across all events on the way; the history restarts after each.

@@ -26,11 +26,20 @@ struct StepRule {
   std::vector<double> ends = {};
 };
 
+/// A run may end before its time: at the first frame, the start included, at which every particle
+/// is slower and less unbalanced (dynamics/settle.h) than this, and nothing that holds or touches
+/// the cloth moves or will.
+struct RestLimits {
+  double speed = 1e-4;  // m/s
+  double force = 1e-3;  // what the filters leave on a particle, over its weight [1]
+};
+
 struct Schedule {
   double end = 1;             // s
   double frame_interval = 1;  // s
   StepRule step;
-  long max_steps = 100'000'000;  // a run that reaches it stops and reports it
+  long max_steps = 100'000'000;         // a run that reaches it stops and reports it
+  std::optional<RestLimits> rest = {};  // none: the run goes on to its end
 };
 
 /// One row of diagnostics, taken after a step; the first row is the start.
@@ -65,11 +74,19 @@ struct Stop {
   int particle;  // the worst particle, -1 if no single one is the cause
 };
 
+/// How near rest a state is, in words where it is not there.
+struct Resting {
+  double speed = 0, force = 0;  // the largest, as in RestLimits
+  std::string moves = {};       // what holds or touches the cloth and moves or will; or ""
+  bool reached = false;
+};
+
 struct RunResult {
   State last;  // the last good state
   long steps = 0;
   Work work;
-  std::optional<Stop> stop;  // empty when the end was reached
+  std::optional<Stop> stop;          // empty when the end, or rest, was reached
+  std::optional<Resting> rest = {};  // of the last frame, if the schedule asks for it
 };
 
 /// The state of a run at a frame, without its system, method and schedule: enough to resume bit for

@@ -55,8 +55,8 @@ struct MeshOrigin {
 /// Finds edges and hinges of the triangles over the N rest positions (3 x N [m]).
 /// Refuses anything but an oriented manifold with boundary; the InputError names origin's file and
 /// line, and the reason: no triangles, indices out of range, NaN or infinite coordinates, unused
-/// vertices, zero-area triangles, two of the same three corners, edges with three triangles or more,
-/// two neighbours of opposite orientation, a vertex whose triangles do not form one fan.
+/// vertices, zero-area triangles, two of the same three corners, edges with three triangles or
+/// more, two neighbours of opposite orientation, a vertex whose triangles do not form one fan.
 TriangleMesh make_triangle_mesh(PerParticle3 rest, std::vector<Triangle> triangles,
                                 const MeshOrigin& origin = {});
 

@@ -133,6 +133,12 @@ void read_hold(const KeyTable& keys, Scene& scene) {
 void read_time(const KeyTable& keys, Scene& scene) {
   scene.schedule.end = positive(keys, "end");
   scene.schedule.frame_interval = 1 / positive_or(keys, "frames_per_second", 30);
+  if (choice<bool>(keys, "until", {{"end", false}, {"rest", true}})) {
+    RestLimits limits;
+    limits.speed = positive_or(keys, "rest_speed", limits.speed);
+    limits.force = positive_or(keys, "rest_force", limits.force);
+    scene.schedule.rest = limits;
+  }
   if (keys.is_text("step")) {
     if (keys.text("step") != "automatic")
       throw InputError(keys.where("step") + ": 'step' must be a number [s] or \"automatic\"");
