@@ -39,9 +39,9 @@ std::vector<HeldSheet> held_sheets() {
   return {held_sheet("a limp sheet, let go level",
                      {SheetPattern::jittered, 0.3, 0.25, 6, 5, 0.2, 3}, {0, 0, -g}, 3e-4),
           held_sheet("a stiff one", {SheetPattern::alternating, 0.2, 0.3, 4, 6}, {0, 0, -g}, 0.02),
-          held_sheet("one that hangs in its plane", {SheetPattern::union_jack, 0.15, 0.25, 3, 5},
-                     {0, -g, 0}, 3e-4),
           held_sheet("one that stands in its plane", {SheetPattern::union_jack, 0.15, 0.25, 3, 5},
+                     {0, -g, 0}, 3e-4),
+          held_sheet("one that hangs in its plane", {SheetPattern::union_jack, 0.15, 0.25, 3, 5},
                      {0, g, 0}, 3e-4)};
 }
 
@@ -148,7 +148,7 @@ Finding balls_hold_within_the_cone(const Subject& subject) {
                   {"touching", "1"},
                   {"least load over the weight", "1"},
                   {"largest excess over the weight", "1"}};
-  for (const double friction : {0.6, 0.37}) {
+  for (const double friction : {0.37, 0.2}) {
     const double radius = 0.13;
     const Scene scene = sheet_on_ball(radius, friction);
     const Rest rest = rest_of(scene);

@@ -13,11 +13,11 @@ using namespace foldproof;
 
 namespace {
 
-/// A damped strip, held by its first two columns, that starts level.
+/// A strip, held by its first two columns, that starts level.
 Scene strip(double length) {
   Scene scene = scene_at_rest(make_sheet({SheetPattern::alternating, length, 0.02, 12, 3}), 0.21);
-  scene.stretch = StretchMaterial{300, 0.02, 1};
-  add_flat_hinges(scene, 6e-5, 2e-6);
+  scene.stretch = StretchMaterial{300, 0, 1};
+  add_flat_hinges(scene, 6e-5, 0);
   scene.gravity = Vector3(0, 0, -9.80665);
   for (Eigen::Index i = 0; i < scene.x.cols(); ++i)
     if (scene.x(0, i) < 1.5 * length / 12) scene.prescribed.push_back({int(i), scene.x.col(i), {}});
@@ -29,10 +29,11 @@ RestSearch search_of(const Scene& scene, const BuiltScene& of) {
           0.5 * elastic_limit(of.system, of.start), 600};
 }
 
+/// Long steps of backward Euler damp it.
 RunResult run_until_rest(const BuiltScene& of, const State& start, double end) {
-  Schedule schedule{end, 0.02, {}};
+  Schedule schedule{end, 0.05, {.fixed = 0.05}};
   schedule.rest = RestLimits{1e-3, 1e-2};
-  return simulate(of.system, integrator_named("C"), start, schedule, {});
+  return simulate(of.system, integrator_named("linear-backward-euler"), start, schedule, {});
 }
 
 }  // namespace
@@ -40,25 +41,25 @@ RunResult run_until_rest(const BuiltScene& of, const State& start, double end) {
 TEST_CASE("a run until rest ends where speeds and forces are small, not where one of them is") {
   const Scene scene = strip(0.06);
   const BuiltScene of = build(scene, computing_provider());
-  const RunResult level = run_until_rest(of, of.start, 6);  // no speed, but its weight
+  const RunResult level = run_until_rest(of, of.start, 20);  // no speed, but its weight
   REQUIRE(level.rest);
   CHECK(level.rest->reached);
   CHECK(level.last.time > 0.02);
-  CHECK(level.last.time < 6);
+  CHECK(level.last.time < 20);
   CHECK(level.last.v.colwise().norm().maxCoeff() < 1e-3);
 
   const Rest rest = settle(of.system, of.start, search_of(scene, of));
-  CHECK((level.last.x - rest.state.x).cwiseAbs().maxCoeff() < 2e-4);
+  CHECK((level.last.x - rest.state.x).cwiseAbs().maxCoeff() < 1e-3);
   CHECK(run_until_rest(of, rest.state, 6).last.time == rest.state.time);
   State passing = rest.state;  // balanced, but on its way
   for (const int i : free_particles(scene)) passing.v.col(i) = Vector3(0.1, 0, 0);
   CHECK(run_until_rest(of, passing, 6).last.time > 0.02);
 
-  const RunResult early = run_until_rest(of, of.start, 0.04);
+  const RunResult early = run_until_rest(of, of.start, 0.1);
   REQUIRE(early.rest);
   CHECK_FALSE(early.rest->reached);
   CHECK_FALSE(early.stop);
-  CHECK(early.last.time == 0.04);
+  CHECK(early.last.time == 0.1);
 }
 
 TEST_CASE("nothing rests while a motion is to come") {
