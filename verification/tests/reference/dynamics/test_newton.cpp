@@ -168,7 +168,7 @@ struct LinearSystem {
   DampingOperator damping() const {
     DampingOperator damping;
     damping.custom.push_back(
-        [D = D](const PerParticle3& p, PerParticle3& f) { f += columns(D * flat(p)); });
+        {[D = D](const PerParticle3& p, PerParticle3& f) { f += columns(D * flat(p)); }, {}});
     return damping;
   }
   /// solve_unsymmetric_step with the Newton matrix.
@@ -235,7 +235,8 @@ TEST_CASE("a direction without curvature ends a solve as indefinite, no residual
   for (const double factor : {0.0, 1.0, 3.0}) {  // D = factor M/s: M - s D = (1 - factor) M
     DampingOperator damping;
     damping.custom.push_back(
-        [&](const PerParticle3& p, PerParticle3& f) { f += factor * 4 * (p * mass.asDiagonal()); });
+        {[&](const PerParticle3& p, PerParticle3& f) { f += factor * 4 * (p * mass.asDiagonal()); },
+         {}});
     SolverSettings settings = settings_of(1e-9, 9);
     if (factor == 0) settings.scale = ResidualScale::initial_residual;  // which is 0
     PerParticle3 w = v;
