@@ -141,8 +141,8 @@ bool ends_well(std::string_view rest, int& texture) {
 void read_texture(Cursor& cursor, Contents& contents) {
   Eigen::Vector2d place = Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
   for (double& number : place) {
-    double value = 0;
-    if (read_number(next_word(cursor), value) == std::errc()) number = value;
+    double told = 0;
+    if (read_number(next_word(cursor), told) == std::errc()) number = told;
   }
   contents.textures.push_back(place);
 }
