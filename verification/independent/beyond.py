@@ -14,27 +14,29 @@ class Air:
         self.half_density = keys.get("density", 1.2) / 2
         self.wind = np.array(keys.get("wind", [0.0, 0.0, 0.0]))
         self.across, self.along = keys.get("normal_drag", 1.17), keys.get("tangential_drag", 0.02)
+        thirds = np.zeros((len(self.triangles), len(cloth.rest)))
+        np.put_along_axis(thirds, self.triangles, 1 / 3, axis=1)
+        self.mean = np.kron(thirds, np.eye(3)).reshape(len(thirds), 3, -1)  # M x 3 x 3N
 
     def elastic(self, _time: float, x: np.ndarray) -> np.ndarray:
         return np.zeros_like(x)
 
     def damping(self, _time: float, x: np.ndarray,
                 seen: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        matrix, known = np.zeros((x.size, x.size)), np.zeros_like(x)
-        for corners in self.triangles:
-            a, b, c = x[corners]
-            normal = np.cross(b - a, c - a)
-            area = np.linalg.norm(normal) / 2
-            outer = np.outer(normal, normal) / (2 * area)**2
-            u = self.wind - seen[corners].mean(axis=0)
-            block = self.half_density * area * (
-                self.across * np.linalg.norm(outer @ u) * outer
-                + self.along * np.linalg.norm(u - outer @ u) * (np.eye(3) - outer))
-            for i in corners:
-                known[i] += block @ self.wind / 3
-                for j in corners:
-                    matrix[3 * i:3 * i + 3, 3 * j:3 * j + 3] -= block / 9
-        return matrix, known
+        a, b, c = (x[self.triangles[:, corner]] for corner in range(3))
+        normal = np.cross(b - a, c - a)
+        doubled = np.linalg.norm(normal, axis=1)
+        outer = np.einsum("ti,tj->tij", normal, normal) / doubled[:, None, None]**2
+        u = self.wind - self.mean @ seen.ravel()
+        across = np.einsum("tij,tj->ti", outer, u)
+        factors = self.half_density * doubled / 2 * np.array([
+            self.across * np.linalg.norm(across, axis=1),
+            self.along * np.linalg.norm(u - across, axis=1)])
+        block = (factors[0, :, None, None] * outer
+                 + factors[1, :, None, None] * (np.eye(3) - outer))
+        rows = self.mean.reshape(-1, x.size)
+        known = rows.T @ (block @ self.wind).ravel()
+        return -rows.T @ (block @ self.mean).reshape(-1, x.size), known.reshape(-1, 3)
 
 
 class Membrane:
@@ -76,8 +78,8 @@ class Membrane:
     def damping(self, _time: float, x: np.ndarray,
                 _seen: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         _, by_corner = self.strains(x)
-        matrix = np.zeros((x.size, x.size))
-        for corners, area, rows in zip(self.triangles, self.areas, by_corner):
-            places = (3 * corners[:, None] + np.arange(3)).ravel()
-            matrix[np.ix_(places, places)] -= self.delay * area * rows.T @ self.stiffness @ rows
-        return matrix, np.zeros_like(x)
+        places = (3 * self.triangles[:, :, None] + np.arange(3)).reshape(-1, 1, 9)
+        rates = np.zeros((len(places), 3, x.size))
+        np.put_along_axis(rates, np.broadcast_to(places, by_corner.shape), by_corner, axis=2)
+        stress = self.delay * self.areas[:, None, None] * (self.stiffness @ rates)
+        return -rates.reshape(-1, x.size).T @ stress.reshape(-1, x.size), np.zeros_like(x)
