@@ -41,7 +41,7 @@ std::vector<BadFile> bad_files() {
       {"three triangles at an edge", four + "v 0 0 1\nf 1 2 3\nf 1 3 4\nf 1 3 5\n", 8,
        "three triangles"},
       {"opposite orientations", four + "f 1 2 3\nf 1 4 3\n", 6, "orientation"},
-      {"a face given twice", four + "f 1 2 3\nf 1 3 4\nf 1 2 3\n", 7, "orientation"},
+      {"a face given twice", four + "f 1 2 3\nf 1 3 4\nf 1 2 3\n", 7, "given twice"},
       {"two fans at a vertex", four + "v -1 0 0\nv -1 -1 0\nf 1 2 3\nf 1 3 4\nf 1 5 6\n", 1, "fan"},
       {"no face", four, 4, "without a face"},
       {"nothing", "", 1, "empty"}};

@@ -70,7 +70,7 @@ TEST_CASE("the rigidity of a flat mesh is that of its hinges when it is bent by 
     CHECK(k.dot(R * k) == Approx(bent_energy(mesh, plane, k)).epsilon(1e-7));
 }
 
-TEST_CASE("a particle with three hinges has a rigidity, one with two or without a plane has none") {
+TEST_CASE("a particle with three hinges has a rigidity, one with two has none") {
   PerParticle3 x(3, 7);  // a strip of five triangles
   x << 0, 0.4, 1, 1.5, 2.1, 2.4, 3.2, 0, 0.9, 0.1, 1.1, -0.1, 1, 0.2, 0, 0, 0, 0, 0, 0, 0;
   const TriangleMesh strip =
@@ -82,9 +82,6 @@ TEST_CASE("a particle with three hinges has a rigidity, one with two or without 
   RestPlane plane;
   REQUIRE(is_flat(part, plane));
   CHECK(around[2].greatest == Approx(extremes_of(rigidity_of(part, plane)).greatest));
-  // both sides of one triangle
-  const TriangleMesh pillow = make_triangle_mesh(x.leftCols(3), {{0, 2, 1}, {0, 1, 2}});
-  CHECK(std::isnan(rigidity_around_particles(pillow)[0].greatest));
 }
 
 TEST_CASE("a strip has no rigidity where the matrix is singular, to 1e-12 of its trace cubed") {
