@@ -122,6 +122,7 @@ Finding seam_finding() {
     const Scene scene = tube(folder, halves(taller));
     const StretchSprings springs = springs_of(scene);
     const std::vector<std::array<EdgeSide, 2>> sides = edge_sides(scene.mesh);
+    const Eigen::VectorXd rest = rest_lengths(scene.mesh);
     Worst worst;
     int seams = 0;
     for (size_t e = 0; e < sides.size(); ++e) {
@@ -137,6 +138,7 @@ Finding seam_finding() {
       }
       worst.observe(std::abs(pull) / (Y * one.length));
       worst.observe(std::abs(springs.springs[e].stiffness / stiffness - 1));
+      worst.observe(std::abs(rest[Eigen::Index(e)] / L - 1));
     }
     const PatternFacts facts = facts_of_pattern(scene.mesh, scene.x);
     const double ease = 2 * (taller - 1) / (taller + 1);
