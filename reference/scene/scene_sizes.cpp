@@ -8,6 +8,7 @@
 #include "reference/forces/degenerate.h"
 #include "reference/mesh/box_tree.h"
 #include "reference/mesh/pattern.h"
+#include "reference/mesh/rigidity_map.h"
 #include "reference/mesh/seams.h"
 #include "reference/mesh/self_intersection.h"
 
@@ -134,6 +135,10 @@ std::string warning_of_start(const Scene& scene, const State& s) {
            " triangles of the cloth have no area at the start, so that the "
            "forces of their springs and hinges have no direction; change its places at the start";
   if (scene.self_collision || !open_seams_in_words(scene.mesh).empty()) return "";
+  TriangleMesh start = scene.mesh;
+  start.rest = s.x;
+  RestPlane plane;
+  if (is_flat(start, plane)) return "";  // decided exactly, its coplanar pairs take seconds
   const size_t pairs = self_intersections(s.x, triangles).size();
   if (pairs == 0) return "";
   return "the cloth crosses itself at the start, in " + std::to_string(pairs) +

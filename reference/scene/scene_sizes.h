@@ -26,7 +26,7 @@ void note_scales(const KeyTable& keys, double of_cloth, Scene& scene);
 void warn_of_sizes(const KeyTable& cloth, Scene& scene);
 
 /// A start that will not work, in a line: triangles without area, or, without [self_collision] and
-/// open seams, a cloth that crosses itself; "" if it is none.
+/// open seams, a cloth that crosses itself (not looked for where it is flat); "" if it is none.
 std::string warning_of_start(const Scene& scene, const State& s);
 
 /// A fixed step beyond the elastic limit at this state, which bounds from below what is stable, in
