@@ -118,9 +118,10 @@ bool needs_halving(const Survey& survey, const std::string& method, double most_
            is_affordable(survey, method, steps, most_work, survey.plan.budget);
   };
   if (!is_whole(*run)) {
-    // what a run costs that diverges, at the cap of its solves, says nothing of shorter steps
-    const bool is_told = family_of(method) != Family::mixed;
-    return parts * hopeless_step < beyond_limit * first && (!is_told || affordable(2. * parts));
+    // a diverging run's solves end at their cap: its cost does not predict that of shorter steps
+    const bool is_predicted = family_of(method) != Family::mixed;
+    return parts * hopeless_step < beyond_limit * first &&
+           (!is_predicted || affordable(2. * parts));
   }
   const size_t whole = fine_end(levels).size();
   const double error = curve_of(survey, method).runs.back().error;

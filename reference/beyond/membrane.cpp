@@ -208,9 +208,4 @@ CustomForce make_membrane(const TriangleMesh& mesh, const MembraneMaterial& mate
   return force;
 }
 
-double strip_modulus(const MembraneMaterial& m, double angle) {
-  const double c = std::pow(std::cos(angle), 2), s = std::pow(std::sin(angle), 2);
-  return 1 / (c * c / m.warp + (1 / m.shear - 2 * m.poisson / m.warp) * s * c + s * s / m.weft);
-}
-
 }  // namespace foldproof

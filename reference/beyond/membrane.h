@@ -27,8 +27,4 @@ struct MembraneMaterial {
 /// (nu12 nu21 >= 1), and a mesh that is neither flat nor has a pattern.
 CustomForce make_membrane(const TriangleMesh& mesh, const MembraneMaterial& material);
 
-/// Young's modulus of a strip cut at an angle [rad] to the warp, small strains [N/m]:
-///   1/E = cos^4/E1 + (1/G - 2 nu12/E1) sin^2 cos^2 + sin^4/E2.
-double strip_modulus(const MembraneMaterial& material, double angle);
-
 }  // namespace foldproof

@@ -45,7 +45,7 @@ struct DampingOperator {
   /// Given as functions.
   struct Custom {
     std::function<void(const PerParticle3& v, PerParticle3& f)> add_product;  // f += D v
-    // adds a bound on each particle's row sum of D [N s/m], for automatic steps; {}: none is known
+    // adds each particle's bound on its row sum of D [N s/m], for automatic steps; {} if unknown
     std::function<void(PerParticle& rows)> add_rows;
   };
 
