@@ -136,7 +136,9 @@ class SlurmTest(CampaignCase):
     def test_a_dead_slice_that_slurm_takes_for_alive_is_started_again(self) -> None:
         def disturb() -> None:
             work = parent_of(self.workers()[0])
-            os.kill(parent_of(work), signal.SIGSTOP)  # who would report its death
+            watcher = parent_of(work)  # it would report the death
+            os.kill(watcher, signal.SIGSTOP)
+            self.addCleanup(os.kill, watcher, signal.SIGKILL)
             os.kill(work, signal.SIGKILL)
 
         self.assert_costs_nothing(disturb, 30, 2)

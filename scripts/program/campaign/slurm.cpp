@@ -112,16 +112,17 @@ std::string script_of(const Batch& batch, const SlurmSettings& settings) {
   return "#!/bin/sh\nexec " + work + "\n";
 }
 
-/// Whether no one has worked on a slice for a while, though Slurm believes so: where a node's
-/// daemon and a slice's process die together, and the controller with them, Slurm may not notice.
+/// Whether no one has worked on a slice for a while, though Slurm has it as running or completing:
+/// where a slice's process and what would report its end die together, Slurm may not notice, nor
+/// ever be rid of it.
 bool is_a_ghost(const Batch& batch, size_t slice) {
   static std::map<std::string, std::chrono::steady_clock::time_point> idle_since;
   const std::string lock = lock_of_slice(batch, slice);
   const auto now = std::chrono::steady_clock::now();
-  const auto since = idle_since.try_emplace(lock, now).first->second;
-  const bool is_idle = !FileLock::is_held(lock), is_ghost = is_idle && now - since > until_a_ghost;
-  if (!is_idle || is_ghost) idle_since.erase(lock);  // looked at anew after it was requeued
-  return is_ghost;
+  if (!FileLock::is_held(lock))
+    return now - idle_since.try_emplace(lock, now).first->second > until_a_ghost;
+  idle_since.erase(lock);
+  return false;
 }
 
 }  // namespace
@@ -160,6 +161,7 @@ bool slurm_has(const Batch& batch) {
   const Output output = output_of("squeue -h -r -o '%i %K %T %r' --name=" + job_name(batch));
   if (output.code != 0) return true;
   std::istringstream lines(output.text);
+  size_t alive = 0;
   for (std::string line; std::getline(lines, line);) {
     std::string element, state;
     size_t slice = 0;
@@ -167,10 +169,11 @@ bool slurm_has(const Batch& batch) {
     // an element whose node failed at its start waits for someone to release it
     if (line.find("held") != std::string::npos || line.find("Held") != std::string::npos)
       static_cast<void>(output_of("scontrol release " + element));
-    if (state == "RUNNING" && is_a_ghost(batch, slice))
-      static_cast<void>(output_of("scontrol requeue " + element));
+    const bool is_placed = state == "RUNNING" || state == "COMPLETING";
+    if (!is_placed || !is_a_ghost(batch, slice)) ++alive;
   }
-  return !output.text.empty();
+  if (alive == 0 && !output.text.empty()) slurm_cancel(batch);  // lest one of them wakes later
+  return alive > 0;
 }
 
 void slurm_cancel(const Batch& batch) { require("scancel --name=" + job_name(batch)); }

@@ -26,8 +26,9 @@ size_t slurm_jobs_a_slice(size_t jobs, double seconds, const std::string& option
 /// Puts the batch into the queue. Throws InputError with what sbatch says.
 void slurm_submit(const Batch& batch, const SlurmSettings& settings);
 
-/// Whether Slurm has slices of it, or does not answer now. Releases slices that are held, and
-/// requeues those that no one works on though Slurm believes so.
+/// Whether Slurm has slices of it, or does not answer now. Releases slices that are held. Slices
+/// that no one works on though Slurm believes so do not count; once only such are left, they are
+/// cancelled.
 bool slurm_has(const Batch& batch);
 
 /// Ends it; what has no result yet is missing. Throws InputError with what scancel says.
