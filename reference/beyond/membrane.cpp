@@ -5,7 +5,7 @@
 #include <cmath>
 #include <memory>
 
-#include "reference/mesh/rigidity_map.h"
+#include "reference/beyond/directions.h"
 
 namespace foldproof {
 
@@ -15,9 +15,10 @@ using Eigen::Matrix2d;
 using Matrix32 = Eigen::Matrix<double, 3, 2>;
 using Matrix23 = Eigen::Matrix<double, 2, 3>;
 
-/// C of the header.
+/// C of the header, and tau.
 struct Stiffness {
   double c11, c12, c22, shear;  // N/m
+  double damping;               // s
 
   /// S of a symmetric E.
   Matrix2d stress(const Matrix2d& E) const {
@@ -39,6 +40,7 @@ struct RestTriangle {
   Triangle corners;
   Matrix23 gradients;
   double area;  // m^2
+  Stiffness material;
 
   Matrix32 gradient_of(const PerParticle3& x) const {
     Matrix32 F = Matrix32::Zero();
@@ -52,6 +54,11 @@ struct RestTriangle {
 
 Matrix2d symmetric(const Matrix2d& A) { return (A + A.transpose()) / 2; }
 
+/// F times the stress of the strain that changes by sym(F^T dF).
+Matrix32 changed(const Stiffness& material, const Matrix32& F, const Matrix32& dF) {
+  return F * material.stress(symmetric(F.transpose() * dF));
+}
+
 Matrix2d strain_of(const Matrix32& F) { return (F.transpose() * F - Matrix2d::Identity()) / 2; }
 
 /// The symmetric matrix with its negative eigenvalues set to zero.
@@ -63,13 +70,11 @@ Matrix2d positive_part(const Matrix2d& S) {
 
 struct Membrane {
   std::vector<RestTriangle> triangles;
-  Stiffness stiffness;
-  double damping;
 
   void add_elastic(const PerParticle3& x, PerParticle3& f) const {
     for (const RestTriangle& t : triangles) {
       const Matrix32 F = t.gradient_of(x);
-      t.push(F * stiffness.stress(strain_of(F)), f);
+      t.push(F * t.material.stress(strain_of(F)), f);
     }
   }
 
@@ -77,7 +82,7 @@ struct Membrane {
     double sum = 0;
     for (const RestTriangle& t : triangles) {
       const Matrix2d E = strain_of(t.gradient_of(x));
-      sum += t.area / 2 * stiffness.stress(E).cwiseProduct(E).sum();
+      sum += t.area / 2 * t.material.stress(E).cwiseProduct(E).sum();
     }
     return sum;
   }
@@ -92,14 +97,9 @@ struct Membrane {
     shapes.reserve(triangles.size());
     for (const RestTriangle& t : triangles) {
       const Matrix32 F = t.gradient_of(x);
-      shapes.push_back({F, stiffness.stress(strain_of(F))});
+      shapes.push_back({F, t.material.stress(strain_of(F))});
     }
     return shapes;
-  }
-
-  /// F times the stress of the strain that changes by sym(F^T dF).
-  Matrix32 changed(const Matrix32& F, const Matrix32& dF) const {
-    return F * stiffness.stress(symmetric(F.transpose() * dF));
   }
 
   /// With S : a bound on a row is A |g_i| sum |g_j| (|S| + |F|^2 |C|), norms of matrices.
@@ -107,7 +107,8 @@ struct Membrane {
     for (const RestTriangle& t : triangles) {
       const Matrix32 F = t.gradient_of(x);
       const Matrix2d FF = F.transpose() * F;
-      const double size = stiffness.stress(strain_of(F)).norm() + FF.trace() * stiffness.largest();
+      const double size =
+          t.material.stress(strain_of(F)).norm() + FF.trace() * t.material.largest();
       const Eigen::RowVector3d norms = t.gradients.colwise().norm();
       for (int k = 0; k < 3; ++k)
         rows[t.corners[size_t(k)]] += t.area * norms[k] * norms.sum() * size;
@@ -123,29 +124,12 @@ Stiffness stiffness_of(const MembraneMaterial& m) {
   if (!(left > 0))
     throw InputError("membrane: nu12^2 E2/E1 must be below 1; such a sheet would gain energy");
   const double c22 = m.weft / left;
-  return {m.warp / left, m.poisson * c22, c22, m.shear};
+  return {m.warp / left, m.poisson * c22, c22, m.shear, m.damping};
 }
 
-/// The corners in the pattern, or in the plane of a flat mesh.
-std::vector<FlatTriangle> flat_corners(const TriangleMesh& mesh) {
-  if (!mesh.pattern.empty()) return mesh.pattern;
-  RestPlane plane;
-  if (!is_flat(mesh, plane))
-    throw InputError(
-        "membrane: the rest shape is not flat; give [cloth] pattern, which says where "
-        "warp and weft run");
-  std::vector<FlatTriangle> corners;
-  for (const Triangle& t : mesh.triangles) {
-    FlatTriangle flat;
-    for (size_t k = 0; k < 3; ++k)
-      flat[k] = {plane.first.dot(mesh.rest.col(t[k])), plane.second.dot(mesh.rest.col(t[k]))};
-    corners.push_back(flat);
-  }
-  return corners;
-}
-
-RestTriangle rest_triangle(const Triangle& corners, const FlatTriangle& flat, double direction) {
-  const Matrix2d turn = Eigen::Rotation2Dd(-direction).toRotationMatrix();
+RestTriangle rest_triangle(const Triangle& corners, const FlatTriangle& flat,
+                           const MembraneMaterial& material) {
+  const Matrix2d turn = Eigen::Rotation2Dd(-material.direction).toRotationMatrix();
   Matrix2d sides;
   sides << turn * (flat[1] - flat[0]), turn * (flat[2] - flat[0]);
   const Matrix2d inverse = sides.inverse();
@@ -153,17 +137,18 @@ RestTriangle rest_triangle(const Triangle& corners, const FlatTriangle& flat, do
   gradients.col(1) = inverse.row(0).transpose();
   gradients.col(2) = inverse.row(1).transpose();
   gradients.col(0) = -(gradients.col(1) + gradients.col(2));
-  return {corners, gradients, std::abs(sides.determinant()) / 2};
+  return {corners, gradients, std::abs(sides.determinant()) / 2, stiffness_of(material)};
 }
 
 }  // namespace
 
-CustomForce make_membrane(const TriangleMesh& mesh, const MembraneMaterial& material) {
-  const auto all =
-      std::make_shared<Membrane>(Membrane{{}, stiffness_of(material), material.damping});
-  const std::vector<FlatTriangle> corners = flat_corners(mesh);
+CustomForce make_membrane(const TriangleMesh& mesh, const std::vector<MembraneMaterial>& materials,
+                          const std::vector<int>& of_triangle) {
+  const auto all = std::make_shared<Membrane>();
+  const std::vector<FlatTriangle> corners = flat_corners(mesh, "membrane");
   for (size_t t = 0; t < corners.size(); ++t)
-    all->triangles.push_back(rest_triangle(mesh.triangles[t], corners[t], material.direction));
+    all->triangles.push_back(rest_triangle(mesh.triangles[t], corners[t],
+                                           materials[of_triangle.empty() ? 0 : of_triangle[t]]));
 
   CustomForce force;
   force.energy_term = &Energies::stretch;
@@ -181,17 +166,18 @@ CustomForce make_membrane(const TriangleMesh& mesh, const MembraneMaterial& mate
       for (size_t k = 0; k < shapes.size(); ++k) {
         const RestTriangle& t = all->triangles[k];
         const Matrix32 dF = t.gradient_of(dx);
-        t.push(dF * shapes[k].S + all->changed(shapes[k].F, dF), df);
+        t.push(dF * shapes[k].S + changed(t.material, shapes[k].F, dF), df);
       }
     };
   };
-  if (material.damping > 0)
+  if (std::ranges::any_of(materials, [](const auto& of) { return of.damping > 0; }))
     force.damping = [all](const State& s) -> DampingOperator::Custom {
       const auto shapes = std::make_shared<const std::vector<Membrane::Shape>>(all->shapes_at(s.x));
       return {[all, shapes](const PerParticle3& v, PerParticle3& f) {
                 for (size_t k = 0; k < shapes->size(); ++k) {
                   const RestTriangle& t = all->triangles[k];
-                  t.push(all->damping * all->changed((*shapes)[k].F, t.gradient_of(v)), f);
+                  const Matrix32 stress = changed(t.material, (*shapes)[k].F, t.gradient_of(v));
+                  t.push(t.material.damping * stress, f);
                 }
               },
               [all, shapes](PerParticle& rows) {
@@ -199,7 +185,7 @@ CustomForce make_membrane(const TriangleMesh& mesh, const MembraneMaterial& mate
                   const RestTriangle& t = all->triangles[k];
                   const Eigen::RowVector3d norms = t.gradients.colwise().norm();
                   const double size =
-                      all->damping * (*shapes)[k].F.squaredNorm() * all->stiffness.largest();
+                      t.material.damping * (*shapes)[k].F.squaredNorm() * t.material.largest();
                   for (int i = 0; i < 3; ++i)
                     rows[t.corners[size_t(i)]] += t.area * norms[i] * norms.sum() * size;
                 }

@@ -124,7 +124,7 @@ void Search::find_touches(const PerParticle3& v) {
     ObjectsOverSpan objects(collision->objects, {state_.time, state_.time + h, h});
     for (const CollisionPoint& point : collision->points) {
       const Vector3 p = point.mean(state_.x), u = point.mean(v);
-      const std::span<ObjectPoint> answers = objects.at(p);
+      const std::span<ObjectPoint> answers = answers_at(objects, point, p);
       const std::vector<ObjectPoint> at(answers.begin(), answers.end());
       for (std::size_t part = 0; part < at.size(); ++part) {
         const Vector3& N = at[part].normal;
@@ -208,7 +208,7 @@ Eigen::VectorXd Search::landing(const PerParticle3& x, const Eigen::VectorXd& by
       for (const ObjectPoint& at : objects.at(point.mean(x)))
         clearance = std::min(clearance, at.phi);
       if (!(clearance > in_flight * search_.longest)) continue;
-      for (const ObjectPoint& at : objects.at(p)) {
+      for (const ObjectPoint& at : answers_at(objects, point, p)) {
         if (!(at.phi < 0)) continue;
         const double phi = at.phi - move.dot(at.normal);
         touches_.push_back(

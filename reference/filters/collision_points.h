@@ -3,8 +3,11 @@
 #pragma once
 
 #include <array>
+#include <limits>
+#include <span>
 #include <vector>
 
+#include "reference/level_set/object.h"
 #include "reference/mesh/triangle_mesh.h"
 #include "reference/types.h"
 
@@ -18,6 +21,8 @@ struct CollisionPoint {
   std::array<int, 3> particles{-1, -1, -1};  // -1: none
   int count = 0;
   Vector3 shares = Vector3::Zero();  // 1
+  // Coulomb's coefficient of the cloth there, in place of the objects'; NaN: theirs [1]
+  double friction = std::numeric_limits<double>::quiet_NaN();
 
   /// Mean of its particles' columns.
   Vector3 mean(const PerParticle3& of) const {
@@ -34,5 +39,14 @@ enum class PointKind { particles, edges, faces };
 /// correction of a particle is final. inverse_mass: N [1/kg], 0 for prescribed particles.
 std::vector<CollisionPoint> collision_points(const TriangleMesh& mesh,
                                              const PerParticle& inverse_mass, PointKind kind);
+
+/// Each object's answer at p, a place of the point, with the point's own friction if it has one.
+template <class Objects>
+std::span<ObjectPoint> answers_at(Objects& objects, const CollisionPoint& point, const Vector3& p) {
+  const std::span<ObjectPoint> answers = objects.at(p);
+  if (point.friction >= 0)
+    for (ObjectPoint& answer : answers) answer.friction = point.friction;
+  return answers;
+}
 
 }  // namespace foldproof

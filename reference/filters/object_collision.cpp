@@ -41,7 +41,8 @@ void ObjectCollision::correct(const Span& span, const State& s, PerParticle3& v,
     const Vector3 p = point.mean(s.x), before = point.mean(v);
     const Vector3 place = ahead ? Vector3(p + (span.end - span.start) * before) : p;
     if (last.around.out_of_reach(place, before, std::max(tau, span.step))) return;
-    const Vector3 after = response.velocity(last.around.at(place), {p, before, span, tau});
+    const Vector3 after =
+        response.velocity(answers_at(last.around, point, place), {p, before, span, tau});
     ++last.work.object_queries;
     if (after == before) return;
     if (moves) ++last.work.object_contacts;

@@ -19,7 +19,30 @@ double compliance(const FeaturePair& pair, const Eigen::Vector4d& weights,
   return sum;
 }
 
+/// The mean over the nearest points of both features; `otherwise` where there are no values.
+double mean_of(const PerParticle& values, const FeaturePair& pair, const Eigen::Vector4d& weights,
+               double otherwise) {
+  if (values.size() == 0) return otherwise;
+  double sum = 0;
+  for (int k = 0; k < 4; ++k) sum += std::abs(weights[k]) * values[pair.particles[size_t(k)]];
+  return sum / 2;
+}
+
 }  // namespace
+
+double LayerProperties::thickness_of(const FeaturePair& pair, const Eigen::Vector4d& weights,
+                                     const SelfCollisionSettings& settings) const {
+  return mean_of(thickness, pair, weights, settings.thickness);
+}
+
+double LayerProperties::friction_of(const FeaturePair& pair, const Eigen::Vector4d& weights,
+                                    const SelfCollisionSettings& settings) const {
+  return mean_of(friction, pair, weights, settings.friction);
+}
+
+double LayerProperties::least_thickness(const SelfCollisionSettings& settings) const {
+  return thickness.size() == 0 ? settings.thickness : thickness.minCoeff();
+}
 
 void push_apart(const FeaturePair& pair, const Eigen::Vector4d& weights, const Vector3& change,
                 const PerParticle& inverse_mass, PerParticle3& v) {
@@ -39,10 +62,11 @@ Vector3 friction_impulse(const Vector3& relative, const Vector3& N, double push,
 
 namespace {
 
-/// A pair within the thickness.
+/// A pair within its thickness.
 struct ClosePair {
   FeaturePair pair;
   Nearness at;
+  double thickness;  // m
 };
 
 bool inside_both(const Eigen::Vector4d& weights) { return (weights.array() != 0).all(); }
@@ -52,17 +76,19 @@ bool inside_both(const Eigen::Vector4d& weights) { return (weights.array() != 0)
 /// edges. So two edges count if they are nearest inside both. A vertex counts over a triangle, and
 /// at its rim only if no other triangle is nearer, as over a fold or at the cloth's border.
 std::vector<ClosePair> load_bearing_pairs(const std::vector<FeaturePair>& pairs,
-                                          const PerParticle3& x, double thickness,
-                                          const Team& team) {
+                                          const PerParticle3& x,
+                                          const SelfCollisionSettings& settings,
+                                          const LayerProperties& layers, const Team& team) {
   const auto close_pair = [&](const FeaturePair& pair) -> std::optional<ClosePair> {
     const Nearness at = nearness(pair.kind, corners_of(pair, x));
+    const double thickness = layers.thickness_of(pair, at.weights, settings);
     if (!(at.distance < thickness) || !(at.distance > 0)) return {};
     if (pair.kind == PairKind::edge_edge && !inside_both(at.weights)) return {};
-    return ClosePair{pair, at};
+    return ClosePair{pair, at, thickness};
   };
   std::vector<ClosePair> close = found_among<ClosePair>(team, pairs, close_pair);
   // of each vertex to a triangle [m]
-  PerParticle nearest = PerParticle::Constant(x.cols(), thickness);
+  PerParticle nearest = PerParticle::Constant(x.cols(), settings.thickness);
   for (const ClosePair& one : close) {
     double& least = nearest[one.pair.particles[0]];
     if (one.pair.kind == PairKind::vertex_triangle) least = std::min(least, one.at.distance);
@@ -77,11 +103,11 @@ std::vector<ClosePair> load_bearing_pairs(const std::vector<FeaturePair>& pairs,
 }  // namespace
 
 long repel(const std::vector<FeaturePair>& pairs, const PerParticle3& x,
-           const SelfCollisionSettings& settings, double h, const PerParticle& inverse_mass,
-           PerParticle3& v, const Team& team) {
+           const SelfCollisionSettings& settings, const LayerProperties& layers, double h,
+           const PerParticle& inverse_mass, PerParticle3& v, const Team& team) {
   long answered = 0;
-  for (const auto& [pair, at] : load_bearing_pairs(pairs, x, settings.thickness, team)) {
-    const double overlap = settings.thickness - at.distance;                    // d [m]
+  for (const auto& [pair, at, thickness] : load_bearing_pairs(pairs, x, settings, layers, team)) {
+    const double overlap = thickness - at.distance;                             // d [m]
     const double pair_compliance = compliance(pair, at.weights, inverse_mass);  // 1/kg
     const Vector3 relative = corners_of(pair, v) * at.weights;
     const double parting = relative.dot(at.normal),
@@ -91,8 +117,9 @@ long repel(const std::vector<FeaturePair>& pairs, const PerParticle3& x,
       after += std::min(h * settings.stiffness * overlap * pair_compliance, wanted - after);
     const double push = after - parting;
     if (!(push > 0) || !(pair_compliance > 0)) continue;
+    const double friction = layers.friction_of(pair, at.weights, settings);
     push_apart(pair, at.weights,
-               push * at.normal + friction_impulse(relative, at.normal, push, settings.friction),
+               push * at.normal + friction_impulse(relative, at.normal, push, friction),
                inverse_mass, v);
     ++answered;
   }

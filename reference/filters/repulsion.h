@@ -12,13 +12,26 @@ namespace foldproof {
 
 /// Settings of self-collision. It is active, and costs time, only if the case names it.
 struct SelfCollisionSettings {
-  double thickness = 0;  // s: layers nearer than this push each other apart [m], > 0
+  // s: layers nearer than this push each other apart [m], > 0; of several the largest
+  double thickness = 0;
   double stiffness = 0;  // k: stiffness of the repulsion per pair of features [N/m]
   double friction = 0;   // mu, Coulomb's coefficient between layers [1]
   // rounds of impulses against crossings before colliding parts move as rigid zones
   int rounds = 8;
   // runs a start that crosses itself, with a message; false: refuses it
   bool untangle = true;
+};
+
+/// Of a cloth of several fabrics: each N, or empty. Two layers have the mean of their thicknesses,
+/// half of each, and the mean of their coefficients.
+struct LayerProperties {
+  PerParticle thickness, friction;  // [m], [1]
+
+  double thickness_of(const FeaturePair& pair, const Eigen::Vector4d& weights,
+                      const SelfCollisionSettings& settings) const;
+  double friction_of(const FeaturePair& pair, const Eigen::Vector4d& weights,
+                     const SelfCollisionSettings& settings) const;
+  double least_thickness(const SelfCollisionSettings& settings) const;  // m
 };
 
 /// Changes the relative velocity of the two features, sum_i w_i v_i, by `change` [m/s], with
@@ -42,7 +55,7 @@ Vector3 friction_impulse(const Vector3& relative, const Vector3& N, double push,
 /// the number of pairs repelled.
 ///   team   searches for the load-bearing pairs
 long repel(const std::vector<FeaturePair>& pairs, const PerParticle3& x,
-           const SelfCollisionSettings& settings, double h, const PerParticle& inverse_mass,
-           PerParticle3& v, const Team& team);
+           const SelfCollisionSettings& settings, const LayerProperties& layers, double h,
+           const PerParticle& inverse_mass, PerParticle3& v, const Team& team);
 
 }  // namespace foldproof

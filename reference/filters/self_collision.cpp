@@ -29,8 +29,9 @@ struct Step {
   const std::vector<char>& tangled;  // N, or empty: particles that may pass through each other
   // N: particles whose velocity has changed since all pairs were last tested; empty: all
   std::vector<char> moved = {};
+  // m
+  double min_distance = min_distance_share * filter.layers.least_thickness(filter.settings);
 
-  double min_distance() const { return min_distance_share * filter.settings.thickness; }  // m
   std::vector<FeaturePair> pairs() const;
   std::optional<Approach> approach(const FeaturePair& pair) const;
   long resolve_all(int round);
@@ -51,13 +52,13 @@ std::vector<FeaturePair> pairs_of(const SelfCollision& filter, const Work& work,
 
 std::vector<FeaturePair> Step::pairs() const {
   std::vector<FeaturePair> found =
-      pairs_of(filter, work, s.x, s.x + h * v, 2 * min_distance(), moved);
+      pairs_of(filter, work, s.x, s.x + h * v, 2 * min_distance, moved);
   if (!tangled.empty()) remove_tangled_pairs(tangled, found);
   return found;
 }
 
 std::optional<Approach> Step::approach(const FeaturePair& pair) const {
-  return first_approach(pair.kind, corners_of(pair, s.x), h * corners_of(pair, v), min_distance());
+  return first_approach(pair.kind, corners_of(pair, s.x), h * corners_of(pair, v), min_distance);
 }
 
 /// Treats each pair that would collide, in order, each with the current v. Returns their number.
@@ -84,12 +85,12 @@ void Step::resolve(const FeaturePair& pair, const Approach& contact, int round) 
   // along it, at the start [m]
   const double gap = (corners_of(pair, s.x) * contact.at.weights).dot(N);
   const Vector3 relative = corners_of(pair, v) * contact.at.weights;
-  // m/s
-  const double allowed = round > 0 ? 0 : std::min(0.0, (filter.settings.thickness - gap) / h);
+  const double thickness = filter.layers.thickness_of(pair, contact.at.weights, filter.settings),
+               friction = filter.layers.friction_of(pair, contact.at.weights, filter.settings);
+  const double allowed = round > 0 ? 0 : std::min(0.0, (thickness - gap) / h);  // m/s
   const double push = allowed - relative.dot(N);
   if (!(push > 0)) return;
-  push_apart(pair, contact.at.weights,
-             push * N + friction_impulse(relative, N, push, filter.settings.friction),
+  push_apart(pair, contact.at.weights, push * N + friction_impulse(relative, N, push, friction),
              filter.inverse_mass, v);
 }
 
@@ -120,7 +121,7 @@ void Step::move_zones(ImpactZones& zones, std::vector<char>& is_off_its_path) {
     for (const int i : zone) {
       moved[size_t(i)] = 1;
       is_off_its_path[size_t(i)] =
-          filter.inverse_mass[i] == 0 && h * deviation > 1e-6 * min_distance();
+          filter.inverse_mass[i] == 0 && h * deviation > 1e-6 * min_distance;
     }
   }
 }
@@ -147,7 +148,7 @@ void SelfCollision::correct(const Span& span, const State& s, PerParticle3& v, W
     push_out_of_tangle(crossing, cloth.triangles, s.x, settings.thickness / untangling_time,
                        inverse_mass, v);
   }
-  work.close_pairs += repel(close, s.x, settings, h, inverse_mass, v, cloth.team);
+  work.close_pairs += repel(close, s.x, settings, layers, h, inverse_mass, v, cloth.team);
   if (!(span.end > span.start)) return;
 
   Step step{*this, s, v, h, work, tangled};

@@ -23,6 +23,7 @@ struct SelfCollision {
   ClothTree cloth;
   PerParticle mass, inverse_mass;   // N [kg], [1/kg]; the latter 0 for prescribed particles
   CrossingTriangles at_start = {};  // pairs that cross before the first step
+  LayerProperties layers = {};
 
   /// Searches and queries run on it; impulses are given one after the other.
   void set_team(const Team& team, Eigen::Index) { cloth.team = team; }

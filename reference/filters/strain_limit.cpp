@@ -51,6 +51,17 @@ Correction correction_of(const Vector3& d, const Vector3& u, double h, double li
   return result;
 }
 
+/// Of a range: lengths over the rest length, and squares at which corrections begin [1].
+struct LengthBounds {
+  double lower, upper, lower_squared, upper_squared;
+
+  explicit LengthBounds(const StrainRange& range)
+      : lower(1 - range.compression),
+        upper(1 + range.extension),
+        lower_squared(std::pow(lower * (1 - at_the_limit), 2)),
+        upper_squared(std::pow(upper * (1 + at_the_limit), 2)) {}
+};
+
 /// The springs of a call.
 class Sweeps {
  public:
@@ -59,10 +70,7 @@ class Sweeps {
         h_(h),
         x_(x),
         v_(v),
-        lower_(1 - limiter.limits.compression),
-        upper_(1 + limiter.limits.extension),
-        lower_squared_(std::pow(lower_ * (1 - at_the_limit), 2)),
-        upper_squared_(std::pow(upper_ * (1 + at_the_limit), 2)) {}
+        bounds_(limiter.ranges.begin(), limiter.ranges.end()) {}
 
   /// number: index of the sweep, from 0.
   SweepResult sweep(int number) {
@@ -90,10 +98,12 @@ class Sweeps {
   /// square root to test.
   Correction needed_correction(const LimitedSpring& spring) const {
     const Vector3 d = x_.col(spring.b) - x_.col(spring.a), u = v_.col(spring.b) - v_.col(spring.a);
+    const LengthBounds& bounds = bounds_[size_t(spring.range)];
     const double L0 = spring.rest_length, squared = (d + h_ * u).squaredNorm();
-    if (squared <= upper_squared_ * L0 * L0 && squared >= lower_squared_ * L0 * L0) return {};
+    if (squared <= bounds.upper_squared * L0 * L0 && squared >= bounds.lower_squared * L0 * L0)
+      return {};
     const double strain = std::sqrt(squared) / L0;
-    const double limit = strain < lower_ ? lower_ : upper_;
+    const double limit = strain < bounds.lower ? bounds.lower : bounds.upper;
     Correction result = correction_of(d, u, h_, limit * L0);
     result.violation = std::abs(strain - limit);
     return result;
@@ -152,7 +162,7 @@ class Sweeps {
   double h_;
   const PerParticle3& x_;
   PerParticle3& v_;
-  double lower_, upper_, lower_squared_, upper_squared_;  // over the rest length and its square [1]
+  std::vector<LengthBounds> bounds_;  // of the ranges
 };
 
 }  // namespace

@@ -22,17 +22,24 @@ enum class SweepOrder {
   jacobi
 };
 
-struct StrainLimits {
-  double extension = 0.10, compression = 0;  // fraction of the rest length [1]
+/// The range of a spring: lengths from 1 - compression to 1 + extension, over that at rest.
+struct StrainRange {
+  double extension = 0.10, compression = 0;  // 1
+
+  bool operator==(const StrainRange&) const = default;
+};
+
+struct StrainLimits : StrainRange {
   SweepOrder order = SweepOrder::gauss_seidel;
   int sweeps = 20;          // maximum per call
   double tolerance = 1e-3;  // relative violation at which sweeps end [1]
 };
 
-/// Data of a spring for the sweeps: 16 bytes.
+/// Data of a spring for the sweeps.
 struct LimitedSpring {
   int a, b;
   double rest_length;  // L0 [m]
+  int range = 0;       // its place among the limiter's ranges
 };
 
 /// The filter: if the predicted length of a spring at the end of a step, |d + h dv|, violates a
@@ -41,6 +48,7 @@ struct LimitedSpring {
 /// rounding of their limits, are unchanged bit for bit.
 struct StrainLimiter {
   StrainLimits limits;
+  std::vector<StrainRange> ranges;  // that springs have; without fabrics that of the limits
   // sorted by (colour, a, b); there is one colour if the order is not coloured
   std::vector<LimitedSpring> springs;
   // index in `springs` where each colour begins, then the number of springs
@@ -52,8 +60,10 @@ struct StrainLimiter {
 };
 
 /// Sorts and colours the springs. Throws InputError for invalid limits.
+///   ranges   of each spring, as in a cloth of several fabrics; none: that of the limits
 StrainLimiter make_strain_limiter(const StrainLimits& limits, std::span<const Spring> springs,
-                                  const PerParticle& inverse_mass);
+                                  const PerParticle& inverse_mass,
+                                  std::span<const StrainRange> ranges = {});
 
 /// Result of a call.
 struct StrainSweeps {

@@ -9,13 +9,26 @@ namespace foldproof {
 
 namespace {
 
+[[noreturn]] void reject(const std::string& why) { throw InputError("strain limits: " + why); }
+
+void check(const StrainRange& range) {
+  if (!(range.extension >= 0)) reject("extension must be a number >= 0");
+  if (!(range.compression >= 0 && range.compression < 1)) reject("compression must lie in [0, 1)");
+}
+
 void check(const StrainLimits& limits) {
-  const auto reject = [](const std::string& why) { throw InputError("strain limits: " + why); };
-  if (!(limits.extension >= 0)) reject("extension must be a number >= 0");
-  if (!(limits.compression >= 0 && limits.compression < 1))
-    reject("compression must lie in [0, 1)");
+  check(static_cast<const StrainRange&>(limits));
   if (!(limits.tolerance > 0)) reject("tolerance must be > 0");
   if (limits.sweeps < 1) reject("at least one sweep is needed");
+}
+
+/// The place of the range in the list, to which it is added if it is new.
+int place_of(const StrainRange& range, std::vector<StrainRange>& ranges) {
+  const auto found = std::ranges::find(ranges, range);
+  if (found != ranges.end()) return int(found - ranges.begin());
+  check(range);
+  ranges.push_back(range);
+  return int(ranges.size()) - 1;
 }
 
 /// For each spring, the first colour that no earlier spring has at either end.
@@ -55,11 +68,13 @@ void group_by_colour(StrainLimiter& limiter) {
 }  // namespace
 
 StrainLimiter make_strain_limiter(const StrainLimits& limits, std::span<const Spring> springs,
-                                  const PerParticle& inverse_mass) {
+                                  const PerParticle& inverse_mass,
+                                  std::span<const StrainRange> ranges) {
   check(limits);
-  StrainLimiter limiter{limits, {}, {}, inverse_mass};
-  for (const Spring& spring : springs)
-    limiter.springs.push_back({spring.a, spring.b, spring.rest_length});
+  StrainLimiter limiter{limits, {limits}, {}, {}, inverse_mass};
+  for (size_t i = 0; i < springs.size(); ++i)
+    limiter.springs.push_back({springs[i].a, springs[i].b, springs[i].rest_length,
+                               ranges.empty() ? 0 : place_of(ranges[i], limiter.ranges)});
   const auto places = [](const LimitedSpring& s) { return std::tuple(s.a, s.b); };
   std::stable_sort(limiter.springs.begin(), limiter.springs.end(),
                    [&](const auto& one, const auto& other) { return places(one) < places(other); });

@@ -11,9 +11,9 @@
 
 namespace foldproof {
 
-/// Triangles by the name of their group: those of all faces after 'g NAME ...' or 'o NAME', until
-/// the next record of the same letter. A name that occurs twice is one group; a face may belong to
-/// several.
+/// Triangles by the name of their group: those of all faces after 'g NAME ...', 'o NAME' or 'usemtl
+/// NAME', until the next record of the same kind. A name that occurs twice is one group; a face may
+/// belong to several.
 using FaceGroups = std::map<std::string, std::vector<int>>;
 
 struct MeshFile {
@@ -39,7 +39,7 @@ enum class Needs { faces, vertices };
 /// cannot be read, is in UTF-16, ends early or holds no face; a malformed number or index; an index
 /// out of range; a face of fewer than three vertices, or whose sides cross; a used vertex whose
 /// coordinates are not finite; a file beyond the limits of text_file.h, of more than 2 million
-/// vertices or 4 million triangles, with faces of more than 16 groups of one letter, or with a PLY
+/// vertices or 4 million triangles, with faces of more than 16 groups of one kind, or with a PLY
 /// header of more than 64 elements and properties.
 MeshFile read_mesh_file(const std::string& path, Needs needs = Needs::faces);
 

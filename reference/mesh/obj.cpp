@@ -29,9 +29,9 @@ struct Contents {
   // and the first corner of each face
   std::vector<std::array<int, 2>> corners;
   std::vector<size_t> first_corner;
-  // of the groups that faces belong to, by g and by o; and for each face its place in both
-  std::array<std::vector<Names>, 2> groups{{{{}}, {{}}}};
-  std::vector<std::array<size_t, 2>> groups_of_face;
+  // of the groups that faces belong to, by g, o and usemtl; and for each face its place in each
+  std::array<std::vector<Names>, 3> groups{{{{}}, {{}}, {{}}}};
+  std::vector<std::array<size_t, 3>> groups_of_face;
 };
 
 [[noreturn]] void reject(const std::string& file, int line, const std::string& reason) {
@@ -40,7 +40,7 @@ struct Contents {
 
 std::string quote(std::string_view token) { return "'" + std::string(token) + "'"; }
 
-constexpr size_t most_names = 16;  // of one record g or o
+constexpr size_t most_names = 16;  // of one record g, o or usemtl
 
 // --- words of a line ---
 
@@ -176,7 +176,9 @@ int vertex_index(const Cursor& cursor, std::string_view word, size_t vertices, i
 void read_face(Cursor& cursor, Contents& contents) {
   const int line = cursor.line;
   contents.faces.begin(line);
-  contents.groups_of_face.push_back({contents.groups[0].size() - 1, contents.groups[1].size() - 1});
+  auto& groups = contents.groups_of_face.emplace_back();
+  for (size_t kind = 0; kind < groups.size(); ++kind)
+    groups[kind] = contents.groups[kind].size() - 1;
   contents.first_corner.push_back(contents.corners.size());
   for (std::string_view word = next_word(cursor); !word.empty(); word = next_word(cursor)) {
     int texture = 0;
@@ -209,10 +211,10 @@ Names read_names(Cursor& cursor) {
 }
 
 /// The groups of the faces that follow. Names without a face are not kept.
-void begin_group(Contents& contents, size_t letter, Names names) {
-  std::vector<Names>& groups = contents.groups[letter];
-  const bool has_face = !contents.groups_of_face.empty() &&
-                        contents.groups_of_face.back()[letter] == groups.size() - 1;
+void begin_group(Contents& contents, size_t kind, Names names) {
+  std::vector<Names>& groups = contents.groups[kind];
+  const bool has_face =
+      !contents.groups_of_face.empty() && contents.groups_of_face.back()[kind] == groups.size() - 1;
   if (has_face) groups.emplace_back();
   groups.back() = std::move(names);
 }
@@ -231,6 +233,7 @@ Contents contents_of(std::string_view text, const std::string& file, Needs needs
     if (record == "vt") read_texture(cursor, contents);
     if (record == "g") begin_group(contents, 0, read_names(cursor));
     if (record == "o") begin_group(contents, 1, read_names(cursor));
+    if (record == "usemtl") begin_group(contents, 2, read_names(cursor));
     skip_rest_of_record(cursor);
   }
   if (contents.faces.empty() && (needs == Needs::faces || contents.vertices.empty()))
@@ -248,9 +251,9 @@ Contents contents_of(std::string_view text, const std::string& file, Needs needs
 FaceGroups groups_of(const Contents& contents, const std::vector<int>& face_of_triangle) {
   FaceGroups groups;
   for (size_t t = 0; t < face_of_triangle.size(); ++t) {
-    const auto [g, o] = contents.groups_of_face[size_t(face_of_triangle[t])];
-    for (const Names* names : {&contents.groups[0][g], &contents.groups[1][o]})
-      for (const std::string& name : *names) {
+    const auto& places = contents.groups_of_face[size_t(face_of_triangle[t])];
+    for (size_t kind = 0; kind < places.size(); ++kind)
+      for (const std::string& name : contents.groups[kind][places[kind]]) {
         std::vector<int>& group = groups[name];
         // a face may belong to an object and to a group of the same name
         if (group.empty() || group.back() != int(t)) group.push_back(int(t));

@@ -14,15 +14,9 @@ namespace {
 //   x3 -- x4   K1 = -(c01 + c03), K2 = -(c02 + c04), K3 = c03 + c04, K4 = c01 + c02,
 //     \  /     the hinge turns by theta = sum K_i w_i/|E|, to first order.
 //      x2
-struct FlatHinge {
-  Eigen::Vector3d turn;  // q: theta = q.k for k = (K11, K22, 2 K12) [m]
-  double weight;         // c/2 [1]: energy = ke c theta^2/4
-  double area;           // a third of the two triangles [m^2]
-};
-
 double cotangent(const Vector3& a, const Vector3& b) { return a.dot(b) / a.cross(b).norm(); }
 
-FlatHinge flat_hinge(const TriangleMesh& mesh, const Hinge& hinge, const RestPlane& plane) {
+FlatElement flat_hinge(const TriangleMesh& mesh, const Hinge& hinge, const RestPlane& plane) {
   std::array<Vector3, 4> x;
   for (std::size_t k = 0; k < 4; ++k) x[k] = mesh.rest.col(hinge.particles[k]);
   const Vector3 edge = x[3] - x[2];
@@ -31,25 +25,27 @@ FlatHinge flat_hinge(const TriangleMesh& mesh, const Hinge& hinge, const RestPla
   const std::array<double, 4> K = {-(c01 + c03), -(c02 + c04), c03 + c04, c01 + c02};
   // |N1| + |N2|
   const double twice_areas = edge.cross(x[0] - x[2]).norm() + edge.cross(x[1] - x[2]).norm();
-  FlatHinge flat{Eigen::Vector3d::Zero(), edge.squaredNorm() / twice_areas / 2, twice_areas / 6};
+  const double weight = edge.squaredNorm() / twice_areas / 2;  // c/2: energy = ke c theta^2/4
+  Eigen::Vector3d turn = Eigen::Vector3d::Zero();              // q: theta = q.k [m]
   for (std::size_t k = 0; k < 4; ++k) {
     const double a = (x[k] - x[2]).dot(plane.first), b = (x[k] - x[2]).dot(plane.second);
-    flat.turn += K[k] * Eigen::Vector3d(a * a / 2, b * b / 2, a * b / 2);
+    turn += K[k] * Eigen::Vector3d(a * a / 2, b * b / 2, a * b / 2);
   }
-  flat.turn /= edge.norm();
-  return flat;
+  turn /= edge.norm();
+  return {weight * turn * turn.transpose(), twice_areas / 6,
+          std::atan2(edge.dot(plane.first), -edge.dot(plane.second))};
 }
 
-/// Sums hinges: R = sum c/2 q q^T over the sum of their areas.
+/// Sums elements: R = the sum of their energies over that of their areas.
 struct Sum {
   Eigen::Matrix3d energy = Eigen::Matrix3d::Zero();
   double area = 0;
-  int hinges = 0;
+  int elements = 0;
 
-  void add(const FlatHinge& hinge) {
-    energy += hinge.weight * hinge.turn * hinge.turn.transpose();
-    area += hinge.area;
-    ++hinges;
+  void add(const FlatElement& element) {
+    energy += element.energy;
+    area += element.area;
+    ++elements;
   }
   Rigidity rigidity() const { return {energy / area}; }
 };
@@ -112,26 +108,37 @@ bool is_flat(const TriangleMesh& mesh, RestPlane& plane) {
          1e-6 * extent;
 }
 
-Rigidity rigidity_of(const TriangleMesh& mesh, const RestPlane& plane) {
-  Sum sum;
-  for (const Hinge& hinge : mesh.hinges) sum.add(flat_hinge(mesh, hinge, plane));
-  return sum.rigidity();
+std::vector<FlatElement> flat_hinges(const TriangleMesh& mesh, const RestPlane& plane) {
+  std::vector<FlatElement> elements;
+  for (const Hinge& hinge : mesh.hinges) elements.push_back(flat_hinge(mesh, hinge, plane));
+  return elements;
 }
 
 // In the strain e, a spring of stiffness Y A_e/L0^2 along the unit vector n stores
-// Y A_e (n.e n)^2/2.
-Rigidity membrane_of(const TriangleMesh& mesh, const RestPlane& plane) {
+// Y A_e (n.e n)^2/2. Each triangle lies at three edges.
+std::vector<FlatElement> flat_springs(const TriangleMesh& mesh, const RestPlane& plane) {
   const Eigen::VectorXd areas = edge_areas(mesh);
-  Rigidity sum;
+  std::vector<FlatElement> elements;
   for (size_t e = 0; e < mesh.edges.size(); ++e) {
     const Edge& edge = mesh.edges[e];
     const Vector3 n = (mesh.rest.col(edge.b) - mesh.rest.col(edge.a)).normalized();
-    const double c = n.dot(plane.first), s = n.dot(plane.second);
+    const double c = n.dot(plane.first), s = n.dot(plane.second), area = areas[Eigen::Index(e)];
     const Eigen::Vector3d a(c * c, s * s, c * s);
-    sum.R += areas[Eigen::Index(e)] * a * a.transpose();
+    elements.push_back({area * a * a.transpose(), area / 3, std::atan2(s, c)});
   }
-  sum.R /= areas.sum() / 3;  // each triangle lies at three edges
-  return sum;
+  return elements;
+}
+
+Rigidity rigidity_of(const TriangleMesh& mesh, const RestPlane& plane) {
+  Sum sum;
+  for (const FlatElement& hinge : flat_hinges(mesh, plane)) sum.add(hinge);
+  return sum.rigidity();
+}
+
+Rigidity membrane_of(const TriangleMesh& mesh, const RestPlane& plane) {
+  Sum sum;
+  for (const FlatElement& spring : flat_springs(mesh, plane)) sum.add(spring);
+  return sum.rigidity();
 }
 
 std::vector<RigidityExtremes> rigidity_around_particles(const TriangleMesh& mesh) {
@@ -160,7 +167,7 @@ std::vector<RigidityExtremes> rigidity_around_particles(const TriangleMesh& mesh
         last_use[std::size_t(k)] = int(i);
         sum.add(flat_hinge(mesh, mesh.hinges[std::size_t(k)], plane));
       }
-    if (sum.hinges >= 3) around[i] = extremes_of(sum.rigidity());
+    if (sum.elements >= 3) around[i] = extremes_of(sum.rigidity());
   }
   return around;
 }

@@ -42,6 +42,17 @@ struct RestPlane {
 /// normal than 45 degrees, projected on the plane.
 bool is_flat(const TriangleMesh& mesh, RestPlane& plane);
 
+/// A hinge or spring of a flat mesh: its part of the sheet's energy at small strain or curvature.
+struct FlatElement {
+  Eigen::Matrix3d energy;  // of `area`, by ke or Y [m^2]
+  double area;             // that it stands for [m^2]
+  // that it resists along, from the plane's first direction: along a spring, across a hinge's edge
+  double angle;  // rad
+};
+
+std::vector<FlatElement> flat_hinges(const TriangleMesh& mesh, const RestPlane& plane);
+std::vector<FlatElement> flat_springs(const TriangleMesh& mesh, const RestPlane& plane);
+
 /// The rigidity of all hinges of a flat mesh together. A sheet of few cells lacks the hinges of its
 /// border.
 Rigidity rigidity_of(const TriangleMesh& mesh, const RestPlane& plane);

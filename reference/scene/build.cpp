@@ -1,6 +1,7 @@
 #include "reference/scene/scene.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "reference/mesh/self_intersection.h"
 #include "reference/scene/field_recipe.h"
@@ -18,11 +19,24 @@ Scene scene_at_rest(TriangleMesh mesh, double density) {
 
 namespace {
 
+/// The mean of the point's particles that have a coefficient of their own [1]; NaN: none has.
+double friction_at(const CollisionPoint& point, const PerParticle& friction) {
+  double sum = 0, count = 0;
+  for (int k = 0; k < point.count; ++k) {
+    const double own = friction[point.particles[size_t(k)]];
+    if (!std::isnan(own)) sum += own, ++count;
+  }
+  return sum / count;
+}
+
 ObjectCollision object_collision(const Scene& scene, const System& system,
                                  std::vector<Object> objects) {
   ObjectCollision filter;
   filter.objects = std::move(objects);
   filter.points = collision_points(scene.mesh, system.inverse_mass, scene.collision.points);
+  const PerParticle friction = friction_of(scene);
+  if (friction.size() > 0)
+    for (CollisionPoint& point : filter.points) point.friction = friction_at(point, friction);
   filter.response = response_named(scene.collision.response);
   filter.forecast_time = scene.collision.forecast_time;
   return filter;
@@ -32,14 +46,19 @@ SelfCollision self_collision(const Scene& scene, const System& system, const Sta
   CrossingTriangles at_start;
   if (scene.self_collision->untangle)  // else the reader rejects a start that crosses itself
     at_start = self_intersections(start.x, scene.mesh.triangles);
-  return {*scene.self_collision, make_cloth_tree(scene.mesh), system.mass, system.inverse_mass,
-          at_start};
+  return {*scene.self_collision,
+          make_cloth_tree(scene.mesh),
+          system.mass,
+          system.inverse_mass,
+          at_start,
+          layers_of(scene)};
 }
 
-StrainLimiter strain_limiter(const StrainLimits& limits, const System& system) {
+StrainLimiter strain_limiter(const Scene& scene, const System& system) {
   for (const Force& force : system.forces)
     if (const auto* stretch = std::get_if<StretchSprings>(&force))
-      return make_strain_limiter(limits, stretch->springs, system.inverse_mass);
+      return make_strain_limiter(*scene.strain_limits, stretch->springs, system.inverse_mass,
+                                 strain_ranges_of(scene));
   throw InputError("strain limits limit springs; the scene has none");
 }
 
@@ -59,14 +78,14 @@ BuiltScene build(const Scene& scene, const LevelSetProvider& level_sets) {
   System system = make_system(masses_of(scene));
   if (scene.gravity) system.forces.push_back(Gravity{*scene.gravity, system.mass});
   if (scene.stretch) system.forces.push_back(springs_of(scene));
-  if (scene.membrane) system.forces.push_back(make_membrane(scene.mesh, *scene.membrane));
+  if (scene.membrane) system.forces.push_back(membrane_of(scene));
   if (scene.bending)
     for (Bending& bending : bending_of(scene)) system.forces.push_back(std::move(bending));
   if (scene.air) system.forces.push_back(make_air(scene.mesh.triangles, *scene.air));
   if (!scene.sticky.empty()) system.forces.push_back(Sticking{scene.sticky});
   for (const PrescribedParticle& particle : scene.prescribed) prescribe(system, particle);
   State start = start_state(scene);
-  if (scene.strain_limits) system.filters.push_back(strain_limiter(*scene.strain_limits, system));
+  if (scene.strain_limits) system.filters.push_back(strain_limiter(scene, system));
   if (!scene.objects.empty()) system.filters.push_back(object_collision(scene, system, objects));
   if (scene.self_collision) system.filters.push_back(self_collision(scene, system, start));
   system.solver = scene.solver;

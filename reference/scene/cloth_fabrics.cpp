@@ -1,6 +1,7 @@
 #include "reference/scene/cloth_fabrics.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <utility>
@@ -8,6 +9,8 @@
 #include "reference/scene/fabrics.h"
 #include "reference/scene/key_values.h"
 #include "reference/scene/read_region.h"
+#include "reference/scene/read_materials.h"
+#include "reference/scene/read_strain.h"
 #include "reference/scene/scene.h"
 
 namespace foldproof {
@@ -42,33 +45,54 @@ std::vector<int> triangles_of(const KeyTable& keys, const FaceGroups& groups, co
                    (known.empty() ? "it has none at all" : "known: " + known));
 }
 
+/// The table of that name in a fabric's; throws InputError if the case does not have the part.
+std::shared_ptr<KeyTable> part_of(const KeyTable& keys, const std::string& name, bool is_there) {
+  auto table = keys.table(name);
+  if (table && !is_there)
+    throw InputError(table->where() + ": a fabric's " + name + " needs the table [" + name + "]");
+  return table;
+}
+
 /// The fabric of a table; what it leaves out is as in `base`.
-ClothFabric fabric_of(const KeyTable& keys, const std::string& folder, const Scene& scene,
+ClothFabric fabric_of(const KeyTable& keys, const std::string& folder, Scene& scene,
                       const ClothFabric& base) {
   ClothFabric fabric = base;
   fabric.name = keys.text_or("name", keys.text_or("group", keys.text_or("fabric", "")));
+  std::optional<Fabric> measured;
   if (keys.has("fabric")) {
     const std::filesystem::path file = keys.text_or("fabrics", "fabrics.toml");
     const std::string path =
         (file.is_absolute() ? file : std::filesystem::path(folder) / file).string();
-    const Fabric measured =
-        fabric_named(read_fabrics(path), keys.text("fabric"), keys.where("fabric"));
-    fabric.density = measured.density;
-    if (scene.bending) fabric.bending.stiffness = fabric_on_mesh(measured, scene.mesh).stiffness;
+    measured = fabric_named(read_fabrics(path), keys.text("fabric"), keys.where("fabric"));
+    fabric.density = measured->density;
+    if (scene.bending) {
+      fabric.bending.stiffness = fabric_on_mesh(*measured, scene.mesh).stiffness;
+      fabric.bending_directions = {};
+    }
   }
   fabric.density = positive_or(keys, "density", fabric.density);
-  if (const auto stretch = keys.table("stretch")) {
-    if (!scene.stretch)
-      throw InputError(stretch->where() + ": a fabric's stretch needs the table [stretch]");
-    fabric.stretch.stiffness = non_negative_or(*stretch, "stiffness", fabric.stretch.stiffness);
-    fabric.stretch.damping = non_negative_or(*stretch, "damping", fabric.stretch.damping);
+  if (const auto stretch = part_of(keys, "stretch", scene.stretch.has_value())) {
+    const Directed<StretchMaterial> own{fabric.stretch, fabric.stretch_directions};
+    const auto [material, directions] = read_stretch(*stretch, scene.mesh, &own, scene.notes);
+    fabric.stretch = material;
+    fabric.stretch_directions = directions;
   }
-  if (const auto bending = keys.table("bending")) {
-    if (!scene.bending)
-      throw InputError(bending->where() + ": a fabric's bending needs the table [bending]");
-    fabric.bending.stiffness = non_negative_or(*bending, "stiffness", fabric.bending.stiffness);
-    fabric.bending.damping = non_negative_or(*bending, "damping", fabric.bending.damping);
+  if (const auto bending = part_of(keys, "bending", scene.bending.has_value())) {
+    const Directed<BendingMaterial> own{fabric.bending, fabric.bending_directions};
+    const auto [material, directions] =
+        read_bending(*bending, scene.mesh, &own, measured, scene.notes);
+    fabric.bending = material;
+    fabric.bending_directions = directions;
   }
+  if (const auto membrane = part_of(keys, "membrane", scene.membrane.has_value()))
+    fabric.membrane = read_membrane(*membrane, &fabric.membrane);
+  if (const auto limits = part_of(keys, "strain_limits", scene.strain_limits.has_value()))
+    read_strain_range(*limits, fabric.limits);
+  if (const auto layers = part_of(keys, "self_collision", base.thickness > 0)) {
+    fabric.thickness = positive_or(*layers, "thickness", fabric.thickness);
+    fabric.layer_friction = non_negative_or(*layers, "friction", fabric.layer_friction);
+  }
+  if (keys.has("friction")) fabric.friction = non_negative_or(keys, "friction", 0);
   return fabric;
 }
 
@@ -89,7 +113,13 @@ void read_cloth_fabrics(const KeyTable& keys, const std::string& folder, const F
   if (tables.empty()) return;
   ClothFabrics& all = scene.fabrics;
   all.fabrics = {{"cloth", scene.density, scene.stretch.value_or(StretchMaterial{}),
-                  scene.bending.value_or(BendingMaterial{})}};
+                  scene.bending.value_or(BendingMaterial{}),
+                  scene.membrane.value_or(MembraneMaterial{}), scene.stretch_directions,
+                  scene.bending_directions, scene.strain_limits.value_or(StrainLimits{})}};
+  if (const auto self = keys.table("self_collision")) {
+    all.fabrics.front().thickness = positive(*self, "thickness");
+    all.fabrics.front().layer_friction = non_negative_or(*self, "friction", 0);
+  }
   all.of_triangle.assign(scene.mesh.triangles.size(), 0);
   for (const auto& table : tables) {
     for (const int t : triangles_of(*table, groups, scene))
@@ -114,24 +144,120 @@ std::vector<double> densities_of(const Scene& scene) {
   return densities;
 }
 
+CustomForce membrane_of(const Scene& scene) {
+  std::vector<MembraneMaterial> materials;
+  for (const ClothFabric& fabric : scene.fabrics.fabrics) materials.push_back(fabric.membrane);
+  if (materials.empty()) materials = {*scene.membrane};
+  return make_membrane(scene.mesh, materials, scene.fabrics.of_triangle);
+}
+
+std::vector<StrainRange> strain_ranges_of(const Scene& scene) {
+  const ClothFabrics& cloth = scene.fabrics;
+  std::vector<StrainRange> ranges;
+  if (cloth.empty()) return ranges;
+  for (const Edge& edge : scene.mesh.edges) {
+    constexpr double none = std::numeric_limits<double>::infinity();
+    StrainRange range{none, none};
+    for (const int t : edge.triangles) {
+      if (t < 0) continue;
+      const StrainRange& own = cloth.fabrics[size_t(cloth.of_triangle[size_t(t)])].limits;
+      range = {std::min(range.extension, own.extension),
+               std::min(range.compression, own.compression)};
+    }
+    ranges.push_back(range);
+  }
+  return ranges;
+}
+
+double largest_extension_of(const Scene& scene) {
+  double largest = scene.strain_limits->extension;
+  for (const ClothFabric& fabric : scene.fabrics.fabrics)
+    largest = std::max(largest, fabric.limits.extension);
+  return largest;
+}
+
+namespace {
+
+/// The mean of a fabric's value over the areas of each particle's triangles; NaN where all are.
+template <class Value>
+PerParticle mean_of_triangles(const Scene& scene, Value value) {
+  const Eigen::VectorXd areas = rest_areas(scene.mesh);
+  PerParticle sums = PerParticle::Zero(scene.x.cols()), weights = sums;
+  for (size_t t = 0; t < scene.mesh.triangles.size(); ++t) {
+    const double own = value(scene.fabrics.fabrics[size_t(scene.fabrics.of_triangle[t])]);
+    if (std::isnan(own)) continue;
+    for (const int i : scene.mesh.triangles[t]) {
+      sums[i] += areas[Eigen::Index(t)] * own;
+      weights[i] += areas[Eigen::Index(t)];
+    }
+  }
+  return sums.cwiseQuotient(weights);
+}
+
+}  // namespace
+
+PerParticle friction_of(const Scene& scene) {
+  const auto has_own = [](const ClothFabric& fabric) { return !std::isnan(fabric.friction); };
+  if (std::ranges::none_of(scene.fabrics.fabrics, has_own)) return {};
+  return mean_of_triangles(scene, [](const ClothFabric& fabric) { return fabric.friction; });
+}
+
+LayerProperties layers_of(const Scene& scene) {
+  if (scene.fabrics.empty()) return {};
+  return {mean_of_triangles(scene, [](const ClothFabric& of) { return of.thickness; }),
+          mean_of_triangles(scene, [](const ClothFabric& of) { return of.layer_friction; })};
+}
+
 PerParticle masses_of(const Scene& scene) { return lumped_masses(scene.mesh, densities_of(scene)); }
+
+namespace {
+
+/// The factor of an edge's spring or hinge in each of its two triangles. turn: from the edge to
+/// what it resists along [rad].
+std::vector<std::array<double, 2>> factors_of_edges(const Scene& scene,
+                                                    ByDirection ClothFabric::*of_fabric,
+                                                    const ByDirection& of_cloth, double turn) {
+  const ClothFabrics& cloth = scene.fabrics;
+  std::vector<std::array<double, 2>> factors(scene.mesh.edges.size(), {1, 1});
+  const bool is_uniform =
+      of_cloth.is_uniform() && std::ranges::all_of(cloth.fabrics, [&](const ClothFabric& fabric) {
+        return (fabric.*of_fabric).is_uniform();
+      });
+  if (is_uniform) return factors;
+  const std::vector<std::array<double, 2>> angles = angles_of_edges(scene.mesh);
+  for (size_t e = 0; e < factors.size(); ++e)
+    for (size_t side = 0; side < 2; ++side) {
+      const int t = scene.mesh.edges[e].triangles[side];
+      if (t < 0) continue;
+      const ByDirection& by =
+          cloth.empty() ? of_cloth : cloth.fabrics[size_t(cloth.of_triangle[size_t(t)])].*of_fabric;
+      factors[e][side] = by.at(angles[e][side] + turn);
+    }
+  return factors;
+}
+
+}  // namespace
 
 StretchSprings springs_of(const Scene& scene) {
   const ClothFabrics& cloth = scene.fabrics;
   StretchSprings all = make_springs(scene.mesh, *scene.stretch);
-  if (cloth.empty() && scene.mesh.pattern.empty()) return all;
+  if (cloth.empty() && scene.mesh.pattern.empty() && scene.stretch_directions.is_uniform())
+    return all;
   const std::vector<std::array<EdgeSide, 2>> sides = edge_sides(scene.mesh);
+  const auto factors =
+      factors_of_edges(scene, &ClothFabric::stretch_directions, scene.stretch_directions, 0);
   for (size_t e = 0; e < sides.size(); ++e) {
     double stiffness = 0, damping = 0, pull = 0;  // pull: tension at the length 0 [N]
-    for (const EdgeSide& side : sides[e]) {
+    for (size_t k = 0; k < 2; ++k) {
+      const EdgeSide& side = sides[e][k];
       if (side.triangle < 0) continue;
       const StretchMaterial& material =
           cloth.empty() ? *scene.stretch
                         : cloth.fabrics[size_t(cloth.of_triangle[size_t(side.triangle)])].stretch;
       const double shape = side.area / (side.length * side.length);
-      stiffness += material.stiffness * shape;
+      stiffness += factors[e][k] * material.stiffness * shape;
       damping += material.damping * shape;
-      pull += material.stiffness * shape * side.length;
+      pull += factors[e][k] * material.stiffness * shape * side.length;
     }
     Spring& spring = all.springs[e];
     spring.stiffness = stiffness;
@@ -144,7 +270,13 @@ StretchSprings springs_of(const Scene& scene) {
 
 std::vector<Bending> bending_of(const Scene& scene) {
   const ClothFabrics& cloth = scene.fabrics;
-  const Bending all = make_bending(scene.mesh, *scene.bending, scene.rest_angles);
+  Bending all = make_bending(scene.mesh, *scene.bending, scene.rest_angles);
+  const auto factors =
+      factors_of_edges(scene, &ClothFabric::bending_directions, scene.bending_directions, pi / 2);
+  for (size_t h = 0; h < scene.mesh.hinges.size(); ++h) {
+    const auto& [one, other] = factors[size_t(scene.mesh.hinges[h].edge)];
+    all.hinges[h].rest_weight *= (one + other) / 2;
+  }
   if (cloth.empty()) return {all};
   std::map<std::pair<int, int>, Bending> parts;  // of pairs of fabrics
   for (size_t h = 0; h < scene.mesh.hinges.size(); ++h) {

@@ -1,9 +1,14 @@
 // Several fabrics in one cloth: each triangle is of one of them.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
+#include "reference/beyond/directions.h"
+#include "reference/beyond/membrane.h"
+#include "reference/filters/repulsion.h"
+#include "reference/filters/strain_limit.h"
 #include "reference/forces/bending.h"
 #include "reference/forces/springs.h"
 #include "reference/mesh/mesh_file.h"
@@ -17,12 +22,18 @@ struct Scene;
 struct ClothFabric {
   std::string name;
   double density = 0;  // kg/m^2
-  StretchMaterial stretch;
-  BendingMaterial bending;
+  StretchMaterial stretch = {};
+  BendingMaterial bending = {};
+  MembraneMaterial membrane = {};
+  ByDirection stretch_directions = {}, bending_directions = {};
+  StrainRange limits = {};
+  // Coulomb's coefficient against objects [1]; NaN: the objects' own
+  double friction = std::numeric_limits<double>::quiet_NaN();
+  double thickness = 0, layer_friction = 0;  // of self-collision [m], [1]
 };
 
-/// The fabrics of a cloth; the first is that of [cloth], [stretch] and [bending]. Empty: it is the
-/// only one.
+/// The fabrics of a cloth; the first is that of [cloth] and of the tables of the forces and
+/// filters. Empty: it is the only one.
 struct ClothFabrics {
   std::vector<ClothFabric> fabrics = {};
   std::vector<int> of_triangle = {};  // M, places in the list
@@ -44,13 +55,28 @@ std::vector<double> densities_of(const Scene& scene);
 PerParticle masses_of(const Scene& scene);
 
 /// The springs of the scene. Each triangle brings A/L0^2 of its own fabric, and its own side's
-/// length in a pattern, to its three edges; where two fabrics or panels meet, the edge's spring is
-/// the two side by side.
+/// length in a pattern, to its three edges, times the factor of that side's direction; where two
+/// fabrics or panels meet, the edge's spring is the two side by side.
 StretchSprings springs_of(const Scene& scene);
 
 /// The bending of the scene, one force for all hinges of the same fabrics. A hinge between two
 /// fabrics has half of each, one behind the other: its compliance 1/ke and its damping are means
-/// of theirs.
+/// of theirs. The factor of its direction multiplies its weight: the mean of both sides'.
 std::vector<Bending> bending_of(const Scene& scene);
+
+CustomForce membrane_of(const Scene& scene);
+
+/// The range of each spring: between two fabrics the narrower. Empty: that of [strain_limits].
+std::vector<StrainRange> strain_ranges_of(const Scene& scene);
+
+/// The largest extension that strain limits allow to some spring [1].
+double largest_extension_of(const Scene& scene);
+
+/// Coulomb's coefficient of each particle against objects: the mean over its triangles' areas of
+/// the fabrics that have one; N values, NaN where none has [1]. Empty: the objects' everywhere.
+PerParticle friction_of(const Scene& scene);
+
+/// Of each particle: means over its triangles' areas. Empty without fabrics.
+LayerProperties layers_of(const Scene& scene);
 
 }  // namespace foldproof

@@ -8,6 +8,7 @@
 
 #include "reference/scene/key_values.h"
 #include "reference/scene/fabrics.h"
+#include "reference/scene/read_materials.h"
 #include "reference/scene/read_objects.h"
 #include "reference/scene/read_region.h"
 #include "reference/scene/read_self_collision.h"
@@ -22,52 +23,6 @@
 namespace foldproof {
 
 namespace {
-
-StretchMaterial read_stretch(const KeyTable& keys) {
-  StretchMaterial material;
-  material.stiffness = non_negative_or(keys, "stiffness", keys.number("stiffness"));
-  material.damping = non_negative_or(keys, "damping", 0);
-  material.rest_length_scale = positive_or(keys, "rest_length_scale", 1);
-  return material;
-}
-
-MembraneMaterial read_membrane(const KeyTable& keys) {
-  MembraneMaterial material;
-  material.warp = positive(keys, "warp");
-  material.weft = positive_or(keys, "weft", material.warp);
-  material.poisson = non_negative_or(keys, "poisson", 0);
-  material.shear = positive_or(keys, "shear", material.warp / (2 * (1 + material.poisson)));
-  material.damping = non_negative_or(keys, "damping", 0);
-  material.direction = keys.number_or("direction", 0) * radians_per_degree;
-  return material;
-}
-
-Air read_air(const KeyTable& keys) {
-  Air air;
-  air.density = non_negative_or(keys, "density", air.density);
-  air.wind = keys.vector_or("wind", air.wind);
-  air.normal_drag = non_negative_or(keys, "normal_drag", air.normal_drag);
-  air.tangential_drag = non_negative_or(keys, "tangential_drag", air.tangential_drag);
-  return air;
-}
-
-BendingMaterial read_bending(const KeyTable& keys, const std::optional<FabricOnMesh>& fabric) {
-  BendingMaterial material;
-  material.stiffness = fabric && !keys.has("stiffness")
-                           ? fabric->stiffness
-                           : non_negative_or(keys, "stiffness", keys.number("stiffness"));
-  material.damping = non_negative_or(keys, "damping", 0);
-  material.weighting = choice<Weighting>(
-      keys, "weighting", {{"rest", Weighting::rest}, {"current", Weighting::current}});
-  material.damping_factor =
-      choice<DampingFactor>(keys, "damping_factor",
-                            {{"edge", DampingFactor::edge},
-                             {"edge_squared_over_area", DampingFactor::edge_squared_over_area}});
-  std::vector<std::pair<std::string, std::string_view>> laws;
-  for (const BendingLaw& law : bending_laws()) laws.emplace_back(std::string(law.name), law.name);
-  material.law = choice<std::string_view>(keys, "law", laws);
-  return material;
-}
 
 std::vector<double> read_rest_angles(const KeyTable& keys, const TriangleMesh& mesh) {
   if (keys.has("rest_angle") && !keys.is_text("rest_angle")) {
@@ -240,17 +195,24 @@ Scene scene_from(const CaseKeys& of, const SceneLimits& limits) {
   reject_overflow(*cloth, scene);
   if (const auto gravity = keys.table("gravity"))
     scene.gravity = gravity->vector_or("acceleration", {0, -9.80665, 0});
-  if (const auto stretch = keys.table("stretch")) scene.stretch = read_stretch(*stretch);
-  if (const auto membrane = keys.table("membrane")) scene.membrane = read_membrane(*membrane);
+  if (const auto stretch = keys.table("stretch")) {
+    const auto [material, directions] = read_stretch(*stretch, scene.mesh, nullptr, scene.notes);
+    scene.stretch = material;
+    scene.stretch_directions = directions;
+  }
+  if (const auto membrane = keys.table("membrane"))
+    scene.membrane = read_membrane(*membrane, nullptr);
   read_strain_limits(keys, scene);
   if (const auto bending = keys.table("bending")) {
-    std::optional<FabricOnMesh> on_mesh;
-    if (fabric) on_mesh = fabric_on_mesh(*fabric, scene.mesh);
     if (fabric) {
-      scene.about += (scene.about.empty() ? "" : " ") + on_mesh->report;
-      scene.notes.push_back(on_mesh->report);
+      const std::string report = fabric_on_mesh(*fabric, scene.mesh).report;
+      scene.about += (scene.about.empty() ? "" : " ") + report;
+      scene.notes.push_back(report);
     }
-    scene.bending = read_bending(*bending, on_mesh);
+    const auto [material, directions] =
+        read_bending(*bending, scene.mesh, nullptr, fabric, scene.notes);
+    scene.bending = material;
+    scene.bending_directions = directions;
     scene.rest_angles = read_rest_angles(*bending, scene.mesh);
   }
   read_cloth_fabrics(keys, folder, placed.groups, scene);
@@ -263,7 +225,7 @@ Scene scene_from(const CaseKeys& of, const SceneLimits& limits) {
   read_objects(keys, {folder, scene.schedule.end, limits}, scene);
   note_scales(keys, placed.scale, scene);
   if (const auto self = keys.table("self_collision"))
-    scene.self_collision = read_self_collision(*self, scene.mesh);
+    scene.self_collision = read_self_collision(*self, scene);
   read_sticky(keys, folder, scene);
   if (const auto solver = keys.table("solver")) read_solver(*solver, scene.solver);
   if (const auto self = keys.table("self_collision")) {

@@ -1,5 +1,6 @@
 #include "reference/scene/read_self_collision.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <limits>
 
@@ -9,14 +10,16 @@
 
 namespace foldproof {
 
-SelfCollisionSettings read_self_collision(const KeyTable& keys, const TriangleMesh& mesh) {
+SelfCollisionSettings read_self_collision(const KeyTable& keys, const Scene& scene) {
   SelfCollisionSettings settings;
   settings.thickness = positive(keys, "thickness");
+  for (const ClothFabric& fabric : scene.fabrics.fabrics)
+    settings.thickness = std::max(settings.thickness, fabric.thickness);
   settings.stiffness = non_negative_or(keys, "stiffness", 0);
   settings.friction = non_negative_or(keys, "friction", 0);
   settings.rounds = int(count_or(keys, "rounds", settings.rounds));
   settings.untangle = keys.flag_or("untangle", settings.untangle);
-  const double least = smallest_height(mesh.triangles, mesh.rest);
+  const double least = smallest_height(scene.mesh.triangles, scene.mesh.rest);
   if (!(settings.thickness < least / 2)) {
     char message[120];
     std::snprintf(

@@ -2,15 +2,15 @@
 #pragma once
 
 #include "reference/filters/repulsion.h"
-#include "reference/mesh/triangle_mesh.h"
 #include "reference/scene/key_file.h"
 #include "reference/scene/scene.h"
 
 namespace foldproof {
 
-/// Throws InputError "file:line: ..." for values out of range, and for a thickness of half the
-/// least height of a triangle or more: neighbours would repel each other at rest.
-SelfCollisionSettings read_self_collision(const KeyTable& keys, const TriangleMesh& mesh);
+/// The thickness is the largest of the scene's fabrics. Throws InputError "file:line: ..." for
+/// values out of range, and for a thickness of half the least height of a triangle or more:
+/// neighbours would repel each other at rest.
+SelfCollisionSettings read_self_collision(const KeyTable& keys, const Scene& scene);
 
 /// Throws InputError for a start at which layers are nearer than a few roundings of their places,
 /// so that no motion is safe. If some cross exactly, which is reported, it is a warning at most.

@@ -4,6 +4,13 @@
 
 namespace foldproof {
 
+void read_strain_range(const KeyTable& keys, StrainRange& range) {
+  range.extension = non_negative_or(keys, "extension", range.extension);
+  range.compression = non_negative_or(keys, "compression", range.compression);
+  if (!(range.compression < 1))
+    throw InputError(keys.where("compression") + ": 'compression' must lie in [0, 1)");
+}
+
 void read_strain_limits(const KeyTable& keys, Scene& scene) {
   const auto table = keys.table("strain_limits");
   if (!table) return;
@@ -11,10 +18,7 @@ void read_strain_limits(const KeyTable& keys, Scene& scene) {
     throw InputError(table->where() +
                      ": [strain_limits] limits springs; the case needs a [stretch] table");
   StrainLimits limits;
-  limits.extension = non_negative_or(*table, "extension", limits.extension);
-  limits.compression = non_negative_or(*table, "compression", limits.compression);
-  if (!(limits.compression < 1))
-    throw InputError(table->where("compression") + ": 'compression' must lie in [0, 1)");
+  read_strain_range(*table, limits);
   limits.order = choice<SweepOrder>(*table, "order",
                                     {{"gauss_seidel", SweepOrder::gauss_seidel},
                                      {"alternating", SweepOrder::alternating},

@@ -6,6 +6,9 @@
 
 namespace foldproof {
 
+/// Reads the keys that are there into a range.
+void read_strain_range(const KeyTable& keys, StrainRange& range);
+
 /// Reads the table, if the case has one, into the scene; needs its springs.
 void read_strain_limits(const KeyTable& keys, Scene& scene);
 

@@ -71,6 +71,7 @@ struct Scene {
   std::optional<StretchMaterial> stretch;  // of the first fabric, as the next
   std::optional<BendingMaterial> bending;
   std::optional<MembraneMaterial> membrane;
+  ByDirection stretch_directions = {}, bending_directions = {};
   std::optional<Air> air;
   std::vector<double> rest_angles;  // one per hinge [rad], if there is bending
   std::vector<PrescribedParticle> prescribed;

@@ -54,7 +54,7 @@ double largest_enclosing_radius(const Scene& scene) {
   double largest = 0;
   for (const Triangle& t : scene.mesh.triangles)
     largest = std::max(largest, enclosing_radius(x.col(t[0]), x.col(t[1]), x.col(t[2])));
-  return largest * (1 + (scene.strain_limits ? scene.strain_limits->extension : usual_stretch));
+  return largest * (1 + (scene.strain_limits ? largest_extension_of(scene) : usual_stretch));
 }
 
 double usual_particle_depth(const Scene& scene) { return largest_enclosing_radius(scene) / 10; }
@@ -76,7 +76,7 @@ std::optional<Expectation> expected_faces_outside(const Scene& scene,
       "such corners it is as deep as the chord of a round body of radius R, R - sqrt((R - d)^2 - "
       "r^2), or d + r where the body has edges or folds, and d in a half space: the response sees "
       "only particles, so this depth shows in pictures",
-      of_particles, r, scene.strain_limits ? scene.strain_limits->extension : usual_stretch);
+      of_particles, r, scene.strain_limits ? largest_extension_of(scene) : usual_stretch);
   return Expectation{"faces_outside", bound, why};
 }
 

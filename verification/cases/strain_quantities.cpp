@@ -9,9 +9,12 @@ namespace {
 
 double violation(const Scene& scene, const State& s) {
   Worst worst;
-  for (const double strain : strains_of(scene, s.x)) {
-    worst.observe(strain - scene.strain_limits->extension);
-    worst.observe(-strain - scene.strain_limits->compression);
+  const std::vector<double> strains = strains_of(scene, s.x);
+  std::vector<StrainRange> ranges = strain_ranges_of(scene);
+  if (ranges.empty()) ranges.assign(strains.size(), *scene.strain_limits);
+  for (size_t e = 0; e < strains.size(); ++e) {
+    worst.observe(strains[e] - ranges[e].extension);
+    worst.observe(-strains[e] - ranges[e].compression);
   }
   return worst.value();
 }

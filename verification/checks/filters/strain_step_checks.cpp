@@ -248,7 +248,8 @@ Finding rejected_finding() {
 PerParticle3 one_by_one(const StrainLimiter& limiter, const LimitedCloth& cloth, PerParticle3 v) {
   for (const LimitedSpring& spring : limiter.springs)
     limit_strain(
-        {{limiter.limits.extension, limiter.limits.compression, SweepOrder::gauss_seidel, 1},
+        {{{limiter.limits.extension, limiter.limits.compression}, SweepOrder::gauss_seidel, 1},
+         limiter.ranges,
          {spring},
          {0, 1},
          limiter.inverse_mass},

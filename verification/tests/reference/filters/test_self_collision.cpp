@@ -60,8 +60,8 @@ const FeaturePair vertex_over_triangle{PairKind::vertex_triangle, {0, 1, 2, 3}};
 long count_repelled(const std::vector<FeaturePair>& pairs, const PerParticle3& x,
                     double thickness = 0.5, int threads = 1) {
   PerParticle3 v = PerParticle3::Zero(3, x.cols());
-  return repel(pairs, x, {thickness, 1e-3, 0, 8, true}, 0.5, PerParticle::Constant(x.cols(), 0.3),
-               v, threads);
+  return repel(pairs, x, {thickness, 1e-3, 0, 8, true}, {}, 0.5,
+               PerParticle::Constant(x.cols(), 0.3), v, threads);
 }
 
 PerParticle3 columns(std::initializer_list<Vector3> of) {
