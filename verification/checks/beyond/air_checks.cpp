@@ -225,6 +225,44 @@ Finding spin_finding() {
                      "a few times 1/48^2");
 }
 
+/// A stiff square that turns about its middle line in air: omega' = -k omega^2 with the torque of
+/// its triangles and the inertia of its particles, so omega = omega_0/(1 + k omega_0 t).
+Finding slowing_finding(const Subject& subject, const std::string& integrator) {
+  const double omega = 6, sigma = 0.2;
+  Table errors{{"time", "s"}, {"omega", "rad/s"}, {"closed form", "rad/s"}, {"error", "1"}};
+  Scene scene = scene_at_rest(make_sheet({SheetPattern::union_jack, 0.1, 0.1, 2, 2}), sigma);
+  scene.x.colwise() -= scene.x.rowwise().mean().eval();
+  scene.mesh.rest = scene.x;
+  scene.air = Air{40, Vector3::Zero(), 1.17, 0.02};
+  scene.stretch = StretchMaterial{2e3, 0, 1};
+  scene.bending = BendingMaterial{.stiffness = 1};
+  scene.rest_angles.assign(scene.mesh.hinges.size(), 0.0);
+  const System system = build_system(scene);
+  double inertia = 0, slope = 0;
+  for (Eigen::Index i = 0; i < scene.x.cols(); ++i)
+    inertia += system.mass[i] * scene.x(1, i) * scene.x(1, i);
+  const Eigen::VectorXd areas = rest_areas(scene.mesh);
+  for (size_t t = 0; t < scene.mesh.triangles.size(); ++t) {
+    double y = 0;
+    for (const int i : scene.mesh.triangles[t]) y += scene.x(1, i) / 3;
+    slope += scene.air->density * areas[Eigen::Index(t)] / 2 * scene.air->normal_drag *
+             std::pow(std::abs(y), 3) / inertia;
+  }
+  scene.v = scene.x.colwise().cross(Vector3(-omega, 0, 0));
+  Stepper stepper(subject, scene, integrator);
+  State s = stepper.start();
+  const double half = 1 / (slope * omega), h = 2e-4;  // s: until it turns half as fast
+  for (const double time : {0.25, 0.5, 1.0}) {
+    while (s.time < time * half) s = stepper.step(s, h);
+    const double measured = angular_momentum(system, s).x() / inertia,
+                 exact = omega / (1 + slope * omega * s.time);
+    errors.row(s.time, measured, exact, std::abs(measured / exact - 1));
+  }
+  return judge_worst(errors, 1e-4,
+                     "steps are a few hundredths of the time, and of second order; the square "
+                     "bends by less");
+}
+
 Finding rejected_finding() {
   Differences differences;
   const auto refuses = [](const Air& air) {
@@ -266,6 +304,9 @@ std::vector<Check> air_checks() {
               "A falling sheet reaches sqrt(2 sigma g/(rho C)), face-on and "
               "edge-on.",
               source, terminal_finding},
+             {"air.spinning-sheet-slows",
+              "A stiff square that turns in air slows as omega/(1 + k omega t).", source,
+              slowing_finding},
              {"air.fall-is-tanh",
               "The speed of a falling sheet is u tanh(g t/u), to the second order of the scheme.",
               source, tanh_finding}});
