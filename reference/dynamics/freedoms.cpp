@@ -74,7 +74,7 @@ bool positive_pivots(const SparseFactors& factors) {
   return factors.info() == Eigen::Success && (factors.vectorD().array() > 0).all();
 }
 
-double smallest_eigenvalue(const SparseMatrix& K, const Eigen::VectorXd& mass, double scale) {
+Mode slowest_mode(const SparseMatrix& K, const Eigen::VectorXd& mass, double scale) {
   SparseMatrix M(K.rows(), K.cols());
   M.reserve(Eigen::VectorXi::Constant(K.cols(), 1));
   for (Eigen::Index i = 0; i < mass.size(); ++i) M.insert(i, i) = mass[i];
@@ -90,7 +90,7 @@ double smallest_eigenvalue(const SparseMatrix& K, const Eigen::VectorXd& mass, d
   while (!is_below(shift)) {
     inside = shift;
     shift *= 4;
-    if (!std::isfinite(shift)) return shift;
+    if (!std::isfinite(shift)) return {shift};
   }
   // nearer to the smallest, by halves, so that the iteration is fast
   for (int k = 0; k < 30 && inside - shift > 1e-3 * -shift && inside < 0; ++k) {
@@ -107,7 +107,7 @@ double smallest_eigenvalue(const SparseMatrix& K, const Eigen::VectorXd& mass, d
     before = value;
     value = u.dot(K * u);
   }
-  return value;
+  return {value, u};
 }
 
 }  // namespace foldproof

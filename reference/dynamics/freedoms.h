@@ -58,10 +58,16 @@ class Hessian {
 
 bool positive_pivots(const SparseFactors& factors);
 
-/// The smallest eigenvalue [1/s^2] of K u = lambda M u, M the positive diagonal of `mass`: the
-/// square of the slowest vibration's angular frequency, negative for a saddle. By inverse
-/// iteration; the shift below the spectrum is found by the pivots' signs (Sylvester's law of
-/// inertia). Relative error about 1e-6 of the largest of |lambda| and `scale` [1/s^2] > 0.
-double smallest_eigenvalue(const SparseMatrix& K, const Eigen::VectorXd& mass, double scale);
+/// A vibration: the square of its angular frequency [1/s^2], and its shape.
+struct Mode {
+  double eigenvalue = 0;
+  Eigen::VectorXd shape = {};
+};
+
+/// The smallest eigenvalue of K u = lambda M u, M the positive diagonal of `mass`, and its u: below
+/// 0 at a saddle. By inverse iteration; the shift below the spectrum is found by the pivots' signs
+/// (Sylvester's law of inertia). Relative error about 1e-6 of the largest of |lambda| and `scale`
+/// [1/s^2] > 0.
+Mode slowest_mode(const SparseMatrix& K, const Eigen::VectorXd& mass, double scale);
 
 }  // namespace foldproof

@@ -16,6 +16,8 @@ constexpr double standard_gravity = 9.80665;  // m/s^2
 constexpr double first_step = 0.005;  // s
 constexpr double in_flight = 1e-6;    // clearance over the longest step [1]
 constexpr int most_landings = 4;      // rounds of a step in which points reach objects
+constexpr double saddle = 1e-6;       // eigenvalue over the neutral scale below which one falls [1]
+constexpr double nudge = 0.05;        // off a saddle, over the longest step [1]
 
 // A touching point is held by a stiffness that much larger than the cloth's [1].
 constexpr double held_over_elastic = 1e5;
@@ -90,6 +92,8 @@ class Search {
   Rest rest();
 
  private:
+  Mode slowest(const PerParticle3& x);
+  Settled settled_from(const PerParticle3& x);
   Push push(const PerParticle3& x);
   void find_touches(const PerParticle3& v);
   std::vector<AddedStiffness> holds(Definiteness definiteness) const;
@@ -238,25 +242,40 @@ bool Search::rises(const PerParticle3& from, const PerParticle3& to) const {
   return potential(to).first > before + 1e-10 * size;
 }
 
-Rest Search::rest() {
-  const Settled settled =
-      settle({[this](const PerParticle3& x) { return push(x); },
-              [this](const PerParticle3& x, Definiteness definiteness, double mass_over) {
-                return stiffness(x, definiteness, mass_over);
-              },
-              [this](const PerParticle3& x, const Eigen::VectorXd& by) { return moved(x, by); },
-              [this](const PerParticle3& x, const Eigen::VectorXd& by) { return landing(x, by); },
-              [this](const PerParticle3& from, const PerParticle3& to) { return rises(from, to); },
-              search_.tolerance, search_.longest, search_.most_steps},
-             state_.x);
-  rest_.steps = settled.steps;
-  push(settled.x);
-  rest_.state = state_;
+Mode Search::slowest(const PerParticle3& x) {
+  if (freedoms_.count == 0) return {};
   const PerParticle3 masses = system_.mass.transpose().replicate(3, 1);
-  if (freedoms_.count > 0)
-    rest_.smallest_eigenvalue =
-        smallest_eigenvalue(stiffness(settled.x, Definiteness::exact, 0), freedoms_.gather(masses),
-                            neutral_scale(settled.x));
+  return slowest_mode(stiffness(x, Definiteness::exact, 0), freedoms_.gather(masses),
+                      neutral_scale(x));
+}
+
+Settled Search::settled_from(const PerParticle3& x) {
+  return settle(
+      {[this](const PerParticle3& x) { return push(x); },
+       [this](const PerParticle3& x, Definiteness definiteness, double mass_over) {
+         return stiffness(x, definiteness, mass_over);
+       },
+       [this](const PerParticle3& x, const Eigen::VectorXd& by) { return moved(x, by); },
+       [this](const PerParticle3& x, const Eigen::VectorXd& by) { return landing(x, by); },
+       [this](const PerParticle3& from, const PerParticle3& to) { return rises(from, to); },
+       search_.tolerance, search_.longest, search_.most_steps - rest_.steps},
+      x);
+}
+
+Rest Search::rest() {
+  Settled settled{state_.x};
+  for (int left = 0;; ++left) {
+    settled = settled_from(settled.x);
+    rest_.steps += settled.steps;
+    push(settled.x);
+    rest_.state = state_;
+    const Mode mode = slowest(settled.x);
+    rest_.smallest_eigenvalue = mode.eigenvalue;
+    const bool falls = mode.eigenvalue < -saddle * neutral_scale(settled.x);
+    if (!falls || left == search_.saddles || rest_.steps >= search_.most_steps) break;
+    settled.x =
+        moved(settled.x, nudge * search_.longest / mode.shape.cwiseAbs().maxCoeff() * mode.shape);
+  }
   rest_.touching = int(touches_.size());
   for (const Touch& touch : touches_) {
     rest_.sticking += touch.sticks;

@@ -87,6 +87,7 @@ struct RestSearch {
   double longest = 0;       // displacement of a step [m], > 0
   double step = 0;          // of the method, for the filters [s], > 0
   int most_steps = 600;
+  int saddles = 0;  // that are left along their falling mode before the search ends
 };
 
 /// The rest that the forces lead to from the start. Velocities at the start are forgotten. Throws

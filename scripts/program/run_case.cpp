@@ -212,6 +212,12 @@ std::vector<std::string> built_in_cases(Tier tier) {
   return all;
 }
 
+std::vector<std::string> shipped_cases() {
+  std::vector<std::string> all = built_in_cases(Tier::full);
+  all.push_back("cantilever");  // for `settle`
+  return all;
+}
+
 std::string shipped_case_file(const std::string& name) {
   return data_folder() + "/cases/" + name + ".toml";
 }

@@ -73,6 +73,9 @@ std::vector<std::string> long_cases();  // those that only the full tier shows
 /// Those of a tier, shown or only judged; the full one has all there are.
 std::vector<std::string> built_in_cases(Tier tier);
 
+/// These, and those that `verify` does not run: all that a user can name.
+std::vector<std::string> shipped_cases();
+
 /// The file of a shipped case, whose name the lists above have.
 std::string shipped_case_file(const std::string& name);
 

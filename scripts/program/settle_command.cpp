@@ -32,6 +32,7 @@ struct SettleOptions : Options {
   double force = 1e-8;  // over the weight [1]
 };
 
+constexpr int most_saddles = 5;
 constexpr int steps_watched = 50;  // of the method, from the rest that was found
 
 /// A rest, and what the method makes of it.
@@ -73,10 +74,10 @@ SettledCase settled_case(const BuiltCase& of, const SettleOptions& options) {
   SettledCase settled;
   settled.step = step_of(scene, of.built.system, of.built.start);
   settled.rounding = rounding_over_weight(of.built.system, of.built.start);
-  settled.rest = settle(
-      of.built.system, of.built.start,
-      {std::max(options.force, settled.rounding),
-       2 * smallest_height(scene.mesh.triangles, scene.mesh.rest), settled.step, options.steps});
+  settled.rest = settle(of.built.system, of.built.start,
+                        {std::max(options.force, settled.rounding),
+                         2 * smallest_height(scene.mesh.triangles, scene.mesh.rest), settled.step,
+                         options.steps, most_saddles});
   watch(of, settled);
   settled.strip = clamped_strip(scene, settled.rest.state.x);
   settled.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -229,7 +230,7 @@ rest with friction is one of many: its shape depends on the way. A strip that is
 
 Examples:
   foldproof settle hanging_sheet --out mine
-  foldproof settle cases/cantilever.toml --set cloth.fabric=wool --out mine
+  foldproof settle cantilever --set cloth.fabric=wool --out mine
 
 Exit codes:
   0    at rest, stable, and the case's own method stays there

@@ -116,6 +116,14 @@ class SimulateTest(ProgramCase):
                 simulate_case(name),
                 f"{name}: there is no such case file, and no shipped case of that name")
 
+    def test_settle_hangs_a_fabric_s_strip_as_the_elastica(self) -> None:
+        told = self.told("settle", "cantilever", "--set", "cloth.fabric=wool", "--out", self.out)
+        self.assertEqual({row["outcome"] for row in told["findings"]}, {"holds"})
+        strip = told["cantilever"]
+        self.assertAlmostEqual(strip["drop"] / strip["elastica_drop"], 1, 2)
+        moved = run("settle", "hanging_sheet", "--set", "hold.velocity=[0,1,0]", "--out", self.out)
+        self.assert_refused(moved, "a prescribed particle moves")
+
     def test_converge_tells_how_long_positions_are_predictable(self) -> None:
         asked = ("converge", "hinge", "--until", "0.1", "--levels", "3", "--out", self.out)
         done = run(*asked)

@@ -28,7 +28,7 @@ namespace {
 std::map<std::string, std::string> candidates(const fs::path& typed, const FileKind& kind) {
   std::map<std::string, std::string> words;
   if (&kind == &case_kind)
-    for (const std::string& name : built_in_cases(Tier::full))
+    for (const std::string& name : shipped_cases())
       words.emplace(fs::path(name).filename().string(), name);
   std::error_code ignored;
   const fs::path folder = typed.parent_path();
@@ -85,7 +85,7 @@ std::string case_file(const std::string& typed) {
       require_input(file, case_kind);
       return file;
     }
-  if (std::ranges::count(built_in_cases(Tier::full), name)) return shipped_case_file(name);
+  if (std::ranges::count(shipped_cases(), name)) return shipped_case_file(name);
   require_input(typed, case_kind);
   return typed;
 }

@@ -45,11 +45,11 @@ std::vector<HeldSheet> held_sheets() {
                      {0, g, 0}, 3e-4)};
 }
 
-Rest rest_of(const Scene& scene) {
+Rest rest_of(const Scene& scene, int saddles = 0) {
   const BuiltScene of = build(scene, computing_provider());
   return settle(of.system, of.start,
                 {1e-8, 2 * smallest_height(scene.mesh.triangles, scene.mesh.rest),
-                 0.5 * elastic_limit(of.system, of.start), 600});
+                 0.5 * elastic_limit(of.system, of.start), 600, saddles});
 }
 
 /// The smallest eigenvalue of the free particles' stiffness over their masses, by dense
@@ -93,6 +93,32 @@ Finding eigenvalues_agree() {
   }
   return judge_worst(std::move(rests), 1e-5,
                      "the iteration ends at 1e-7 of the eigenvalue; a wrong sign makes 2");
+}
+
+double potential(const Scene& scene, const State& s) {
+  const Energies e = energies(build_system(scene), s);
+  return e.gravity + e.stretch + e.bending;
+}
+
+Finding saddles_are_left() {
+  Table rests{{"sheet", ""},
+              {"energy at the first rest", "J"},
+              {"at the last", "J"},
+              {"force over the weight", "1"},
+              {"least eigenvalue there", "1/s^2"}};
+  double unstable = 0;
+  for (const HeldSheet& sheet : held_sheets()) {
+    const Rest first = rest_of(sheet.scene), last = rest_of(sheet.scene, 5);
+    const double dense = dense_eigenvalue(sheet.scene, last.state),
+                 before = potential(sheet.scene, first.state),
+                 after = potential(sheet.scene, last.state);
+    const bool falls = first.smallest_eigenvalue < 0;
+    rests.row(sheet.name, before, after, last.unbalanced.over_weight, dense);
+    unstable += !(dense > -1e-4) + (falls ? !(after < before) : after != before);
+  }
+  return judge_worst(std::move(rests), "force over the weight", unstable == 0 ? 1e-8 : 0,
+                     "the limit of the search; a last rest that is not stable, or not lower than a "
+                     "saddle, has no bound");
 }
 
 /// Particles on a slope; nothing holds them together.
@@ -184,6 +210,9 @@ std::vector<Check> settle_checks() {
            "The smallest eigenvalue at rest is that of the dense stiffness over the masses, and "
            "negative for a sheet that stands.",
            "Sylvester 1852", eigenvalues_agree},
+          {"settle.saddles-are-left",
+           "A sheet that stands falls to a stable rest of less energy; others stay.", "statics",
+           saddles_are_left},
           {"settle.slopes-leave-what-friction-cannot-hold",
            "On a slope of angle alpha the filters leave sin(alpha) - mu cos(alpha) of the weight, "
            "or nothing.",
