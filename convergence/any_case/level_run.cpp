@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "convergence/work_precision/precision_problem.h"
-#include "reference/bodies/content_key.h"
+#include "verification/files/content_key.h"
 #include "verification/cases/judge.h"
 #include "verification/evidence.h"
 #include "verification/files/checkpoint_file.h"

@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "convergence/study.h"
-#include "reference/bodies/deforming_content.h"
-#include "reference/bodies/grid_content.h"
+#include "verification/files/deforming_content.h"
+#include "verification/files/grid_content.h"
 #include "reference/dynamics/simulate.h"
 #include "reference/level_set/mesh_distance.h"
 #include "reference/mesh/mesh_file.h"

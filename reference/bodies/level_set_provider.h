@@ -1,4 +1,4 @@
-// Level sets for the bodies of a case: computed, or loaded from a cache.
+// Level sets for the bodies of a case: computed, or loaded from elsewhere.
 #pragma once
 
 #include <functional>
@@ -22,10 +22,6 @@ struct LevelSetProvider {
 
 /// Computes every request; the loops run on the team.
 LevelSetProvider computing_provider(const Team& team = {});
-
-/// Calls `provider` once per distinct request and returns the stored result afterwards, from any
-/// thread. Copies share the stored results for as long as one of them exists.
-LevelSetProvider memoizing_provider(const LevelSetProvider& provider);
 
 /// The octree of a sequence of one frame.
 std::shared_ptr<const Octree> make_octree(const LevelSetProvider& provider,

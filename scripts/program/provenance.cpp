@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "convergence/campaigns/job_keys.h"
-#include "reference/bodies/content_key.h"
+#include "verification/files/content_key.h"
 
 #include "build_facts.h"  // written by every build: commit, tree, compiler, flags
 

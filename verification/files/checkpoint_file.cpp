@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "reference/bodies/content_key.h"
+#include "verification/files/content_key.h"
 #include "verification/files/hdf5_file.h"
 
 namespace foldproof {

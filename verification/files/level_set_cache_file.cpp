@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "reference/bodies/deforming_content.h"
+#include "verification/files/deforming_content.h"
 #include "verification/files/hdf5_file.h"
 
 namespace foldproof {

@@ -1,12 +1,13 @@
 #include "verification/files/level_set_folder.h"
 
 #include <filesystem>
+#include <map>
 #include <mutex>
 #include <stdexcept>
 #include <utility>
 
-#include "reference/bodies/deforming_content.h"
-#include "reference/bodies/grid_content.h"
+#include "verification/files/deforming_content.h"
+#include "verification/files/grid_content.h"
 #include "verification/files/hdf5_file.h"
 #include "verification/files/level_set_cache_file.h"
 
@@ -104,6 +105,40 @@ LevelSetProvider caching_provider(const std::string& folder,
                 path, log_line, read,
                 [&] { return compute.make_deforming_body(sequence, settings, between); },
                 [&](const DeformingBody& body) { write_level_sets(path, body, origin); });
+          }};
+}
+
+namespace {
+
+/// Results by the key of their input.
+template <class Field>
+class Remembered {
+ public:
+  template <class Make>
+  std::shared_ptr<const Field> get(const std::string& key, const Make& make) {
+    const std::lock_guard lock(one_at_a_time_);
+    const auto found = made_.find(key);
+    return found != made_.end() ? found->second : made_.emplace(key, make()).first->second;
+  }
+
+ private:
+  std::mutex one_at_a_time_;
+  std::map<std::string, std::shared_ptr<const Field>> made_;
+};
+
+}  // namespace
+
+LevelSetProvider memoizing_provider(const LevelSetProvider& provider) {
+  const auto grids = std::make_shared<Remembered<Grid>>();
+  const auto bodies = std::make_shared<Remembered<DeformingBody>>();
+  return {[=](const TriangleSoup& soup, const GridMethod& method, Repair repair) {
+            return grids->get(input_key(soup, method, repair),
+                              [&] { return provider.make_level_set(soup, method, repair); });
+          },
+          [=](const MeshSequence& sequence, const OctreeSettings& settings, BetweenFrames between) {
+            return bodies->get(input_key(sequence, settings) + std::to_string(int(between)), [&] {
+              return provider.make_deforming_body(sequence, settings, between);
+            });
           }};
 }
 

@@ -1,4 +1,5 @@
-// A folder of cached level sets, computed once and reused by later runs (BMF03 section 5.1).
+// Level sets computed once and reused, by a run or, from a folder, by later ones (BMF03
+// section 5.1).
 #pragma once
 
 #include <functional>
@@ -15,5 +16,9 @@ namespace foldproof {
 LevelSetProvider caching_provider(const std::string& folder,
                                   std::function<void(const std::string&)> log_line,
                                   int threads = 1);
+
+/// Calls `provider` once per distinct request and returns the stored result afterwards, from any
+/// thread. Copies share the stored results for as long as one of them exists.
+LevelSetProvider memoizing_provider(const LevelSetProvider& provider);
 
 }  // namespace foldproof

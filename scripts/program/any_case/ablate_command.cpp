@@ -20,6 +20,7 @@
 #include "scripts/program/provenance.h"
 #include "scripts/program/run_case.h"
 #include "verification/files/atomic_file.h"
+#include "verification/files/level_set_folder.h"
 
 namespace foldproof {
 

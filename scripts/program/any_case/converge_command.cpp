@@ -22,6 +22,7 @@
 #include "scripts/program/run_case.h"
 #include "scripts/program/typed_solver.h"
 #include "verification/files/atomic_file.h"
+#include "verification/files/level_set_folder.h"
 #include "verification/files/results_file.h"
 
 namespace foldproof {

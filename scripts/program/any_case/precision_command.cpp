@@ -23,6 +23,7 @@
 #include "scripts/program/provenance.h"
 #include "scripts/program/run_case.h"
 #include "scripts/program/typed_solver.h"
+#include "verification/files/level_set_folder.h"
 
 namespace foldproof {
 

@@ -20,6 +20,7 @@
 #include "scripts/program/campaign/run_job.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/run_case.h"
+#include "verification/files/level_set_folder.h"
 
 namespace foldproof {
 

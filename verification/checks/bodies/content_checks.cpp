@@ -1,7 +1,7 @@
 // Level sets cached between runs: keys that change with every input, and content from untrusted
 // files.
-#include "reference/bodies/deforming_content.h"
-#include "reference/bodies/grid_content.h"
+#include "verification/files/deforming_content.h"
+#include "verification/files/grid_content.h"
 #include "reference/mesh/shapes.h"
 #include "verification/specimens/check.h"
 #include "verification/specimens/ugly_solids.h"

@@ -5,6 +5,7 @@
 #include "reference/mesh/shapes.h"
 #include "verification/cases/judge.h"
 #include "verification/cases/replaced_shape.h"
+#include "verification/files/level_set_folder.h"
 #include "verification/specimens/scratch_folder.h"
 #include "verification/tests/cases/small_sheet.h"
 

@@ -2,8 +2,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "reference/bodies/deforming_content.h"
-#include "reference/bodies/grid_content.h"
+#include "verification/files/deforming_content.h"
+#include "verification/files/grid_content.h"
 #include "reference/mesh/shapes.h"
 #include "verification/files/level_set_cache_file.h"
 #include "verification/files/level_set_folder.h"

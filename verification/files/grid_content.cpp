@@ -1,16 +1,16 @@
-#include "reference/bodies/grid_content.h"
+#include "verification/files/grid_content.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "reference/bodies/content_key.h"
+#include "verification/files/content_key.h"
 
 namespace foldproof {
 
 namespace {
 
 /// Raise this whenever the same input gives a different grid.
-constexpr int method_version = 2;
+constexpr int grid_version = 2;
 
 void require(bool is_met, const char* what) {
   if (!is_met) throw InputError(std::string("grid: ") + what);
@@ -20,7 +20,7 @@ void require(bool is_met, const char* what) {
 
 std::string input_key(const TriangleSoup& soup, const GridMethod& method, Repair repair) {
   ContentKey key;
-  key.add(method_version);
+  key.add(grid_version);
   key.add(soup.triangles);
   key.add(std::uint64_t(soup.rest.cols()));
   key.add(soup.rest.data(), std::size_t(soup.rest.size()));

@@ -1,10 +1,10 @@
-#include "reference/bodies/deforming_content.h"
+#include "verification/files/deforming_content.h"
 
 #include <bit>
 #include <cmath>
 #include <cstdint>
 
-#include "reference/bodies/content_key.h"
+#include "verification/files/content_key.h"
 
 namespace foldproof {
 

@@ -1,9 +1,9 @@
 // Contents of bodies: their keys, and what is refused when they are read.
 #include <catch2/catch.hpp>
 
-#include "reference/bodies/content_key.h"
-#include "reference/bodies/deforming_content.h"
-#include "reference/bodies/grid_content.h"
+#include "verification/files/content_key.h"
+#include "verification/files/deforming_content.h"
+#include "verification/files/grid_content.h"
 
 using namespace foldproof;
 using Catch::Matchers::Contains;
