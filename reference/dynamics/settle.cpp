@@ -364,6 +364,11 @@ Rest settle(const System& system, const State& start, const RestSearch& search) 
   if (const std::string moves = what_moves(system, start.time); !moves.empty())
     throw InputError(moves +
                      " moves; a rest needs what holds and touches the cloth to stand still");
+  for (const Filter& filter : system.filters)
+    if (std::holds_alternative<StrainLimiter>(filter))
+      throw InputError(
+          "strain limits are kept to a tolerance, by sweeps that end before forces balance; unset "
+          "them to find the rest of the springs");
   return Search(system, start, search).rest();
 }
 

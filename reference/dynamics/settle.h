@@ -91,7 +91,7 @@ struct RestSearch {
 };
 
 /// The rest that the forces lead to from the start. Velocities at the start are forgotten. Throws
-/// InputError if something moves (what_moves).
+/// InputError if something moves (what_moves), and for strain limits.
 Rest settle(const System& system, const State& start, const RestSearch& search);
 
 }  // namespace foldproof

@@ -57,6 +57,7 @@ std::shared_ptr<KeyTable> part_of(const KeyTable& keys, const std::string& name,
 ClothFabric fabric_of(const KeyTable& keys, const std::string& folder, Scene& scene,
                       const ClothFabric& base) {
   ClothFabric fabric = base;
+  const size_t notes = scene.notes.size();
   fabric.name = keys.text_or("name", keys.text_or("group", keys.text_or("fabric", "")));
   std::optional<Fabric> measured;
   if (keys.has("fabric")) {
@@ -93,6 +94,8 @@ ClothFabric fabric_of(const KeyTable& keys, const std::string& folder, Scene& sc
     fabric.layer_friction = non_negative_or(*layers, "friction", fabric.layer_friction);
   }
   if (keys.has("friction")) fabric.friction = non_negative_or(keys, "friction", 0);
+  for (size_t k = notes; k < scene.notes.size(); ++k)
+    scene.notes[k] = "Fabric '" + fabric.name + "': " + scene.notes[k];
   return fabric;
 }
 

@@ -224,9 +224,10 @@ int settle_case(const SettleOptions& options) {
 constexpr const char* below_settle =
     R"(Follows the forces without inertia or a guessed damping: steps of backward Euler that
 forget their velocity and grow to Newton's. Velocities and damping of the case count for nothing;
-what holds and touches the cloth must stand still. The force is what contact and friction leave. A
-rest with friction is one of many: its shape depends on the way. A strip that is clamped at one end
-(cases/cantilever.toml) is compared with the elastica of its rigidity.
+what holds and touches the cloth must stand still, and strain limits be unset. The force is what
+contact and friction leave. A rest with friction is one of many: its shape depends on the way. A
+saddle is left along its falling mode. A strip that is clamped at one end (cases/cantilever.toml)
+is compared with the elastica of its rigidity.
 
 Examples:
   foldproof settle hanging_sheet --out mine

@@ -123,6 +123,8 @@ class SimulateTest(ProgramCase):
         self.assertAlmostEqual(strip["drop"] / strip["elastica_drop"], 1, 2)
         moved = run("settle", "hanging_sheet", "--set", "hold.velocity=[0,1,0]", "--out", self.out)
         self.assert_refused(moved, "a prescribed particle moves")
+        self.assert_refused(run("settle", "hanging_sheet", "--set", "strain_limits.extension=0.1",
+                                "--out", self.out), "strain limits")
 
     def test_converge_tells_how_long_positions_are_predictable(self) -> None:
         asked = ("converge", "hinge", "--until", "0.1", "--levels", "3", "--out", self.out)
