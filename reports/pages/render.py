@@ -25,7 +25,7 @@ from pages.page import Page
 from pages.said import bound_html, measured_html, rule_html
 from pages.sentences import Piece, html_of
 from pages.shown_table import WHOLE_STUDY_TABLE, WHOLE_TABLE, select_rows
-from pages.site import FIRST, Cuts, split, without_marks
+from pages.site import FIRST, Cuts, split
 from pages.solver_words import is_of_frames, standfirst_of, title_of
 from pages.summary import Judged, Summary, summary_of
 from pages.summary_markdown import TITLE, count_words, summary_markdown
@@ -51,7 +51,7 @@ def render_pages(page: Page) -> dict[str, str]:
     cuts = Cuts(is_site=True)
     text = render(page, cuts=cuts)
     if page.alone or len(text.encode("utf-8")) <= MOST_BYTES:
-        return {FIRST: without_marks(text)}
+        return {FIRST: render(page)}
     return split(text, cuts, _viewer())
 
 

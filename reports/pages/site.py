@@ -63,11 +63,6 @@ class Cuts:
         return Markup("<!--end {}-->").format(number)
 
 
-def without_marks(text: str) -> str:
-    """The report as one page."""
-    return _MARK.sub("", text)
-
-
 def _file(name: str) -> str:
     return f"{FOLDER}/{name}.html"
 

@@ -70,6 +70,7 @@ class Site(unittest.TestCase):
     def test_a_short_report_is_one_page(self) -> None:
         self.assertTrue(f'id="{NAMES[0]}"' in self.one_page)
         self.assertNotRegex(self.one_page, r"<!--(page|end)")
+        self.assertEqual(self.one_page.count("open-view\" }"), 1)  # its views can be opened
         self.assertEqual(self.left, [])
 
     def test_no_link_is_broken(self) -> None:
