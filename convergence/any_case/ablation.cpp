@@ -237,6 +237,10 @@ void add_forces(const Scene& scene, Parts& parts) {
   add_present(parts, scene.membrane.has_value(), "membrane", [](Scene& s) { s.membrane.reset(); });
   add_present(parts, !scene.fabrics.empty(), "differences of fabrics",
               [](Scene& s) { s.fabrics = {}; });
+  add_present(parts, !scene.mesh.pattern.empty(), "flat pattern", [](Scene& s) {
+    s.mesh.pattern.clear();  // its rest shape is then the start
+    if (s.bending) s.rest_angles = hinge_angles(s.mesh, s.mesh.rest);
+  });
   add_present(parts, scene.air.has_value(), "air", [](Scene& s) { s.air.reset(); });
   add_present(parts, scene.air && !scene.air->wind.isZero(0), "wind",
               [](Scene& s) { s.air->wind.setZero(); });

@@ -24,13 +24,13 @@ struct ScenePart {
   std::function<Scene(Scene)> toggled;  // without the part where it is present, else with it
 };
 
-/// All parts that the scene has: gravity, springs, a membrane, differences of fabrics, air, wind,
-/// bending, damping, rest angles, held particles, objects, their friction, points between
-/// particles, strain limits, self-collision, sticky patches. And those that it lacks and whose
-/// numbers can be said without its author: strain limits of 10 % extension and 0 % compression
-/// (Provot 1995), collision points on edges and triangles, self-collision with a thickness of a
-/// quarter of the least height of a triangle, without stiffness or friction. Springs take their
-/// strain limits with them, and a part its damping.
+/// All parts that the scene has: gravity, springs, a membrane, differences of fabrics, a flat
+/// pattern, air, wind, bending, damping, rest angles, held particles, objects, their friction,
+/// points between particles, strain limits, self-collision, sticky patches. And those that it lacks
+/// and whose numbers can be said without its author: strain limits of 10 % extension and 0 %
+/// compression (Provot 1995), collision points on edges and triangles, self-collision with a
+/// thickness of a quarter of the least height of a triangle, without stiffness or friction. Springs
+/// take their strain limits with them, and a part its damping.
 std::vector<ScenePart> parts_of(const Scene& scene);
 
 // Only what a scene needs: what each part of a scene changes, compared with the scene's own error,

@@ -33,7 +33,7 @@ double mean_step_of(const LevelRun& run) {
 
 QuantityOverLevels positions_over_levels(const Scene& scene, const std::vector<LevelRun>& runs,
                                          double formal_order) {
-  const PerParticle mass = lumped_masses(scene.mesh, scene.density);
+  const PerParticle mass = masses_of(scene);
   QuantityOverLevels over{"positions", "m", {}, {}, {}, nan};
   for (size_t k = 0; k + 1 < runs.size(); ++k)
     over.differences.push_back(field_difference(runs[k], runs[k + 1], mass));

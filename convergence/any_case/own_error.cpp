@@ -35,7 +35,7 @@ LadderPlan plan_of(const CaseSource& source) {
 /// Of the runs of two neighbouring levels.
 ErrorPart error_of_two(const Scene& scene, const LevelRun& own, const LevelRun& finer,
                        std::string unknown) {
-  const double difference = field_difference(own, finer, lumped_masses(scene.mesh, scene.density));
+  const double difference = field_difference(own, finer, masses_of(scene));
   return {difference, (1 + spread_of_two) * difference, std::move(unknown)};
 }
 

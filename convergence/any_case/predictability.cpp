@@ -157,7 +157,7 @@ PerParticle3 displacement_of(const Disturbance& disturbance, const Scene& scene)
       u.col(i) += amplitude * std::cos(wave.dot(scene.x.col(i) - scene.x.col(0)) + phase);
   }
   u = u * freedom_of(scene).asDiagonal();
-  const double size = mean_square_root(u, lumped_masses(scene.mesh, scene.density));
+  const double size = mean_square_root(u, masses_of(scene));
   return size > 0 ? PerParticle3(u * (disturbance.size / size)) : PerParticle3(0 * u);
 }
 
@@ -223,7 +223,7 @@ double crossing_time(const std::vector<double>& times, const std::vector<double>
 
 std::vector<Disturbance> twin_disturbances(const Scene& scene, const std::vector<LevelRun>& runs,
                                            double fraction) {
-  const PerParticle mass = lumped_masses(scene.mesh, scene.density);
+  const PerParticle mass = masses_of(scene);
   const double ceiling = fraction * largest_motion(runs.front().x, mass);
   const double rounding = rounding_disturbance(scene);
   const double error = error_of_first_level(runs, mass, ceiling);
@@ -233,7 +233,7 @@ std::vector<Disturbance> twin_disturbances(const Scene& scene, const std::vector
 Predictability predictability(const Scene& scene, const LevelRun& first,
                               const std::vector<Disturbance>& disturbances,
                               const std::vector<LevelRun>& twins, double fraction) {
-  const PerParticle mass = lumped_masses(scene.mesh, scene.density);
+  const PerParticle mass = masses_of(scene);
   Predictability p;
   p.fraction = fraction;
   p.motion = largest_motion(first.x, mass);
@@ -301,7 +301,7 @@ std::vector<MotionStatistic> motion_statistics(const Scene& scene, const LevelRu
                        const std::function<double(size_t)>& value) {
     all.push_back({name, unit, mean_after(from, run.times, frames, value)});
   };
-  const PerParticle mass = lumped_masses(scene.mesh, scene.density);
+  const PerParticle mass = masses_of(scene);
   if (scene.gravity && scene.gravity->norm() > 0) {
     const Vector3 up = -scene.gravity->normalized();
     add("height", "m", run.x.size(),

@@ -273,7 +273,7 @@ void add_step_errors(const Scene& scene, const LevelRun& run, const LevelRun& ha
                      LadderAnswer& answer) {
   const double gain = std::pow(2.0, integrator_named(scene.integrator).order);
   const double whole = gain / (gain - 1);
-  const PerParticle mass = lumped_masses(scene.mesh, scene.density);
+  const PerParticle mass = masses_of(scene);
   for (size_t q = 0; q < answer.quantities.size(); ++q) {
     QuantityOverLevels& over = answer.quantities[q];
     const double difference =

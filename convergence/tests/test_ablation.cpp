@@ -91,6 +91,22 @@ TEST_CASE("each part of a scene can be toggled by itself") {
   CHECK(without.at("strain limits").strain_limits);
 }
 
+TEST_CASE("without its flat pattern, cloth rests as it starts") {
+  Scene scene = trial();
+  const Scene folded = scene;
+  for (const Triangle& t : scene.mesh.triangles) {
+    FlatTriangle flat;
+    for (size_t k = 0; k < 3; ++k) flat[k] = 2 * scene.mesh.rest.col(t[k]).head<2>();
+    scene.mesh.pattern.push_back(flat);
+  }
+  std::ranges::fill(scene.rest_angles, 0.0);
+  CHECK(masses_of(scene).sum() > 3 * masses_of(folded).sum());
+  const std::vector<ScenePart> parts = parts_of(scene);
+  const Scene without = std::ranges::find(parts, "flat pattern", &ScenePart::name)->toggled(scene);
+  CHECK(masses_of(without) == masses_of(folded));
+  CHECK(without.rest_angles == folded.rest_angles);
+}
+
 TEST_CASE("a coarser mesh is compared where it lies on the finer one") {
   const TriangleMesh fine = make_geodesic_sphere(1, 12), coarse = make_geodesic_sphere(1, 5);
   const double r = coarseness(fine, coarse);

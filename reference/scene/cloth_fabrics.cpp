@@ -115,7 +115,8 @@ void read_cloth_fabrics(const KeyTable& keys, const std::string& folder, const F
   const auto tables = keys.tables("fabric");
   if (tables.empty()) return;
   ClothFabrics& all = scene.fabrics;
-  all.fabrics = {{"cloth", scene.density, scene.stretch.value_or(StretchMaterial{}),
+  all.fabrics = {{keys.table("cloth")->text_or("fabric", "cloth"), scene.density,
+                  scene.stretch.value_or(StretchMaterial{}),
                   scene.bending.value_or(BendingMaterial{}),
                   scene.membrane.value_or(MembraneMaterial{}), scene.stretch_directions,
                   scene.bending_directions, scene.strain_limits.value_or(StrainLimits{})}};

@@ -151,7 +151,7 @@ Report project_all(const Source& source, const ProjectOptions& options) {
   report.projection = projection_of(options, source);
   check_band(report.projection.band);  // before a file is begun
   report.file = source.scene.name + ".h5";
-  const System system = make_system(lumped_masses(source.scene.mesh, source.scene.density));
+  const System system = make_system(masses_of(source.scene));
   TrajectoryFile file((std::filesystem::path(options.out) / report.file).string(), source.scene,
                       system, source.objects, provenance(options.command));
   ProgressLine progress("project " + source.run.scene.name);

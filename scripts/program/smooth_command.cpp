@@ -59,6 +59,7 @@ SmoothedRun smooth_all(const SmoothOptions& options) {
   scene.name += "_smooth";
   scene.title += ", smooth";
   scene.prescribed.clear();
+  scene.fabrics = {}, scene.membrane.reset();  // of the triangles before
   SmoothedRun smooth{scene.name + ".h5", {}};
   const System system = make_system(lumped_masses(scene.mesh, scene.density));
   TrajectoryFile file((std::filesystem::path(options.out) / smooth.file).string(), scene, system,

@@ -148,7 +148,7 @@ void forget_positions(Ablation& one) {
 
 void judge(Ablation& one) {
   const TriangleMesh& mesh = one.input_case.scene.mesh;
-  const PerParticle mass = lumped_masses(mesh, one.input_case.scene.density);
+  const PerParticle mass = masses_of(one.input_case.scene);
   one.error.floor = 1e-6 * longest_side(mesh.rest);
   for (size_t k = 0; k < one.parts.size(); ++k) {
     one.judged_parts.push_back(

@@ -171,8 +171,7 @@ Told told_of_solver(const LadderPlan& plan, const Told& reference, TriedSolver& 
   }
   Told told{other.ladder.answer(runs), {}, {}, {}, {}, other.trial.mapping()};
   const Scene& scene = plan.input_case.scene;
-  told.gap = solver_gap(runs.back(), told.ladder, finest, reference.ladder,
-                        lumped_masses(scene.mesh, scene.density));
+  told.gap = solver_gap(runs.back(), told.ladder, finest, reference.ladder, masses_of(scene));
   return told;
 }
 
