@@ -14,12 +14,12 @@ def all_values(case: Case) -> dict[str, np.ndarray]:
     x, velocities, distances = (
         case.every_frame(name) for name in ("positions", "velocities", "object_distance")
     )
-    rest, hinges = case.rest_positions(), hinges_of(case.triangles)
+    lengths, hinges = rest_lengths(case), hinges_of(case.triangles)
     values = {}
     if velocities is not None:
         values["speed"] = np.linalg.norm(velocities, axis=2)
-    if rest is not None:
-        values["strain"] = _strains(x, edges_of(case.triangles), rest)
+    if lengths is not None:
+        values["strain"] = _strains(x, edges_of(case.triangles), lengths)
     if len(hinges):
         values["angle"] = _angles(x, hinges, case.triangles)
     if distances is not None:
@@ -49,9 +49,20 @@ def hinges_of(triangles: np.ndarray) -> np.ndarray:
     return np.column_stack([ends[twice], owner[twice], owner[twice + 1]])
 
 
-def _strains(x: np.ndarray, edges: np.ndarray, rest: np.ndarray) -> np.ndarray:
+def rest_lengths(case: Case) -> np.ndarray | None:
+    """Of each edge, E [m]; the mean of both sides of a seam in a pattern. None: not in the file."""
+    rest, pattern = case.rest_positions(), case.pattern()
+    if pattern is None and rest is None:
+        return None
+    corners = rest[case.triangles] if pattern is None else pattern
+    sides = np.linalg.norm(corners - np.roll(corners, -1, axis=1), axis=2).ravel()
+    pairs = np.sort(case.triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
+    edge = np.unique(pairs, axis=0, return_inverse=True)[1].ravel()
+    return np.bincount(edge, sides) / np.bincount(edge)
+
+
+def _strains(x: np.ndarray, edges: np.ndarray, at_rest: np.ndarray) -> np.ndarray:
     lengths = np.linalg.norm(x[:, edges[:, 0]] - x[:, edges[:, 1]], axis=2)
-    at_rest = np.linalg.norm(rest[edges[:, 0]] - rest[edges[:, 1]], axis=1)
     return _largest_at_ends(np.abs(lengths / at_rest - 1.0), edges, x.shape[1])
 
 

@@ -174,6 +174,11 @@ class Case:
         with h5py.File(self.path, "r") as file:
             return numbers_of(file, "mesh/mass")
 
+    def pattern(self) -> np.ndarray | None:
+        """Corners of all triangles in flat panels, M x 3 x 2 [m]; None without a pattern."""
+        with h5py.File(self.path, "r") as file:
+            return numbers_of(file, "mesh/pattern")
+
     def rest_positions(self) -> np.ndarray | None:
         """Rest positions of all particles, N x 3 [m]; None if the file has none."""
         with h5py.File(self.path, "r") as file:

@@ -13,6 +13,7 @@ from data.studies import Study
 from data.unreadable import Unreadable, one_line
 from pages.page import CaseView, Page, StudyView
 from pictures.case_pictures import make_pictures
+from pictures.garment_pictures import make_garment_view
 from plots.angle_spectrum import plot_angle_spectrum
 from plots.case_plots import plot_diagnostics
 from plots.contact_maps import plot_contacts
@@ -88,6 +89,7 @@ def draw_case(entry: CaseEntry, figures: Path, most: int) -> CaseView:
     try:
         view.case = load_case(entry.path)
         view.row = make_pictures(view.case, name, figures)
+        view.garment = make_garment_view(view.case, name, figures)
         view.turning = make_field_view(view.case, name, figures, most)
         view.plots = (
             plot_contacts(view.case, name, figures)

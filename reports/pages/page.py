@@ -16,6 +16,7 @@ from pages.section import Section, Source
 from pages.solver_words import is_of_frames, repeats
 from pages.trust import Tolerances, tolerances_of
 from pictures.case_pictures import PictureRow
+from pictures.garment_pictures import GarmentView
 from plots.plot_style import Plot
 from viewer.field_pictures import FieldView
 
@@ -36,6 +37,7 @@ class CaseView:
     anchor: str
     case: Case | None = None
     row: PictureRow | None = None
+    garment: GarmentView | None = None
     turning: FieldView | None = None
     plots: list[tuple[str, Plot]] = field(default_factory=list)
     problem: str = ""

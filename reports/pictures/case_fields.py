@@ -7,7 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from data.cloth_values import all_values, edges_of
+from data.garment import Garment, garment_of
 from data.results import Case
+from pictures.look import FABRICS, fabric_code
+from plots.plot_style import name_of_fabric_colour
 
 WORDS = {
     "speed": ("speed", "m/s"),
@@ -31,7 +34,7 @@ class Field:
     values: np.ndarray              # T x N, of the frames that were asked for
     low: float                      # [unit], where the colours begin
     high: float                     # [unit], where they end
-    colours: str                    # SIDES | SIZES
+    colours: str                    # SIDES | SIZES | FABRICS
 
     def codes(self, row: int) -> np.ndarray:
         """Places on the colour bar, N, from 0 to 1; what lies beyond its
@@ -52,7 +55,20 @@ def fields_of(case: Case, frames: list[int]) -> list[Field]:
                     SIDES if name == "phi" else SIZES
                 )
             )
+    garment = garment_of(case)
+    if garment is not None and len(garment.fabrics) > 1:
+        made.append(_fabrics(case, garment, len(frames)))
     return made
+
+
+def _fabrics(case: Case, garment: Garment, frames: int) -> Field:
+    """Of each particle the fabric of one of its triangles; colours are read off its label."""
+    codes = np.zeros(len(case.held))
+    codes[case.triangles] = fabric_code(garment.fabric)[:, None]
+    label = "fabric, " + ", ".join(
+        f"{name_of_fabric_colour(k)}: {fabric.name}" for k, fabric in enumerate(garment.fabrics)
+    )
+    return Field("fabric", label, "1", np.tile(codes, (frames, 1)), 0.0, 1.0, FABRICS)
 
 
 def most_telling(
@@ -62,6 +78,7 @@ def most_telling(
     bits), and neighbours are alike (the correlation over the edges), so that it is no noise. Where
     all say the same, as of a sheet that moves as one, the last. None where there are no fields."""
     rated = [(_telling(field.codes(row), edges), field, row) for field in fields for row in rows]
+    rated = [one for one in rated if one[1].colours != FABRICS]  # they say nothing of the motion
     return max(rated, key=lambda entry: (entry[0], entry[2]))[1:] if rated else None
 
 

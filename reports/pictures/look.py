@@ -3,6 +3,9 @@ from __future__ import annotations
 
 import numpy as np
 from matplotlib import colormaps
+from matplotlib.colors import to_rgb
+
+from plots.plot_style import PAPER, fabric_colour
 
 # linear RGB
 FRONT = np.array([0.56, 0.175, 0.085])      # the side that the triangles' normals point to
@@ -22,11 +25,21 @@ SET_BACK = 0.008
 GROUND_FADES = (0.75, 1.3)
 # colours that stand for a colour map; between them it is straight
 STOPS = 17
+FABRICS = "fabrics"                         # the map whose stops are fabrics, the last one strokes
 
 
 def colour_stops(name: str) -> np.ndarray:
-    """A colour map of matplotlib as STOPS evenly spaced colours, sRGB from 0 to 255."""
+    """A colour map of matplotlib, or FABRICS, as STOPS evenly spaced colours, sRGB from 0 to
+    255."""
+    if name == FABRICS:
+        inks = [fabric_colour(k) for k in range(STOPS - 1)] + [PAPER]
+        return np.round(255 * np.array([to_rgb(ink) for ink in inks])).astype(int)
     return np.round(255 * colormaps[name](np.linspace(0.0, 1.0, STOPS))[:, :3]).astype(int)
+
+
+def fabric_code(k: int | np.ndarray) -> float | np.ndarray:
+    """The place of a fabric on the colour bar FABRICS."""
+    return k % (STOPS - 1) / (STOPS - 1)
 
 
 def field_colours(codes: np.ndarray, name: str) -> np.ndarray:

@@ -32,6 +32,7 @@ from plots.svg_in_page import page_svg
 INK, MUTED, GRID, BAND, PAPER = "#24292e", "#68707a", "#e4e6e9", "#eceef1", "#fefefe"
 COLOURS = ("#1562a8", "#c4501b", "#0b8268", "#8b3f94", "#a8780a", "#3597bf", "#bf4a7b", "#5b6068",
            "#5a7312", "#7d4a20", "#4b45c6")
+_FABRIC_COLOURS = ("blue", "orange", "green", "purple", "ochre", "light blue", "pink", "grey")
 MARKERS = ("o", "s", "^", "D", "v", "P", "X", "<", ">", "h", "*", "p")
 _VARIABLES = {INK: "--plot-ink", MUTED: "--plot-muted", GRID: "--plot-grid", BAND: "--plot-band",
               PAPER: "--paper",
@@ -143,6 +144,16 @@ def svg_text(figure: Figure) -> str:
         text, format="svg", metadata={"Date": None, "Creator": None, "Format": None, "Type": None}
     )
     return text.getvalue()
+
+
+def fabric_colour(k: int) -> str:
+    """The colour of fabric k, in plots and in pictures."""
+    return COLOURS[k % len(_FABRIC_COLOURS)]
+
+
+def name_of_fabric_colour(k: int) -> str:
+    """The same in a word."""
+    return _FABRIC_COLOURS[k % len(_FABRIC_COLOURS)]
 
 
 def variable_of(colour: str) -> str:

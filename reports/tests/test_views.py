@@ -359,8 +359,11 @@ class ViewInThePage(WithCase):
 def load_tests(
     loader: unittest.TestLoader, tests: unittest.TestSuite, _: str | None
 ) -> unittest.TestSuite:
-    """This file's tests, those of films and exported files, of where up is, and of the keyboard."""
-    for name in ("tests.test_exports", "tests.test_upright", "tests.test_keyboard"):
+    """This file's tests, those of garments, of films and exported files, of where up is, and of the
+    keyboard."""
+    for name in (
+        "tests.test_garment", "tests.test_exports", "tests.test_upright", "tests.test_keyboard"
+    ):
         tests.addTests(loader.loadTestsFromName(name))
     return tests
 

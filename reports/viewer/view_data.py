@@ -21,7 +21,8 @@ from pictures.camera import frames_that_set_the_scale, upright_axes
 from pictures.case_fields import Field
 from pictures.case_scene import ENDLESS, CaseScene, slowdown
 from pictures.look import (
-    BACK, FILL_LIGHT, FRONT, GROUND, GROUND_FADES, MARK, OBJECT, SET_BACK, STUCK, colour_stops
+    BACK, FABRICS, FILL_LIGHT, FRONT, GROUND, GROUND_FADES, MARK, OBJECT, SET_BACK, STUCK,
+    colour_stops
 )
 from pictures.shading import world_light
 from plots.plot_style import level_text
@@ -135,7 +136,10 @@ def _field(field: Field) -> dict[str, Any]:
 
 
 def field_ticks(field: Field) -> list[str]:
-    """The values at the beginning, the middle and the end of a colour bar, as texts."""
+    """The values at the beginning, the middle and the end of a colour bar, as texts; none of
+    fabrics, which have no bar."""
+    if field.colours == FABRICS:
+        return ["", "", ""]
     return [level_text(float(value)) for value in np.linspace(field.low, field.high, 3)]
 
 

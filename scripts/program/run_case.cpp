@@ -202,8 +202,8 @@ std::vector<std::string> hard_cases() {
 }
 
 std::vector<std::string> long_cases() {
-  return {"hard/fold_stack", "hard/twist", "hard/funnel",  "hard/pile", "hard/pinch_self",
-          "sleeve",          "robe",       "water_bottle", "balloon"};
+  return {"hard/fold_stack", "hard/twist", "hard/funnel", "hard/pile",    "hard/pinch_self",
+          "sleeve",          "robe",       "tunic",       "water_bottle", "balloon"};
 }
 
 std::vector<std::string> built_in_cases(Tier tier) {

@@ -7,6 +7,8 @@ Usage: scripts/tests/test_pages.py
 from __future__ import annotations
 
 import re
+import subprocess
+import tempfile
 import unittest
 from pathlib import Path
 
@@ -105,6 +107,13 @@ class Cases(unittest.TestCase):
                  if not path.name.endswith(".campaign.toml")]
         cases = {path.stem for path in files} - {"fabrics"}
         self.assertEqual({case for case in cases if f"`{case}`" not in text}, set())
+
+    def test_the_tunic_is_as_its_script_draws_it(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run([ROOT / "cases/draw_tunic", folder], check=True)
+            for name in ("tunic.obj", "tunic_flat.obj"):
+                self.assertEqual((Path(folder) / name).read_bytes(),
+                                 (ROOT / "cases" / name).read_bytes(), name)
 
 
 if __name__ == "__main__":

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "reference/mesh/pattern.h"
 #include "verification/files/findings_file.h"
 #include "verification/files/hdf5_file.h"
 #include "verification/files/verdicts_file.h"
@@ -25,6 +26,55 @@ void write_mesh(const Hdf5& file, const Scene& scene, const System& system) {
   for (Eigen::Index i = 0; i < system.inverse_mass.size(); ++i)
     held.push_back(system.inverse_mass[i] == 0);
   mesh.array("held", {particles}, held.data());
+}
+
+/// Dataset /mesh/pattern: the corners of each triangle in its panel, M x 3 x 2.
+void write_pattern(const Hdf5& mesh, const Scene& scene) {
+  static_assert(sizeof(FlatTriangle) == 6 * sizeof(double));
+  const PatternFacts facts = facts_of_pattern(scene.mesh, scene.x);
+  const Hdf5 pattern = mesh.array("pattern", {scene.mesh.pattern.size(), 3, 2},
+                                  scene.mesh.pattern.front().front().data());
+  pattern.attribute("unit", "m");
+  pattern.attribute("panels", facts.panels);
+  pattern.attribute("seams", facts.seams);
+  pattern.attribute("ease", facts.ease);
+}
+
+/// Groups /fabrics/<k>, and /mesh/fabric if there are several: what the cloth is made of.
+void write_fabrics(const Hdf5& file, const Hdf5& mesh, const Scene& scene) {
+  std::vector<ClothFabric> all = scene.fabrics.fabrics;
+  if (all.empty())
+    all = {{"cloth", scene.density, scene.stretch.value_or(StretchMaterial{}),
+            scene.bending.value_or(BendingMaterial{}),
+            scene.membrane.value_or(MembraneMaterial{})}};
+  else
+    mesh.array("fabric", {scene.fabrics.of_triangle.size()}, scene.fabrics.of_triangle.data());
+  const Hdf5 fabrics = file.group("fabrics");
+  for (size_t k = 0; k < all.size(); ++k) {
+    const Hdf5 group = fabrics.group(std::to_string(k));
+    group.attribute("name", all[k].name);
+    group.attribute("density", all[k].density);
+    if (scene.stretch) group.attribute("stretch", all[k].stretch.stiffness);
+    if (scene.bending) group.attribute("bending", all[k].bending.stiffness);
+    if (!scene.membrane) continue;
+    group.attribute("warp", all[k].membrane.warp);
+    group.attribute("weft", all[k].membrane.weft);
+    group.attribute("shear", all[k].membrane.shear);
+    group.attribute("direction", all[k].membrane.direction);
+  }
+}
+
+/// What a garment has beyond the paper's cloth; nothing for a scene without these parts.
+void write_garment(const Hdf5& file, const Scene& scene) {
+  const Hdf5 mesh = file.open_group("mesh");
+  if (!scene.mesh.pattern.empty()) write_pattern(mesh, scene);
+  if (!scene.mesh.pattern.empty() || !scene.fabrics.empty() || scene.membrane)
+    write_fabrics(file, mesh, scene);
+  if (scene.air) {
+    const Hdf5 air = file.group("air");
+    air.attribute("density", scene.air->density);
+    air.array("wind", {3}, scene.air->wind.data()).attribute("unit", "m/s");
+  }
 }
 
 /// Groups /objects/<k>: the surface at rest, and in every frame its pose, or its
@@ -240,6 +290,7 @@ TrajectoryFile::TrajectoryFile(const std::string& path, const Scene& scene, cons
       "frames_wanted",
       int(std::lround(std::ceil(scene.schedule.end / scene.schedule.frame_interval - 1e-9))) + 1);
   write_mesh(file, scene, system);
+  write_garment(file, scene);
   if (scene.gravity) file.array("gravity", {3}, scene.gravity->data()).attribute("unit", "m/s^2");
   for (const Scalar& scalar : scalars)
     content_->rows.emplace_back(content_->diagnostics, scalar.name, scalar.unit, Shape{});

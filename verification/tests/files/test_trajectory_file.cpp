@@ -236,7 +236,26 @@ TEST_CASE("trajectory: frames and rows of diagnostics lie in it with their units
     mass = [4] 0.25 | 0.5 | 0.75 | 1.5; held = [4] 0 | 0 | 1 | 0; rest_positions@unit = m
     rest_positions = [4 x 3] 70 | 71 | 0 | 73 | 74 | 75 | 76 | 77 | 78 | 79 | 0 | 81)");
   CHECK(difference_below("/mesh/", all, mesh) == "");
-  for (const char* absent : {"/objects/", "/sticky/", "/gravity"}) CHECK(!all.contains(absent));
+  for (const char* absent : {"/objects/", "/sticky/", "/gravity", "/fabrics/", "/air/"})
+    CHECK(!all.contains(absent));
+}
+
+TEST_CASE("trajectory: a garment has its panels, fabrics, membrane and air") {
+  Scene scene = bare_scene();
+  scene.mesh.pattern = {{{{0, 0}, {3, 0}, {0, 4}}}, {{{6, 0}, {9, 1}, {6, 3}}}};
+  const MembraneMaterial membrane{.warp = 64, .weft = 32, .shear = 16, .direction = 0.5};
+  scene.membrane = membrane;
+  scene.fabrics = {{{"knit", 0.25}, {"denim", 0.5, {}, {}, membrane}}, {0, 1}};
+  scene.air = Air{.density = 1.25, .wind = {2, 0, 3}};
+  const Listing all = Trajectory(scene).finished();
+  const auto of = [&](const char* name) { return all.at(name); };
+  CHECK(of("/mesh/pattern") == "[2 x 3 x 2] 0 | 0 | 3 | 0 | 0 | 4 | 6 | 0 | 9 | 1 | 6 | 3");
+  CHECK(of("/mesh/pattern@panels") + " " + of("/mesh/pattern@seams") == "2 5");
+  CHECK(of("/mesh/pattern@ease") == "0.5");  // 5 m on 3 m
+  CHECK(of("/mesh/fabric") == "[2] 0 | 1");
+  CHECK(of("/fabrics/1/@name") + " " + of("/fabrics/1/@density") == "denim 0.5");
+  CHECK(of("/fabrics/1/@warp") + " " + of("/fabrics/1/@direction") == "64 0.5");
+  CHECK(of("/air/@density") + " " + of("/air/wind") == "1.25 [3] 2 | 0 | 3");
 }
 
 TEST_CASE("trajectory: objects have their surface, and their pose or vertices in each frame") {
