@@ -19,8 +19,9 @@ std::errc read_number(std::string_view word, double& value) {
   std::from_chars_result result = std::from_chars(begin, end, value);
   if (result.ec == std::errc::result_out_of_range) {
     long double wide = 0;  // of a larger range: whether the number is large or small
-    const std::errc error = std::from_chars(begin, end, wide).ec;
-    if (error == std::errc() && std::abs(wide) < 1) value = double(wide), result.ec = error;
+    const bool is_held = std::from_chars(begin, end, wide).ec == std::errc();
+    if (is_held ? std::abs(wide) < 1 : word.find("e-") != word.npos || word.find("E-") != word.npos)
+      value = double(wide), result.ec = {};
   }
   if (result.ec == std::errc() && result.ptr != end) return std::errc::invalid_argument;
   return result.ec;
@@ -70,7 +71,7 @@ std::vector<int> FaceList::cut_into(TriangleSoup& soup, int first_vertex) const 
              (int(corners.size()) > most_concave_corners
                   ? " corners that is not convex; so many are cut"
                     " only if it is"
-                  : " corners whose sides cross") +
+                  : " corners whose sides cross or touch") +
              "; cut it into triangles");
     for (const Triangle& triangle : cut) {
       soup.triangles.push_back(triangle);

@@ -94,6 +94,17 @@ bool edges_meet(const PerParticle3& x, const Triangle& s, const Triangle& t) {
   return false;
 }
 
+/// Is there a side of s (3 x 3 [m], z = 0) across which s and t overlap by at most `least` [m]?
+bool side_parts(const Eigen::Matrix3d& s, const Eigen::Matrix3d& t, double least) {
+  for (int k = 0; k < 3; ++k) {
+    const Vector3 normal = (s.col((k + 1) % 3) - s.col(k)).cross(Vector3::UnitZ()).normalized();
+    const Eigen::RowVector3d of_s = normal.transpose() * s, of_t = normal.transpose() * t;
+    if (of_s.maxCoeff() - of_t.minCoeff() <= least || of_t.maxCoeff() - of_s.minCoeff() <= least)
+      return true;
+  }
+  return false;
+}
+
 /// Appends the pairs of triangle s with later triangles that meet it.
 void add_pairs_of(int s, const std::vector<Bounds>& boxes, const BoxTree& tree,
                   const std::function<bool(int)>& meets_s,
@@ -136,6 +147,25 @@ std::vector<std::pair<int, int>> self_intersections(const PerParticle3& x,
     add_pairs_of(
         s, boxes, tree, [&](int t) { return intersect(x, triangles[s], triangles[t]); }, pairs);
   return pairs;
+}
+
+std::size_t overlaps_in_plane(const PerParticle3& x, const std::vector<Triangle>& triangles,
+                              const Vector3& first, const Vector3& second, double least) {
+  PerParticle3 flat = PerParticle3::Zero(3, x.cols());
+  flat.row(0) = first.transpose() * x;
+  flat.row(1) = second.transpose() * x;
+  const std::vector<Bounds> boxes = triangle_bounds(flat, triangles);
+  const BoxTree tree = make_box_tree(boxes, leaf_size);
+  const auto corners = [&](int t) -> Eigen::Matrix3d { return flat(Eigen::all, triangles[t]); };
+  std::vector<std::pair<int, int>> pairs;
+  for (int s = 0; s < int(triangles.size()); ++s) {
+    const auto overlaps_s = [&](int t) {
+      return !side_parts(corners(s), corners(t), least) &&
+             !side_parts(corners(t), corners(s), least);
+    };
+    add_pairs_of(s, boxes, tree, overlaps_s, pairs);
+  }
+  return pairs.size();
 }
 
 }  // namespace foldproof

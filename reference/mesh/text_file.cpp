@@ -89,7 +89,7 @@ std::string plain_text(std::string text, const std::string& file) {
   if (text.starts_with(utf8_mark)) text.erase(0, utf8_mark.size());
   const std::string_view start = std::string_view(text).substr(0, 1 << 12);
   if (start.starts_with("\xFF\xFE") || start.starts_with("\xFE\xFF"))
-    throw InputError(file + ":1: the file is in UTF-16; save it as UTF-8");
+    throw InputError(file + ":1: the file is in UTF-16 or UTF-32; save it as UTF-8");
   if (start.find('\0') != std::string_view::npos)
     throw InputError(file +
                      ":1: holds zero bytes, as UTF-16 and binary files do; give text in "

@@ -100,10 +100,13 @@ void note_scales(const KeyTable& keys, double of_cloth, Scene& scene) {
         cloth.has("mesh") && !object.has("shape") && (cloth.has("fit") || object.has("fit"));
     if (!are_meshes || !(is_typed("mesh") || is_typed("frames")) || is_typed("fit")) continue;
     if (std::abs(scale - of_cloth) <= 1e-6 * scale) continue;
-    scene.warnings.push_back((object.has("fit") ? object : cloth).where("fit") +
+    const bool fits_object = object.has("fit") && digits(scale) != "1",
+               fits_cloth = cloth.has("fit") && digits(of_cloth) != "1";
+    if (!fits_object && !fits_cloth) continue;
+    scene.warnings.push_back((fits_object ? object : cloth).where("fit") +
                              ": 'fit' scales the mesh of " + name + " by " + digits(scale) +
-                             ", that of the cloth by " + digits(of_cloth) +
-                             "; --set object.fit= or --set cloth.fit= unsets it");
+                             ", that of the cloth by " + digits(of_cloth) + "; --set " +
+                             (fits_object ? "object" : "cloth") + ".fit= unsets it");
   }
 }
 
@@ -134,14 +137,19 @@ std::string warning_of_start(const Scene& scene, const State& s) {
     return std::to_string(flat) +
            " triangles of the cloth have no area at the start, so that the "
            "forces of their springs and hinges have no direction; change its places at the start";
-  if (scene.self_collision || !open_seams_in_words(scene.mesh).empty()) return "";
+  if (scene.self_collision) return "";
   TriangleMesh start = scene.mesh;
   start.rest = s.x;
   RestPlane plane;
-  if (is_flat(start, plane)) return "";  // decided exactly, its coplanar pairs take seconds
-  const size_t pairs = self_intersections(s.x, triangles).size();
+  const bool lies_flat = is_flat(start, plane);
+  // there the exact test finds that neighbours touch
+  if (!lies_flat && !open_seams_in_words(scene.mesh).empty()) return "";
+  const size_t pairs = lies_flat ? overlaps_in_plane(s.x, triangles, plane.first, plane.second,
+                                                     1e-6 * length_of(s.x))
+                                 : self_intersections(s.x, triangles).size();
   if (pairs == 0) return "";
-  return "the cloth crosses itself at the start, in " + std::to_string(pairs) +
+  return "the cloth " + std::string(lies_flat ? "lies on" : "crosses") +
+         " itself at the start, in " + std::to_string(pairs) +
          " pairs of triangles, and nothing parts them; move its layers apart, or give "
          "[self_collision]";
 }

@@ -4,6 +4,7 @@
 #include "reference/level_set/grid.h"
 #include "reference/mesh/mesh_file.h"
 #include "reference/scene/scene.h"
+#include "verification/specimens/check.h"
 
 using namespace foldproof;
 using Catch::Matchers::Contains;
@@ -40,6 +41,18 @@ TEST_CASE("a cloth of too many triangles, or of numbers that no double holds, is
   for (int k = 0; k <= 100; ++k) record += " n" + std::to_string(k);
   CHECK_THROWS_WITH(read_mesh_text("v 0 0 0\n" + record + "\n", "some.obj"),
                     Contains("some.obj:2: more than 16 names"));
+}
+
+TEST_CASE("coordinates whose areas would overflow or vanish are refused with their place") {
+  const auto said = [](const std::string& number) {
+    const std::string v = "v " + number + " 0 0\n";
+    return rejection_message(
+        [&] { read_mesh_text("v 0 0 0\nv 0 1e-80 0\n" + v + "f 1 2 3\n", "some.obj"); });
+  };
+  for (const char* number : {"9e74", "-9e74", "2e-75"}) CHECK(said(number) == "");
+  for (const char* number : {"2e75", "-2e75", "1e300"})
+    CHECK_THAT(said(number), Contains("some.obj:3: a coordinate is too large, beyond 1e75 m"));
+  CHECK_THAT(said("5e-76"), Contains("some.obj: no coordinate is as large as 1e-75 m"));
 }
 
 TEST_CASE("level sets of more cells than a machine holds are refused with the place of the key") {

@@ -202,3 +202,21 @@ TEST_CASE("triangles of one plane intersect where only their edges cross") {
   x.rightCols(3).row(0).array() += 4.5;
   CHECK(self_intersections(x, star).empty());
 }
+
+TEST_CASE("triangles that overlap in a plane are counted, and neighbours are none") {
+  Sheet sheet{SheetPattern::jittered, 1.1, 0, 11, 7};
+  sheet.jitter = 0.3;
+  const TriangleMesh alone = make_sheet(sheet);
+  // two squares of two triangles, half a side apart: three of the four pairs overlap
+  PerParticle3 two(3, 8);
+  two << 0, 1, 1, 0, 0.5, 1.5, 1.5, 0.5, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0;
+  const std::vector<Triangle> halves{{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}};
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Vector3(1, 2, 3).normalized()).matrix();
+  const auto count = [&](const PerParticle3& x, const std::vector<Triangle>& triangles) {
+    return overlaps_in_plane(turn * x, triangles, turn.col(0), turn.col(1), 1e-9);
+  };
+  CHECK(count(alone.rest, alone.triangles) == 0);
+  CHECK(count(two, halves) == 3);
+  two.rightCols(4).row(0).array() += 0.5;  // now they share a side
+  CHECK(count(two, halves) == 0);
+}

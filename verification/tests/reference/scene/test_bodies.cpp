@@ -159,7 +159,8 @@ TEST_CASE("how 'fit' scales is noted, and warned of where meshes of --set come a
                                           "0.25, that of the cloth by 1; --set object.fit="));
   CHECK(scene("fit = 0.5\n", "", {typed}).warnings.size() == 1);
   CHECK(scene("fit = 0.5\n", "fit = 0.5\n", {typed}).warnings.empty());
-  CHECK(scene("", "fit = 0.5\n", {}).warnings.empty());  // as the case has it
+  CHECK(scene("", "fit = 0.5\n", {}).warnings.empty());                  // as the case has it
+  CHECK(scene("scale = 0.5\n", "fit = 2\n", {typed}).warnings.empty());  // which changes nothing
   CHECK(scene("", "", {typed, "object.fit=0.5"}).warnings.empty());
   const Scene unset = scene("", "fit = 0.5\n", {typed, "object.fit="});
   CHECK(unset.warnings.empty());

@@ -74,6 +74,23 @@ TEST_CASE("sizes are told, and a fixed step beyond the elastic limit") {
   CHECK_THAT(warning("step = 0.1\n"), Contains("a step of 0.1 s is") && Contains("below which C"));
 }
 
+TEST_CASE("a start that crosses itself, or lies flat on itself, is warned of") {
+  const auto said = [](const std::string& copy, const std::string& more = "") {
+    const Scene scene = read_scene_text(
+        "[cloth]\nshape = \"sheet\"\nwidth = 1.1\nheight = 0.7\ncolumns = 11\nrows = 7\n"
+        "density = 0.2\nturn = { axis = [1, 0, 0], angle = 30 }\ncopies = { count = 2, " +
+            copy + " }\n" + more + "[time]\nend = 1\n",
+        "some.toml");
+    return warning_of_start(scene, start_state(scene));
+  };
+  const std::string crossed = "move = [0.3, 0, 0], turn = { axis = [0, 1, 0], angle = 70 }";
+  CHECK(said("move = [1.3, 0, 0]") == "");  // beside it in one plane
+  CHECK(said("move = [0.3, 0, 0.2]") == "");
+  CHECK_THAT(said("move = [0.3, 0, 0]"), Contains("the cloth lies on itself at the start, in"));
+  CHECK_THAT(said(crossed), Contains("the cloth crosses itself at the start, in"));
+  CHECK(said(crossed, "[self_collision]\nthickness = 0.01\n") == "");
+}
+
 TEST_CASE("jitter and seed are refused where they change nothing") {
   const auto said = [](const std::string& keys) {
     return rejection_message([&] {
