@@ -10,7 +10,7 @@ from data import quantities
 from data.studies import StudyFigure
 from plots.plot_style import level_text
 from plots.point_marks import has_mark, is_marked
-from plots.study_plots import choose_pens, floors_below, key_svg, points_left_out
+from plots.study_plots import floors_below, key_svg, pens_of, points_left_out
 
 
 @dataclass
@@ -33,7 +33,7 @@ def order_table(figure: StudyFigure) -> OrderTable | None:
     heads = [f"{level_text(a)} – {level_text(b)}" if shared else f"pair {k + 1}"
              for k, (a, b) in enumerate(zip(widest.x[:-1], widest.x[1:]))][:len(widest.pair_orders)]
     rows = []
-    for curve, pen in zip(figure.curves, choose_pens(figure.curves)):
+    for curve, pen in zip(figure.curves, pens_of(figure)):
         orders = curve.pair_orders if curve.pair_orders is not None else []
         cells = [quantities.order_html(order) for order in orders]
         rows.append((key_svg(pen), curve.label, cells + [Markup("")] * (len(heads) - len(cells))))
@@ -46,7 +46,7 @@ def figure_keys(figure: StudyFigure) -> list[tuple[Markup, str]]:
     filled = is_marked(figure.curves)
     return [
         (key_svg(pen, filled), curve.label)
-        for curve, pen in zip(figure.curves, choose_pens(figure.curves))
+        for curve, pen in zip(figure.curves, pens_of(figure))
     ]
 
 

@@ -2,6 +2,7 @@
 slope_triangles.py the slopes that theory expects, with point_marks.py the runs that diverged."""
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from textwrap import fill
 
@@ -25,6 +26,7 @@ LABEL_STEP = 0.055
 LABEL_WIDTH = 34                    # characters of a line of a label
 # curves whose values differ by less than this fraction lie on each other
 SAME = 0.03
+SAME_SHAPE = 0.02                   # shapes no farther apart, over the figure's extent
 MOST_MARKERS = 60                   # points of a curve beyond which it is a line alone
 FLOOR_REACH = 1.3                   # decades below the lowest point within which a floor is drawn
 
@@ -44,7 +46,7 @@ def plot_study_figure(figure: StudyFigure, name: str, folder: Path) -> Plot:
     if not any(len(x) for x, _ in shown):
         say_in_the_middle(axes, "no finite points to draw")
         return finish(canvas, name, folder, figure.title)
-    pens = choose_pens(figure.curves)
+    pens = pens_of(figure)
     for axis, scale, values in (("x", figure.x_scale, 0), ("y", figure.y_scale, 1)):
         scale_axis(axes, axis, scale, np.concatenate([points[values] for points in shown]))
     for layer, (curve, pen) in enumerate(zip(figure.curves, pens)):
@@ -58,7 +60,7 @@ def plot_study_figure(figure: StudyFigure, name: str, folder: Path) -> Plot:
         draw_own_slopes(axes, shown, pens, [curve.slope for curve in figure.curves])
     _draw_floors(axes, figure, pens)
     draw_strip(axes, figure.curves, pens)
-    _label_curves(axes, figure.curves, pens, shown)
+    _label_curves(axes, figure, pens, shown)
     return finish(canvas, name, folder, figure.title)
 
 
@@ -68,6 +70,35 @@ def is_geometry(figure: StudyFigure) -> bool:
     return (figure.x_unit == figure.y_unit
             and figure.x_unit in ("m", "L", "(B/(rho_A g))^(1/3)")
             and figure.x_scale == figure.y_scale == "linear")
+
+
+def pens_of(figure: StudyFigure) -> list[Pen]:
+    """The pens of a figure's curves. Of two shapes that lie on each other, the later is drawn in
+    the colour of the earlier, by its points alone: a line would hide the other's."""
+    pens, curves = choose_pens(figure.curves), figure.curves
+    if not is_geometry(figure):
+        return pens
+    extent = max(float(np.ptp(np.concatenate([getattr(curve, axis) for curve in curves])))
+                 for axis in "xy")
+    for index, curve in enumerate(curves):
+        gaps = [_gap(curve, earlier) for earlier in curves[:index]]
+        if gaps and min(gaps) < SAME_SHAPE * extent and len(curve.x) <= MOST_MARKERS:
+            pens[index] = replace(pens[index], colour=pens[int(np.argmin(gaps))].colour, width=0.0)
+    return pens
+
+
+def _gap(curve: Curve, line: Curve) -> float:
+    """The largest distance of a point of a shape from another's line; infinite where it has none.
+    """
+    if len(line.x) < 2 or not len(curve.x):
+        return float("inf")
+    points = np.stack([curve.x, curve.y], axis=-1)[:, None]
+    ends = np.stack([line.x, line.y], axis=-1)
+    sides = np.diff(ends, axis=0)
+    lengths = np.maximum((sides ** 2).sum(-1), 1e-300)
+    along = np.clip(((points - ends[:-1]) * sides).sum(-1) / lengths, 0, 1)
+    apart = np.linalg.norm(points - ends[:-1] - along[..., None] * sides, axis=-1).min(axis=1)
+    return float(np.nan_to_num(apart.max(), nan=np.inf))
 
 
 def points_left_out(figure: StudyFigure) -> int:
@@ -91,9 +122,10 @@ def key_svg(pen: Pen, filled: bool = False) -> Markup:
                  for outline in outlines)
     colour = variable_of(pen.colour)
     picture = Markup('<svg class="key" viewBox="0 0 26 12" aria-hidden="true">'
-                     '<path d="M0,6H26" stroke="{0}" stroke-width="1.6"/>'
+                     '<path d="{3}" stroke="{0}" stroke-width="1.6"/>'
                      '<path d="{1}" stroke="{0}" stroke-width="1.3" fill="{2}"/></svg>')
-    return picture.format(colour, d, colour if filled else "var(--paper)")
+    return picture.format(colour, d, colour if filled else "var(--paper)",
+                          "M0,6H26" if pen.width else "")
 
 
 def choose_pens(curves: list[Curve]) -> list[Pen]:
@@ -238,16 +270,18 @@ def _draw_floors(axes: Axes, figure: StudyFigure, pens: list[Pen]) -> None:
             )
 
 
-def _label_curves(axes: Axes, curves: list[Curve], pens: list[Pen], shown: list[Points]) -> None:
+def _label_curves(axes: Axes, figure: StudyFigure, pens: list[Pen], shown: list[Points]) -> None:
     """Labels in a column right of the axes, near the right end of
-    their curves, with thin leaders."""
+    their curves, with thin leaders; those of shapes in their order, without."""
+    curves, in_order = figure.curves, is_geometry(figure)
     to_axes = axes.transData + axes.transAxes.inverted()
     ends = [tuple(to_axes.transform((x[x.argmax()], y[x.argmax()]))) if len(x) else (0.0, -1.0)
             for x, y in shown]
     labels = [fill(formula_text(curve.label), LABEL_WIDTH) for curve in curves]
     lines = max(1 + label.count("\n") for label in labels)
     step = min(LABEL_STEP * lines, 1.06 / max(len(curves), 1))
-    heights = spread([end[1] for end in ends], step)
+    heights = ([1 - step * k for k in range(len(ends))] if in_order
+               else spread([end[1] for end in ends], step))
     size = 7.6 if step >= LABEL_STEP else 6.4
     for label, pen, end, height in zip(labels, pens, ends, heights):
         key = [1.075] if pen.marker else [1.062, 1.088]
@@ -260,7 +294,7 @@ def _label_curves(axes: Axes, curves: list[Curve], pens: list[Pen], shown: list[
             1.10, height, label, transform=axes.transAxes, ha="left", va="center", fontsize=size,
             color=INK
         )
-        if end[0] > 0.85 and 0 <= end[1] <= 1:
+        if end[0] > 0.85 and 0 <= end[1] <= 1 and not in_order:
             axes.plot(
                 [end[0] + 0.012, 1.015, 1.06], [end[1], end[1], height], transform=axes.transAxes,
                 clip_on=False, color=pen.colour, linewidth=0.5, alpha=0.7

@@ -15,7 +15,7 @@ import numpy as np
 from markupsafe import Markup
 
 from data.results import Finding, load_run
-from data.studies import Curve, Study
+from data.studies import Curve, Study, StudyFigure
 from make_report import make_pages
 from pages.conclusions import Results
 from pages.four_questions import FIGURES, four_questions
@@ -25,7 +25,7 @@ from pages.said import bound_html, measured_html
 from pages.section import Section
 from pages.sentences import html_of
 from plots.plot_style import COLOURS, MARKERS, Plot
-from plots.study_plots import METHODS, choose_pens
+from plots.study_plots import METHODS, choose_pens, key_svg, pens_of
 from tests.made_up_run import NAMES, put_finding, put_run
 from tests.report_test import FolderTest, without_pictures
 
@@ -180,6 +180,20 @@ class Looks(unittest.TestCase):
             [(pen.colour, pen.marker) for pen in alone],
             [(COLOURS[4], MARKERS[4]), (COLOURS[1], MARKERS[1])],
         )
+
+    def test_of_shapes_on_each_other_both_are_seen(self) -> None:
+        nan, turn = float("nan"), np.linspace(0, 6, 201)
+        curves = [
+            Curve(name, size * np.cos(t), size * np.sin(t), nan, None, nan, None)
+            for name, size, t in (("large", 1, turn), ("small", 0.5, turn),
+                                  ("of large", 0.99, turn[::5]), ("other", 0.8, turn[::5]))
+        ]
+        pens = pens_of(StudyFigure("loops", "", "", "x", "L", "y", "L", "linear", "linear", curves,
+                                   nan))
+        self.assertEqual([pen.width > 0 for pen in pens], [True, True, False, True])
+        self.assertEqual(pens[2].colour, pens[0].colour)
+        self.assertEqual(len({pen.colour for pen in pens}), 3)
+        self.assertNotIn("M0,6", key_svg(pens[2]))
 
 
 class Said(FolderTest):
