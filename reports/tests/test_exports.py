@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import importlib
 import json
+import os
 import shutil
 import struct
 import subprocess
@@ -16,6 +17,9 @@ import numpy as np
 from data.cloth_values import all_values
 from tests.made_up_case import TWO, WithCase
 from tests.report_test import REPORTS
+
+# a python that has bpy
+BPY = Path(os.environ.get("FOLDPROOF_BPY", REPORTS.parent / "build/engines/bpy/bin/python"))
 
 
 class Films(WithCase):
@@ -163,6 +167,20 @@ class ExportedFiles(WithCase):
             read = np.array([attribute.Get(code) for code in codes])
             np.testing.assert_array_equal(read, case.every_frame(field).astype("f4"))
 
+    @unittest.skipUnless(BPY.exists(), f"skipped: not installed: no {BPY} with bpy of PyPI")
+    def test_blender_opens_caches_usd_and_alembic_with_the_same_vertices(self) -> None:
+        words = (REPORTS / "DATA.md").read_text(encoding="utf-8")
+        lines = words.split("```python\nimport bpy", 1)[1].split("```", 1)[0]
+        self.exported("pc2"), self.exported("usda")
+        run = subprocess.run([BPY, "-c", ASK_BLENDER.format(lines=f"import bpy{lines}")],
+                             text=True, check=False, capture_output=True, cwd=self.root)
+        self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
+        for name in ("usda", "pc2", "abc"):
+            with np.load(self.root / f"{name}.npz") as npz:
+                np.testing.assert_allclose(npz["vertices"], self.case().every_frame("positions"),
+                                           atol=1e-6, err_msg=name)
+                np.testing.assert_array_equal(npz["faces"], TWO)
+
     @unittest.skipUnless(
         shutil.which("pvpython"), "no pvpython: the package python3-paraview has it"
     )
@@ -213,6 +231,29 @@ def program_xdmf(file: str, times: np.ndarray, shape: tuple[int, ...], triangles
     return head + "".join(filled) + "    </Grid>\n  </Domain>\n</Xdmf>\n"
 
 
+ASK_BLENDER = """
+import os
+import bpy
+bpy.ops.wm.read_factory_settings(use_empty=True)
+
+def save(name):
+    bpy.context.view_layer.objects.active = next(
+        each for each in bpy.data.objects if each.type == "MESH")
+    exec({lines!r}, {{}})
+    os.rename("cloth.npz", name + ".npz")
+
+bpy.ops.wm.usd_import(filepath="usda/fold.usda")
+save("usda")
+bpy.ops.wm.alembic_export(filepath="fold.abc", start=0, end=bpy.context.scene.frame_end)
+bpy.context.object.modifiers.clear()
+cache = bpy.context.object.modifiers.new("cache", "MESH_CACHE")
+cache.cache_format, cache.filepath, cache.frame_start = "PC2", "pc2/fold.pc2", 0
+save("pc2")
+bpy.context.object.select_set(True)
+bpy.ops.object.delete()
+bpy.ops.wm.alembic_import(filepath="fold.abc", as_background_job=False)
+save("abc")
+"""
 ASK_PARAVIEW = """
 import json, sys
 from paraview.simple import XDMFReader
