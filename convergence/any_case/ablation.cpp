@@ -232,8 +232,14 @@ void add_forces(const Scene& scene, Parts& parts) {
     s.stretch.reset();
     s.strain_limits.reset();
   });
-  add_present(parts, scene.stretch && scene.stretch->damping > 0, "damping of springs",
-              [](Scene& s) { s.stretch->damping = 0; });
+  const std::vector<ClothFabric> fabrics = fabrics_of(scene);
+  const auto any = [&](auto has) { return std::ranges::any_of(fabrics, has); };
+  const bool springs_damp = any([](const ClothFabric&of) { return of.stretch.damping > 0; }),
+             hinges_damp = any([](const ClothFabric&of) { return of.bending.damping > 0; });
+  add_present(parts, springs_damp, "damping of springs", [](Scene& s) {
+    s.stretch->damping = 0;
+    for (ClothFabric& fabric : s.fabrics.fabrics) fabric.stretch.damping = 0;
+  });
   add_present(parts, scene.membrane.has_value(), "membrane", [](Scene& s) { s.membrane.reset(); });
   add_present(parts, !scene.fabrics.empty(), "differences of fabrics",
               [](Scene& s) { s.fabrics = {}; });
@@ -248,8 +254,10 @@ void add_forces(const Scene& scene, Parts& parts) {
     s.bending.reset();
     s.rest_angles.clear();
   });
-  add_present(parts, scene.bending && scene.bending->damping > 0, "damping of bending",
-              [](Scene& s) { s.bending->damping = 0; });
+  add_present(parts, hinges_damp, "damping of bending", [](Scene& s) {
+    s.bending->damping = 0;
+    for (ClothFabric& fabric : s.fabrics.fabrics) fabric.bending.damping = 0;
+  });
   constexpr double flat = 1e-9;  // rad: what rounding makes of a flat sheet
   const bool is_shaped =
       std::ranges::any_of(scene.rest_angles, [](double angle) { return std::abs(angle) > flat; });
@@ -261,10 +269,14 @@ void add_objects(const Scene& scene, Parts& parts) {
   for (size_t k = 0; k < scene.objects.size(); ++k)
     add_present(parts, true, "object '" + scene.objects[k].object.name + "'",
                 [k](Scene& s) { s.objects.erase(s.objects.begin() + std::ptrdiff_t(k)); });
-  const bool rubs = std::ranges::any_of(
-      scene.objects, [](const SceneObject& part) { return part.object.friction > 0; });
-  add_present(parts, rubs, "friction of objects", [](Scene& s) {
+  const bool rubs =
+      std::ranges::any_of(scene.objects,
+                          [](const SceneObject& part) { return part.object.friction > 0; }) ||
+      std::ranges::any_of(scene.fabrics.fabrics,
+                          [](const ClothFabric& fabric) { return fabric.friction > 0; });
+  add_present(parts, rubs && !scene.objects.empty(), "friction of objects", [](Scene& s) {
     for (SceneObject& part : s.objects) part.object.friction = 0;
+    for (ClothFabric& fabric : s.fabrics.fabrics) fabric.friction = 0;
   });
   add_present(parts, !scene.objects.empty() && scene.collision.points != PointKind::particles,
               "points between particles",

@@ -91,6 +91,35 @@ TEST_CASE("each part of a scene can be toggled by itself") {
   CHECK(without.at("strain limits").strain_limits);
 }
 
+TEST_CASE("parts are taken from every fabric, and put into every one") {
+  Scene scene = trial();
+  const auto force = [](const Scene& s, auto make) { return make(build_system(s)); };
+  const auto damping = [](const System& system) {
+    double sum = 0;
+    for (const Force& one : system.forces) {
+      if (const auto* springs = std::get_if<StretchSprings>(&one))
+        for (const Spring& spring : springs->springs) sum += spring.damping;
+      if (const auto* bending = std::get_if<Bending>(&one)) sum += bending->material.damping;
+    }
+    return sum;
+  };
+  ClothFabric hem = fabrics_of(scene).front();
+  hem.friction = 0.4;
+  scene.fabrics.fabrics = {fabrics_of(scene).front(), hem};
+  scene.fabrics.of_triangle.assign(scene.mesh.triangles.size(), 0);
+  scene.fabrics.of_triangle[1] = 1;
+  CHECK(force(scene, damping) > 0);
+  std::map<std::string, Scene> without;
+  for (const ScenePart& one : parts_of(scene)) without[one.name] = one.toggled(scene);
+  Scene still = without.at("damping of springs");
+  still.bending.reset();
+  CHECK(force(still, damping) == 0);
+  CHECK(friction_of(without.at("friction of objects")).maxCoeff() == 0);
+  Scene apart = without.at("self-collision");
+  apart.self_collision = SelfCollisionSettings{0.003};
+  CHECK(layers_of(apart).thickness.minCoeff() == Approx(0.003));
+}
+
 TEST_CASE("without its flat pattern, cloth rests as it starts") {
   Scene scene = trial();
   const Scene folded = scene;

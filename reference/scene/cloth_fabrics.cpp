@@ -115,15 +115,14 @@ void read_cloth_fabrics(const KeyTable& keys, const std::string& folder, const F
   const auto tables = keys.tables("fabric");
   if (tables.empty()) return;
   ClothFabrics& all = scene.fabrics;
-  all.fabrics = {{keys.table("cloth")->text_or("fabric", "cloth"), scene.density,
-                  scene.stretch.value_or(StretchMaterial{}),
-                  scene.bending.value_or(BendingMaterial{}),
-                  scene.membrane.value_or(MembraneMaterial{}), scene.stretch_directions,
-                  scene.bending_directions, scene.strain_limits.value_or(StrainLimits{})}};
+  ClothFabric first;
+  first.name = keys.table("cloth")->text_or("fabric", "cloth");
   if (const auto self = keys.table("self_collision")) {
-    all.fabrics.front().thickness = positive(*self, "thickness");
-    all.fabrics.front().layer_friction = non_negative_or(*self, "friction", 0);
+    first.thickness = positive(*self, "thickness");
+    first.layer_friction = non_negative_or(*self, "friction", 0);
   }
+  all.fabrics = {first};
+  all.fabrics.front() = fabrics_of(scene).front();
   all.of_triangle.assign(scene.mesh.triangles.size(), 0);
   for (const auto& table : tables) {
     for (const int t : triangles_of(*table, groups, scene))
@@ -141,30 +140,44 @@ void read_cloth_fabrics(const KeyTable& keys, const std::string& folder, const F
   }
 }
 
+std::vector<ClothFabric> fabrics_of(const Scene& scene) {
+  std::vector<ClothFabric> all = scene.fabrics.fabrics;
+  if (all.empty()) all.emplace_back();
+  ClothFabric& first = all.front();
+  first.density = scene.density;
+  first.stretch = scene.stretch.value_or(StretchMaterial{});
+  first.bending = scene.bending.value_or(BendingMaterial{});
+  first.membrane = scene.membrane.value_or(MembraneMaterial{});
+  first.stretch_directions = scene.stretch_directions;
+  first.bending_directions = scene.bending_directions;
+  first.limits = scene.strain_limits.value_or(StrainLimits{});
+  return all;
+}
+
 std::vector<double> densities_of(const Scene& scene) {
+  const std::vector<ClothFabric> fabrics = fabrics_of(scene);
   std::vector<double> densities(scene.mesh.triangles.size(), scene.density);
   for (size_t t = 0; t < scene.fabrics.of_triangle.size(); ++t)
-    densities[t] = scene.fabrics.fabrics[size_t(scene.fabrics.of_triangle[t])].density;
+    densities[t] = fabrics[size_t(scene.fabrics.of_triangle[t])].density;
   return densities;
 }
 
 CustomForce membrane_of(const Scene& scene) {
   std::vector<MembraneMaterial> materials;
-  for (const ClothFabric& fabric : scene.fabrics.fabrics) materials.push_back(fabric.membrane);
-  if (materials.empty()) materials = {*scene.membrane};
+  for (const ClothFabric& fabric : fabrics_of(scene)) materials.push_back(fabric.membrane);
   return make_membrane(scene.mesh, materials, scene.fabrics.of_triangle);
 }
 
 std::vector<StrainRange> strain_ranges_of(const Scene& scene) {
-  const ClothFabrics& cloth = scene.fabrics;
+  const std::vector<ClothFabric> fabrics = fabrics_of(scene);
   std::vector<StrainRange> ranges;
-  if (cloth.empty()) return ranges;
+  if (scene.fabrics.empty()) return ranges;
   for (const Edge& edge : scene.mesh.edges) {
     constexpr double none = std::numeric_limits<double>::infinity();
     StrainRange range{none, none};
     for (const int t : edge.triangles) {
       if (t < 0) continue;
-      const StrainRange& own = cloth.fabrics[size_t(cloth.of_triangle[size_t(t)])].limits;
+      const StrainRange& own = fabrics[size_t(scene.fabrics.of_triangle[size_t(t)])].limits;
       range = {std::min(range.extension, own.extension),
                std::min(range.compression, own.compression)};
     }
@@ -174,13 +187,15 @@ std::vector<StrainRange> strain_ranges_of(const Scene& scene) {
 }
 
 double largest_extension_of(const Scene& scene) {
-  double largest = scene.strain_limits->extension;
-  for (const ClothFabric& fabric : scene.fabrics.fabrics)
+  double largest = 0;
+  for (const ClothFabric& fabric : fabrics_of(scene))
     largest = std::max(largest, fabric.limits.extension);
   return largest;
 }
 
 namespace {
+
+double own_or(double own, double otherwise) { return std::isnan(own) ? otherwise : own; }
 
 /// The mean of a fabric's value over the areas of each particle's triangles; NaN where all are.
 template <class Value>
@@ -208,33 +223,39 @@ PerParticle friction_of(const Scene& scene) {
 
 LayerProperties layers_of(const Scene& scene) {
   if (scene.fabrics.empty()) return {};
-  return {mean_of_triangles(scene, [](const ClothFabric& of) { return of.thickness; }),
-          mean_of_triangles(scene, [](const ClothFabric& of) { return of.layer_friction; })};
+  const SelfCollisionSettings& all = *scene.self_collision;
+  return {mean_of_triangles(
+              scene, [&](const ClothFabric& of) { return own_or(of.thickness, all.thickness); }),
+          mean_of_triangles(scene, [&](const ClothFabric& of) {
+            return own_or(of.layer_friction, all.friction);
+          })};
 }
 
 PerParticle masses_of(const Scene& scene) { return lumped_masses(scene.mesh, densities_of(scene)); }
 
 namespace {
 
+/// Its place in fabrics_of.
+size_t fabric_of_triangle(const Scene& scene, int t) {
+  return scene.fabrics.empty() ? 0 : size_t(scene.fabrics.of_triangle[size_t(t)]);
+}
+
 /// The factor of an edge's spring or hinge in each of its two triangles. turn: from the edge to
 /// what it resists along [rad].
 std::vector<std::array<double, 2>> factors_of_edges(const Scene& scene,
-                                                    ByDirection ClothFabric::*of_fabric,
-                                                    const ByDirection& of_cloth, double turn) {
-  const ClothFabrics& cloth = scene.fabrics;
+                                                    ByDirection ClothFabric::*directions,
+                                                    double turn) {
+  const std::vector<ClothFabric> fabrics = fabrics_of(scene);
   std::vector<std::array<double, 2>> factors(scene.mesh.edges.size(), {1, 1});
-  const bool is_uniform =
-      of_cloth.is_uniform() && std::ranges::all_of(cloth.fabrics, [&](const ClothFabric& fabric) {
-        return (fabric.*of_fabric).is_uniform();
-      });
+  const bool is_uniform = std::ranges::all_of(
+      fabrics, [&](const ClothFabric& fabric) { return (fabric.*directions).is_uniform(); });
   if (is_uniform) return factors;
   const std::vector<std::array<double, 2>> angles = angles_of_edges(scene.mesh);
   for (size_t e = 0; e < factors.size(); ++e)
     for (size_t side = 0; side < 2; ++side) {
       const int t = scene.mesh.edges[e].triangles[side];
       if (t < 0) continue;
-      const ByDirection& by =
-          cloth.empty() ? of_cloth : cloth.fabrics[size_t(cloth.of_triangle[size_t(t)])].*of_fabric;
+      const ByDirection& by = fabrics[fabric_of_triangle(scene, t)].*directions;
       factors[e][side] = by.at(angles[e][side] + turn);
     }
   return factors;
@@ -243,21 +264,18 @@ std::vector<std::array<double, 2>> factors_of_edges(const Scene& scene,
 }  // namespace
 
 StretchSprings springs_of(const Scene& scene) {
-  const ClothFabrics& cloth = scene.fabrics;
   StretchSprings all = make_springs(scene.mesh, *scene.stretch);
-  if (cloth.empty() && scene.mesh.pattern.empty() && scene.stretch_directions.is_uniform())
+  if (scene.fabrics.empty() && scene.mesh.pattern.empty() && scene.stretch_directions.is_uniform())
     return all;
+  const std::vector<ClothFabric> fabrics = fabrics_of(scene);
   const std::vector<std::array<EdgeSide, 2>> sides = edge_sides(scene.mesh);
-  const auto factors =
-      factors_of_edges(scene, &ClothFabric::stretch_directions, scene.stretch_directions, 0);
+  const auto factors = factors_of_edges(scene, &ClothFabric::stretch_directions, 0);
   for (size_t e = 0; e < sides.size(); ++e) {
     double stiffness = 0, damping = 0, pull = 0;  // pull: tension at the length 0 [N]
     for (size_t k = 0; k < 2; ++k) {
       const EdgeSide& side = sides[e][k];
       if (side.triangle < 0) continue;
-      const StretchMaterial& material =
-          cloth.empty() ? *scene.stretch
-                        : cloth.fabrics[size_t(cloth.of_triangle[size_t(side.triangle)])].stretch;
+      const StretchMaterial& material = fabrics[fabric_of_triangle(scene, side.triangle)].stretch;
       const double shape = side.area / (side.length * side.length);
       stiffness += factors[e][k] * material.stiffness * shape;
       damping += material.damping * shape;
@@ -273,26 +291,25 @@ StretchSprings springs_of(const Scene& scene) {
 }
 
 std::vector<Bending> bending_of(const Scene& scene) {
-  const ClothFabrics& cloth = scene.fabrics;
   Bending all = make_bending(scene.mesh, *scene.bending, scene.rest_angles);
-  const auto factors =
-      factors_of_edges(scene, &ClothFabric::bending_directions, scene.bending_directions, pi / 2);
+  const auto factors = factors_of_edges(scene, &ClothFabric::bending_directions, pi / 2);
   for (size_t h = 0; h < scene.mesh.hinges.size(); ++h) {
     const auto& [one, other] = factors[size_t(scene.mesh.hinges[h].edge)];
     all.hinges[h].rest_weight *= (one + other) / 2;
   }
-  if (cloth.empty()) return {all};
-  std::map<std::pair<int, int>, Bending> parts;  // of pairs of fabrics
+  if (scene.fabrics.empty()) return {all};
+  const std::vector<ClothFabric> fabrics = fabrics_of(scene);
+  std::map<std::pair<size_t, size_t>, Bending> parts;  // of pairs of fabrics
   for (size_t h = 0; h < scene.mesh.hinges.size(); ++h) {
     const Edge& edge = scene.mesh.edges[size_t(scene.mesh.hinges[h].edge)];
-    const auto pair = std::minmax({cloth.of_triangle[size_t(edge.triangles[0])],
-                                   cloth.of_triangle[size_t(edge.triangles[1])]});
+    const std::pair<size_t, size_t> pair =
+        std::minmax({fabric_of_triangle(scene, edge.triangles[0]),
+                     fabric_of_triangle(scene, edge.triangles[1])});
     Bending& part = parts[pair];
     if (part.hinges.empty())
       part.material = pair.first == pair.second
-                          ? cloth.fabrics[size_t(pair.first)].bending
-                          : between(cloth.fabrics[size_t(pair.first)].bending,
-                                    cloth.fabrics[size_t(pair.second)].bending);
+                          ? fabrics[pair.first].bending
+                          : between(fabrics[pair.first].bending, fabrics[pair.second].bending);
     part.hinges.push_back(all.hinges[h]);
   }
   std::vector<Bending> forces;

@@ -29,11 +29,12 @@ struct ClothFabric {
   StrainRange limits = {};
   // Coulomb's coefficient against objects [1]; NaN: the objects' own
   double friction = std::numeric_limits<double>::quiet_NaN();
-  double thickness = 0, layer_friction = 0;  // of self-collision [m], [1]
+  // of self-collision [m], [1]; NaN: as in the scene's settings
+  double thickness = std::numeric_limits<double>::quiet_NaN(), layer_friction = thickness;
 };
 
-/// The fabrics of a cloth; the first is that of [cloth] and of the tables of the forces and
-/// filters. Empty: it is the only one.
+/// The fabrics of a cloth; the first stands for that of [cloth] and of the tables of the forces and
+/// filters, whose values are the scene's (fabrics_of). Empty: it is the only one.
 struct ClothFabrics {
   std::vector<ClothFabric> fabrics = {};
   std::vector<int> of_triangle = {};  // M, places in the list
@@ -47,6 +48,9 @@ struct ClothFabrics {
 /// value out of its range.
 void read_cloth_fabrics(const KeyTable& keys, const std::string& folder, const FaceGroups& groups,
                         Scene& scene);
+
+/// The fabrics with the scene's own values for the first; at least that one.
+std::vector<ClothFabric> fabrics_of(const Scene& scene);
 
 /// Area density of each triangle of the scene; M values [kg/m^2].
 std::vector<double> densities_of(const Scene& scene);

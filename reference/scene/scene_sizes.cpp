@@ -117,13 +117,16 @@ void warn_of_sizes(const KeyTable& cloth, Scene& scene) {
     scene.warnings.push_back(where + ": the cloth is " + digits(length) +
                              " m long; if its file is in cm, give scale = 0.01, if in mm, 0.001");
   warn_of_bodies(where, scene);
-  const double density = scene.density;
-  if (density > heaviest || density < lightest)
-    scene.warnings.push_back(cloth.where("density") + ": a density of " + digits(density) +
-                             " kg/m^2; cloth has 0.05 to 0.8" +
+  for (const ClothFabric& fabric : fabrics_of(scene)) {
+    const double density = fabric.density;
+    if (density <= heaviest && density >= lightest) continue;
+    const std::string of = scene.fabrics.empty() ? "" : " of '" + fabric.name + "'";
+    scene.warnings.push_back(cloth.where("density") + ": a density" + of + " of " +
+                             digits(density) + " kg/m^2; cloth has 0.05 to 0.8" +
                              (density > heaviest
                                   ? "; " + digits(density) + " g/m^2 are " + digits(density / 1000)
                                   : ""));
+  }
   if (!cloth.has("mesh") || cloth.has("seams")) return;
   if (const std::string words = open_seams_in_words(scene.mesh); !words.empty())
     scene.warnings.push_back(where + ": " + words);

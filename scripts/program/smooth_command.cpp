@@ -61,7 +61,7 @@ SmoothedRun smooth_all(const SmoothOptions& options) {
   scene.prescribed.clear();
   scene.fabrics = {}, scene.membrane.reset();  // of the triangles before
   SmoothedRun smooth{scene.name + ".h5", {}};
-  const System system = make_system(lumped_masses(scene.mesh, scene.density));
+  const System system = make_system(masses_of(scene));
   TrajectoryFile file((std::filesystem::path(options.out) / smooth.file).string(), scene, system,
                       objects, provenance(options.command));
   ProgressLine progress("smooth " + run.scene.name);

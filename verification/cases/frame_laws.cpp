@@ -202,15 +202,10 @@ double energy_rounding(const FrameMotion& motion, const State& s) {
   const Scene& scene = motion.of.scene;
   if (!scene.stretch) return 0;
   const double change = 2 * std::sqrt(3.0) * motion.rounding();
-  const Eigen::ArrayXd rest = rest_lengths(scene.mesh).array();
-  const Eigen::ArrayXd k =
-      scene.stretch->stiffness * edge_areas(scene.mesh).array() / rest.square();
   double sum = 0;
-  for (std::size_t e = 0; e < scene.mesh.edges.size(); ++e) {
-    const Eigen::Index i = Eigen::Index(e);
-    const double length = (s.x.col(scene.mesh.edges[e].b) - s.x.col(scene.mesh.edges[e].a)).norm();
-    const double elongation = length - scene.stretch->rest_length_scale * rest[i];
-    sum += k[i] * (std::abs(elongation) * change + change * change / 2);
+  for (const Spring& spring : springs_of(scene).springs) {
+    const double elongation = (s.x.col(spring.b) - s.x.col(spring.a)).norm() - spring.rest_length;
+    sum += spring.stiffness * (std::abs(elongation) * change + change * change / 2);
   }
   return sum;
 }
