@@ -6,7 +6,7 @@ import json
 
 
 def edit_digest(fault) -> str:
-    """16 hexadecimal digits of a fault's edit and of those that must notice."""
+    """8 hexadecimal digits of a fault's edit and of those that must notice."""
     said = json.dumps([fault.file, fault.find.strip(), fault.replace.strip(),
                        sorted(fault.caught_by), sorted(fault.caught_by_tests)])
-    return hashlib.sha256(said.encode("utf-8")).hexdigest()[:16]
+    return hashlib.sha256(said.encode("utf-8")).hexdigest()[:8]

@@ -22,10 +22,10 @@ class Known(NamedTuple):
     commit: str
 
 
-def known_outcomes(stored: dict[str, dict[str, list[str]]]) -> dict[str, Known]:
-    """By the digest of the edit."""
-    return {edit: Known(outcome, commit) for commit, outcomes in stored.items()
-            for outcome, lines in outcomes.items() for line in lines for edit in line.split()}
+def known_outcomes(stored: list[str]) -> dict[str, Known]:
+    """By the digest of the edit. A line has the commit, the outcome and the digests."""
+    rows = [line.split() for line in stored]
+    return {edit: Known(outcome, commit) for commit, outcome, *edits in rows for edit in edits}
 
 
 def with_record(faults: list[Fault], record: Path = RECORD) -> list[Fault]:

@@ -144,13 +144,23 @@ def edits_of(marked: str) -> list[tuple[str, str]]:
     return edits
 
 
+def choices_of(name: str) -> list[str]:
+    """A name for each of its alternatives: "fall.{x,y}" stands for "fall.x" and "fall.y"."""
+    parts = re.split("[{}]", name)  # every second one is what braces hold
+    choices = [part.split(",") if k % 2 else [part] for k, part in enumerate(parts)]
+    return ["".join(chosen) for chosen in itertools.product(*choices)]
+
+
 def fault_rows(path: Path) -> Iterator[Row]:
     """The rows of a list of seeded faults: one without a file has that of the row above, and what
-    `edit` marks is its find and replace. Throws ValueError, or AttributeError for no rows."""
+    `edit` marks is its find and replace; `caught_by` is written out. Throws ValueError, or
+    AttributeError for no rows."""
     file = {}
     for name, row in tomllib.loads(path.read_text(encoding="utf-8")).get("fault", {}).items():
         if "edit" in row:
             [(row["find"], row["replace"])] = edits_of(row.pop("edit"))
+        if "caught_by" in row:
+            row["caught_by"] = [one for name in row["caught_by"] for one in choices_of(name)]
         row = {"name": name, **file, **row}
         file = {"file": row["file"]} if "file" in row else {}
         yield row

@@ -60,8 +60,8 @@ class FaultRecord(FolderTest):
             "slip", "reference/types.h", "a + b", "a - b", "sums", ["sums.add-up"], "not run",
             ["a test"]
         )
-        edits = [f"0123 {edit_digest(self.fault)}", "4567"]
-        self.file.write_text(json.dumps({"abc": {"caught": edits}, "def": {"caught": ["89ab"]}}))
+        lines = [f"abc caught 0123 {edit_digest(self.fault)}", "abc caught 4567", "def caught 89ab"]
+        self.file.write_text(json.dumps(lines))
 
     def test_an_outcome_is_recalled_with_its_commit(self) -> None:
         [found] = with_record([self.fault], self.file)
@@ -77,7 +77,7 @@ class FaultRecord(FolderTest):
             self.assertEqual(with_record([other], self.file), [other])
 
     def test_a_record_may_be_missing_but_not_damaged(self) -> None:
-        self.file.write_text('{"abc": ["caught"]}')
+        self.file.write_text('["abc"]')
         with self.assertRaisesRegex(Unreadable, "outcomes.json"):
             with_record([self.fault], self.file)
         self.file.unlink()

@@ -41,6 +41,18 @@ std::pair<std::string, std::string> find_and_replace(const KeyTable& row) {
   return {before + part(0, from, between) + after, before + part(1, between, to) + after};
 }
 
+/// A name for each choice of its alternatives: "fall.{x,y}" stands for "fall.x" and "fall.y".
+std::vector<std::string> choices_of(const std::string& name) {
+  const size_t from = name.find('{'), to = name.find('}', from);
+  if (to == std::string::npos) return {name};
+  std::vector<std::string> names;
+  for (size_t at = from + 1; at <= to; at = std::min(name.find(',', at), to) + 1)
+    for (const std::string& rest : choices_of(name.substr(to + 1)))
+      names.push_back(name.substr(0, from) + name.substr(at, name.find_first_of(",}", at) - at) +
+                      rest);
+  return names;
+}
+
 /// `file` is that of the row above; empty for the first row, which must name its own.
 Fault fault_of(const std::string& name, const KeyTable& row, const std::string& file) {
   const auto [find, replace] =
@@ -54,7 +66,9 @@ Fault fault_of(const std::string& name, const KeyTable& row, const std::string& 
               {},
               "not run"};
   if (row.has("equivalent")) fault.outcome = "equivalent: " + row.text("equivalent");
-  if (row.has("caught_by")) fault.caught_by = row.texts("caught_by");
+  if (row.has("caught_by"))
+    for (const std::string& name : row.texts("caught_by"))
+      for (const std::string& choice : choices_of(name)) fault.caught_by.push_back(choice);
   if (row.has("caught_by_tests")) fault.caught_by_tests = row.texts("caught_by_tests");
   fault.is_of_full_tier = row.flag_or("full", false);
   // for the runner alone

@@ -163,7 +163,8 @@ TEST_CASE("faults are read with who catches them, and a key that no one knows is
   const ScratchFolder folder;
   const std::string row = fault_of("slip", "reference/mesh/a.cpp");
   folder.write("mesh.toml", row +
-                                "caught_by = [\"sums.add-up\"]\nfast = true\n"
+                                "caught_by = [\"sums.{add-up,end}.{x,y}\", \"sums.all\"]\n"
+                                "fast = true\n"
                                 "caught_by_tests = [\"one, and another\", \"test_sums\"]\n"
                                 "[fault.next]\nfind = \"+\"\nreplace = \"-\"\nlaw = \"sums\"\n");
   const std::vector<Fault> faults = read_faults(folder.file("."));
@@ -171,10 +172,11 @@ TEST_CASE("faults are read with who catches them, and a key that no one knows is
   CHECK((faults[0].find == "a + b" && faults[0].replace == "a - b"));
   CHECK((faults[1].find == "+" && faults[1].replace == "-"));
   CHECK(faults[1].file == "reference/mesh/a.cpp");  // as in the row above
-  CHECK(faults[0].caught_by == std::vector<std::string>{"sums.add-up"});
+  CHECK(faults[0].caught_by == std::vector<std::string>{"sums.add-up.x", "sums.add-up.y",
+                                                        "sums.end.x", "sums.end.y", "sums.all"});
   CHECK(faults[0].caught_by_tests == std::vector<std::string>{"one, and another", "test_sums"});
   std::vector<Record> records(2);
-  records[0].name = "sums.add-up";
+  records[0].name = "sums.end.y";
   name_faults(faults, records);
   CHECK(records[0].faults == std::vector<std::string>{"slip"});
   CHECK(records[1].faults.empty());
