@@ -14,10 +14,10 @@ from unittest import mock
 import numpy as np
 
 import make_campaign
-from data.case_keys import LENGTHS, unit_of_key, units_of_keys
+from data.case_keys import LENGTHS
 from data.campaign_table import WITH_VALUE, CampaignFigure, figures_of, load_campaign
-from plots.campaign_layout import layout_of, levels_of
-from plots.campaign_plots import MARKS, cells_of, figure_notes, is_sparse, median_of
+from plots.campaign_layout import layout_of
+from plots.campaign_plots import MARKS, cells_of, figure_notes, median_of
 
 ROOT = Path(__file__).resolve().parents[2]
 STEPS, METHODS = ["0.1", "0.01", "0.001"], ["A", "C"]
@@ -76,18 +76,6 @@ class CampaignPageTest(unittest.TestCase):
         self.assertEqual(said.getvalue().count("\n"), 1)
         return said.getvalue()
 
-    def test_levels_are_numbers_in_order_or_texts_as_they_come(self) -> None:
-        self.assertEqual(levels_of(["0.1", "1e-3", "0.01"]).texts, ["1e-3", "0.01", "0.1"])
-        self.assertEqual(levels_of(["0.1", "1e-3", "0.01"]).scale, "log")
-        self.assertEqual(levels_of(["30", "10", "20", "90", "60", "80", "70"]).scale, "linear")
-        self.assertEqual(levels_of(["-1", "10", "100", "1000"]).scale, "linear")
-        self.assertEqual(levels_of(["C", "A", "C", "7"]).texts, ["C", "A", "7"])
-        self.assertIsNone(levels_of(["C", "A"]).numbers)
-        turns = levels_of([f"{{ angle = {a}, axis = [0, 0, 1] }}" for a in (90, 2.5e1, 0)])
-        self.assertEqual(turns.named(), ["0", "25", "90"])
-        self.assertIsNone(levels_of(["[0, 1]", "[1, 0]"]).numbers)
-        self.assertIsNone(levels_of(["RK2", "RK4"]).numbers)
-
     def test_each_run_is_drawn_at_its_place(self) -> None:
         self.put()
         table = load_campaign(self.path)
@@ -140,28 +128,6 @@ class CampaignPageTest(unittest.TestCase):
         words = [set(re.findall(r"<text[^>]*>([^<]+)</text>", text)) for text in drawn]
         return words[0] & words[1]  # on the map and on the curves
 
-    def test_axes_have_words_and_units(self) -> None:
-        self.assertEqual(unit_of_key("bending.stiffness"), "J")
-        self.assertEqual(unit_of_key("hold.0.velocity"), "m/s")
-        self.assertEqual(unit_of_key("object.friction"), "1")
-        self.assertEqual(unit_of_key("object.turn"), "degrees")
-        self.assertEqual(unit_of_key("object.move"), "m")
-        self.assertEqual(unit_of_key("cloth.width"), "m")
-        self.assertEqual(unit_of_key("time.integrator"), "1")
-        self.assertEqual(units_of_keys(self.path / "KEYS.md"), {})
-        self.put(units={"height": "m", "steps": "1"})
-        drawn = self.words_drawn()
-        self.assertLessEqual({"time step [s]", "height [m]"}, drawn)
-        self.put(names={"time.step": "pause [ms]", "height": "rise"})
-        drawn = self.words_drawn()
-        self.assertLessEqual({"pause [ms]", "rise [m]"}, drawn)
-
-    def words_drawn(self) -> set[str]:
-        """The words in the curves of the height over the step."""
-        self.page("--quantity", "height", "--over", "time.step")
-        text = (self.path / "figures/figure-1-curves.svg").read_text(encoding="utf-8")
-        return set(re.findall(r"<text[^>]*>([^<]+)</text>", text))
-
     def test_every_length_of_a_shape_is_a_key(self) -> None:
         keys = (ROOT / "cases/KEYS.md").read_text(encoding="utf-8")
         for name in LENGTHS:
@@ -179,20 +145,6 @@ class CampaignPageTest(unittest.TestCase):
         """The page of a campaign with these changes."""
         self.put(**changed)
         return self.page()
-
-    def test_samples_are_points(self) -> None:
-        many = 30
-        settings = [[f"{0.1 + k}", f"{(7 * k) % many}"] for k in range(many)]
-        self.put(settings=settings, values=[[float(k), 1] for k in range(many)],
-                 outcomes=["holds"] * many, reasons=[""] * many, seconds=[1] * many)
-        table = load_campaign(self.path)
-        over = ("time.step", "time.integrator")
-        self.assertTrue(is_sparse(layout_of(table, CampaignFigure("height", over, "", False))))
-        asked = ("--quantity", "height", "--over", *over, "--log")
-        self.assertIn("figure-1-map", self.page(*asked))
-        none = {"outcomes": ["missing"] * many, "seconds": [None] * many}
-        self.put(settings=settings, values=[[None, None]] * many, reasons=[""] * many, **none)
-        self.assertIn("figure-1-map", self.page(*asked))
 
     def test_the_page_escapes_and_counts(self) -> None:
         finding = {"claim": "100 % <of> the runs", "outcome": "fails", "measured": None}

@@ -8,14 +8,12 @@ import unittest
 import numpy as np
 
 from data.quantities import (
-    cells_html, number_text, order_html, quantity_html, quantity_text, seconds_html, unit_text
+    cells_html, number_text, order_html, quantity_html, quantity_text, unit_text
 )
-from data.results import Column, load_run
+from data.results import load_run
 from pages.counts import margin_percent
-from pages.shown_table import select_rows
 from plots.contact_maps import flatten_to_plane
-from plots.map_plots import edges_of, map_notes
-from plots.study_plots import spread
+from plots.map_plots import edges_of
 from tests.made_up_run import put_run
 from tests.report_test import FolderTest
 
@@ -51,39 +49,17 @@ class Pieces(FolderTest):
             self.assertEqual(re.sub("</?span[^>]*>", "", said), shown)
         self.assertIn("–", order_html(float("nan")))
 
-    def test_short_durations_are_not_zero(self) -> None:
-        for value in (0.0, 0.004):
-            self.assertIn("&lt;", seconds_html(value))
-        self.assertNotIn("&lt;", seconds_html(0.05))
-
     def test_cells_of_a_map_lie_around_their_points(self) -> None:
         for places, scale, edges in (
             ([1.0, 2.0, 4.0], "linear", [0.5, 1.5, 3.0, 5.0]), ([1.0, 100.0], "log", [0.1, 10, 1e3])
         ):
             np.testing.assert_allclose(edges_of(np.array(places), scale), edges)
 
-    def test_a_map_with_all_its_values_needs_no_note(self) -> None:
-        put_run(self.root)
-        studies = load_run(self.root / "run.h5").studies
-        study_map = next(study for study in studies if study.maps).maps[0]
-        self.assertEqual(len(map_notes(study_map)), 1)
-        study_map.values = np.abs(np.nan_to_num(study_map.values, nan=1.0))
-        self.assertEqual(map_notes(study_map), [])
-
-    def test_long_tables_say_what_they_leave_out(self) -> None:
-        shown = select_rows([Column("step", "1", np.arange(1001.0))])
-        self.assertEqual(len(shown.first) + shown.left_out + len(shown.last), 1001)
-
     def test_margin_bar_says_nothing_about_nan(self) -> None:
         put_run(self.root)
         findings = load_run(self.root / "run.h5").findings
         self.assertIsNone(margin_percent(findings[1]))
         self.assertAlmostEqual(margin_percent(findings[0]), 100 * 3.2 / 44 / 1.25)
-
-    def test_labels_keep_their_order_and_distance(self) -> None:
-        placed = spread([0.5, 0.5, 0.51, 0.98], 0.1)
-        self.assertEqual(placed, sorted(placed))
-        self.assertGreater(min(np.diff(placed)), 0.099)
 
 
 class ContactMaps(unittest.TestCase):

@@ -24,7 +24,7 @@ from make_report import make_report  # noqa: E402
 from pages.chromium import Browser  # noqa: E402
 from pictures.camera import choose_camera  # noqa: E402
 from pictures.case_fields import fields_of, most_telling  # noqa: E402
-from pictures.case_scene import CaseScene, slowdown  # noqa: E402
+from pictures.case_scene import CaseScene  # noqa: E402
 from pictures.cloth_picture import Cloth, Scenery, picture_of, webp_bytes  # noqa: E402
 from pictures.look import BACK, FRONT  # noqa: E402
 from plots.angle_spectrum import folded_beyond, plot_angle_spectrum  # noqa: E402
@@ -33,7 +33,6 @@ from plots.contact_maps import plot_contacts  # noqa: E402
 from tests.made_up_case import SQUARE, TWO, WithCase, in_the_view  # noqa: E402
 from tests.made_up_run import HOSTILE  # noqa: E402
 from tests.report_test import REPORTS  # noqa: E402
-from viewer.field_pictures import without_empty_lines  # noqa: E402
 from viewer.view_data import frames_to_turn, make_view  # noqa: E402
 
 
@@ -99,11 +98,6 @@ class Pictures(unittest.TestCase):
         inside = picture[:, :, 3] == 255
         self.assertLess(np.abs(read - picture)[inside].mean(), 3.0)
 
-    def test_short_films_are_slowed_by_a_plain_number(self) -> None:
-        self.assertEqual(
-            [slowdown(seconds) for seconds in (3.0, 0.3, 0.012, 0.0)], [1.0, 2.0, 50.0, 1.0]
-        )
-
 
 class Fields(WithCase):
     """Fields against what is known of a sheet of two triangles that folds."""
@@ -136,12 +130,6 @@ class Fields(WithCase):
         half_degrees = [0, 20, 21, 180, 181]
         np.testing.assert_allclose(beyond[half_degrees], [1.0, 0.75, 0.25, 0.25, 0.0])
         self.assertEqual(plot_angle_spectrum(self.case(), "few", self.root), [])   # of one hinge
-
-    def test_a_picture_is_cut_to_the_lines_that_show_something(self) -> None:
-        picture = np.zeros((200, 30, 4), dtype=np.uint8)
-        picture[90:100, 7, 3] = 1
-        np.testing.assert_array_equal(without_empty_lines(picture), picture[86:104])
-        self.assertEqual(without_empty_lines(picture[:50]).shape, (50, 30, 4))
 
     def test_what_is_roundings_is_no_field(self) -> None:
         with h5py.File(self.path, "r+") as file:

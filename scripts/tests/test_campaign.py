@@ -78,16 +78,6 @@ class CampaignTest(CampaignCase):
             self.assertEqual(list(table["quantity/height"]),
                              [float(row["height [m]"]) for row in rows])
 
-    def test_a_report_has_its_figures(self) -> None:
-        figure = '[[figure]]\nquantity = "height"\nover = ["bending.stiffness"]\n'
-        file = self.campaign_file(GRID + figure)
-        self.campaign("run", file)
-        done = self.campaign("report", file)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        page = Path(done.stdout.strip()).read_text(encoding="utf-8")
-        self.assertEqual(page.count("<figure"), 1)
-        self.assertIn("height [m]", page)
-
     def test_a_row_is_what_simulate_says(self) -> None:
         file = self.campaign_file(GRID)
         self.campaign("run", file)

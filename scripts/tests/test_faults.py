@@ -38,13 +38,6 @@ class Resume(unittest.TestCase):
         self.assertEqual(FAULTS.recall([HIDDEN], self.known), results[1:])
         self.assertEqual(FAULTS.remaining([SLIP, HIDDEN], results[1:]), [SLIP])
 
-    def test_others_run_again_and_the_last_outcome_counts(self) -> None:
-        for outcome in ("SURVIVED", "ERROR"):
-            self.remember(SLIP, outcome)
-            self.assertEqual(FAULTS.recall([SLIP], self.known), [])
-            caught = self.remember(SLIP, "caught")
-            self.assertEqual(FAULTS.recall([SLIP], self.known), [caught])
-
     def test_a_row_with_any_other_key_runs_again(self) -> None:
         self.remember(SLIP, "caught")
         for key, value in SLIP._asdict().items():

@@ -10,11 +10,11 @@ from script_module import ROOT
 from edits import Change
 from mutant_scores import (
     edit_of, log_asked, nearest_line, not_asked, open_mutants, read_asked, rows_of, with_answers,
-    with_noticed, with_sample, write_answers, write_scores
+    with_sample
 )
 from mutant_trials import Judgement, Mutant, read_explained
 from data.mutation_scores import (
-    EXPLAINED_ASKED, Scores, parts_of, read_answers, read_scores, score_interval
+    EXPLAINED_ASKED, Scores, read_answers, read_scores, score_interval
 )
 
 
@@ -67,36 +67,6 @@ class TheScores(unittest.TestCase):
         self.assertLess(score.interval[0], 0.6)  # nine mutants say little
         self.assertEqual([row["after"] for row in found.open], ["lost"])
 
-    def test_a_sample_replaces_that_of_its_commit_alone(self) -> None:
-        missed = self.sample("reference/x", [Judgement(LOST, "SURVIVED")])
-        other = self.sample("verification/y", [KILLED], "c2" * 20)
-        scores = with_sample(with_sample(Scores(), missed, set()), other, set())
-        again = with_sample(scores, self.sample("reference/x", [KILLED]), set())
-        self.assertEqual([one.all.noticed for one in scores.samples], [0, 1])
-        self.assertEqual([one.all.noticed for one in again.samples], [1, 1])
-        self.assertEqual((len(scores.open), len(again.open)), (1, 0))
-
-    def test_a_mutant_noticed_later_stays_missed_in_its_sample(self) -> None:
-        rows = self.sample("reference/x", [Judgement(LOST, "SURVIVED"), KILLED])
-        scores = with_sample(Scores(), rows, set())
-        asked = LOST._replace(number=0)
-        self.assertEqual(with_noticed(scores, [Judgement(asked, "SURVIVED")]), scores)
-        later = with_noticed(scores, [Judgement(asked, "killed", "", "check.x")])
-        score = later.samples[0].all
-        self.assertEqual((score.noticed, score.missed, score.noticed_since), (1, 1, 1))
-        self.assertEqual(later.open, [])
-
-    def test_the_method_and_the_code_that_judges_it_have_parts_of_their_own(self) -> None:
-        scores = Scores()
-        for folder, commit in (("reference/x", "c1"), ("verification/y", "c2"),
-                               ("reference/x", "c3")):
-            scores = with_sample(scores, self.sample(folder, [KILLED], commit), set())
-        method, judges = parts_of(scores.samples)
-        self.assertEqual((method.newest.commit, [one.commit for one in method.earlier]),
-                         ("c3", ["c1"]))
-        self.assertEqual((judges.newest.commit, judges.earlier), ("c2", []))
-        self.assertEqual(len(parts_of(scores.samples[1:2])), 1)
-
     def test_the_log_is_read_but_for_a_torn_line_each_mutant_as_first_found(self) -> None:
         row = self.sample("reference", [Judgement(LOST, "SURVIVED")], "c1")
         with tempfile.TemporaryDirectory() as folder:
@@ -113,18 +83,6 @@ class TheScores(unittest.TestCase):
         self.assertEqual(nearest_line(text, "b;", 5), (4, 15))
         self.assertEqual(nearest_line(text, "b;", 1), (2, 5))
         self.assertIsNone(nearest_line(text, "d;", 1))
-
-    def test_scores_and_answers_are_read_as_they_were_written(self) -> None:
-        survived = Judgement(mutant("a < \"b\""), "SURVIVED")
-        scores = with_sample(Scores(), self.sample("reference", [survived, KILLED]), set())
-        answers = with_answers([], [survived], "c")
-        with tempfile.TemporaryDirectory() as folder:
-            path = Path(folder) / "written.json"
-            self.assertEqual((read_scores(path), read_answers(path)), (Scores(), []))
-            write_scores(scores, path)
-            self.assertEqual(read_scores(path), scores)
-            write_answers(answers, path)
-            self.assertEqual(read_answers(path), answers)
 
     def test_the_interval_of_a_score_is_wilsons(self) -> None:
         # the roots of (p - ratio)^2 = z^2 p (1 - p) / n

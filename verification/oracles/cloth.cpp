@@ -1,17 +1,12 @@
 #include "verification/oracles/cloth.h"
 
 #include <cmath>
-#include <string>
 
 namespace foldproof::oracles {
 
 namespace {
 
 using Vectors = std::vector<Triple<double>>;  // one per particle
-
-void require(bool holds, const std::string& what) {
-  if (!holds) throw InputError("oracle cloth: " + what);
-}
 
 std::size_t index(int particle) { return static_cast<std::size_t>(particle); }
 
@@ -23,39 +18,6 @@ std::vector<int> free_particles(const ClothDefinition& cloth) {
     if (!cloth.prescribed.contains(i)) particles.push_back(i);
   }
   return particles;
-}
-
-void require_particle(const ClothDefinition& cloth, int particle, const std::string& owner) {
-  const int count = static_cast<int>(cloth.masses.size());
-  require(particle >= 0 && particle < count,
-          owner + " names particle " + std::to_string(particle) + " of " + std::to_string(count));
-}
-
-void require_valid(const ClothDefinition& cloth) {
-  for (std::size_t i = 0; i < cloth.masses.size(); ++i) {
-    require(cloth.masses[i] > 0, "mass " + std::to_string(i) + " must be positive");
-  }
-  for (std::size_t i = 0; i < cloth.springs.size(); ++i) {
-    const std::string name = "spring " + std::to_string(i);
-    for (const int particle : {cloth.springs[i].a, cloth.springs[i].b})
-      require_particle(cloth, particle, name);
-    require(cloth.springs[i].a != cloth.springs[i].b, name + " must have two different ends");
-    require(cloth.springs[i].rest_length > 0 && cloth.springs[i].area > 0,
-            name + " must have a length and an area");
-  }
-  for (std::size_t i = 0; i < cloth.hinges.size(); ++i) {
-    const std::string name = "hinge " + std::to_string(i);
-    for (const int particle : cloth.hinges[i].corners) require_particle(cloth, particle, name);
-    require(cloth.hinges[i].rest_anisotropy > 0 && cloth.hinges[i].rest_edge_length > 0,
-            name + " must have positive factors at rest");
-  }
-  for (const auto& [particle, motion] : cloth.prescribed) {
-    require_particle(cloth, particle, "a prescribed motion");
-    require(motion.x && motion.v,
-            "the motion of particle " + std::to_string(particle) + " must have x and v");
-  }
-  require(cloth.gravity.allFinite(), "gravity must be finite");
-  require(!free_particles(cloth).empty(), "at least one particle must be free");
 }
 
 Quad<double> gather(const Vectors& p, const std::array<int, 4>& corners) {
@@ -147,10 +109,6 @@ struct ClothEquation {
 
 }  // namespace
 
-Motion fixed_motion(const Vector3& x) {
-  return {[x](double) { return x; }, [](double) { return Vector3(Vector3::Zero()); }};
-}
-
 Motion harmonic_motion(const Harmonic& harmonic) {
   const double rate = 2 * pi * harmonic.frequency;
   return {
@@ -165,26 +123,15 @@ Motion harmonic_motion(const Harmonic& harmonic) {
 HingeDefinition hinge_at_rest(const std::array<int, 4>& corners, const PerParticle3& rest,
                               double rest_angle) {
   Quad<double> x;
-  for (std::size_t i = 0; i < 4; ++i) {
-    require(corners[i] >= 0 && corners[i] < rest.cols(),
-            "hinge_at_rest: a corner is not among the rest positions");
-    x[i] = triple(rest.col(corners[i]));
-  }
-  const HingeShape<double> shape = hinge_shape(x);
-  require(length(shape.N1) > 0 && length(shape.N2) > 0,
-          "hinge_at_rest: both triangles must have an area");
+  for (std::size_t i = 0; i < 4; ++i) x[i] = triple(rest.col(corners[i]));
   return {corners, rest_angle, anisotropy_factor(x), edge_length(x)};
 }
 
 RightHandSide cloth_rhs(const ClothDefinition& cloth) {
-  require_valid(cloth);
   return ClothEquation{cloth, free_particles(cloth)};
 }
 
 std::vector<double> free_coordinates(const ClothDefinition& cloth, const ClothState& state) {
-  const Eigen::Index count = static_cast<Eigen::Index>(cloth.masses.size());
-  require(state.x.cols() == count && state.v.cols() == count,
-          "free_coordinates: x and v must have one column a mass");
   std::vector<double> y;
   for (const PerParticle3* columns : {&state.x, &state.v}) {
     for (const int particle : free_particles(cloth)) {
@@ -197,7 +144,6 @@ std::vector<double> free_coordinates(const ClothDefinition& cloth, const ClothSt
 ClothState cloth_state(const ClothDefinition& cloth, double t, std::span<const double> y) {
   const std::vector<int> particles = free_particles(cloth);
   const std::size_t half = 3 * particles.size();
-  require(y.size() == 2 * half, "cloth_state: y must have 6 numbers a free particle");
   const Eigen::Index count = static_cast<Eigen::Index>(cloth.masses.size());
   ClothState state{PerParticle3(3, count), PerParticle3(3, count)};
   for (const auto& [particle, motion] : cloth.prescribed) {
@@ -209,25 +155,6 @@ ClothState cloth_state(const ClothDefinition& cloth, double t, std::span<const d
     state.v.col(particles[i]) = Vector3(y[half + 3 * i], y[half + 3 * i + 1], y[half + 3 * i + 2]);
   }
   return state;
-}
-
-double mechanical_energy(const ClothDefinition& cloth, const ClothState& state) {
-  require_valid(cloth);
-  Vectors x;
-  for (Eigen::Index i = 0; i < state.x.cols(); ++i) x.push_back(triple(state.x.col(i)));
-  double energy = 0;
-  for (std::size_t i = 0; i < cloth.masses.size(); ++i) {
-    energy += cloth.masses[i] * state.v.col(static_cast<Eigen::Index>(i)).squaredNorm() / 2;
-    energy += gravity_energy(cloth.masses[i], triple(cloth.gravity), x[i]);
-  }
-  for (const SpringDefinition& spring : cloth.springs) {
-    energy += spring_energy(x[index(spring.a)], x[index(spring.b)], law(cloth.material, spring));
-  }
-  for (const HingeDefinition& hinge : cloth.hinges) {
-    energy += bending_energy(gather(x, hinge.corners), cloth.material.bending_stiffness,
-                             hinge.rest_anisotropy, hinge.rest_angle);
-  }
-  return energy;
 }
 
 }  // namespace foldproof::oracles

@@ -71,7 +71,6 @@ struct ClothState {
   PerParticle3 x, v;
 };
 
-Motion fixed_motion(const Vector3& x);
 Motion harmonic_motion(const Harmonic& harmonic);
 
 /// A hinge with its two factors computed from the rest positions 3 x N [m].
@@ -80,22 +79,13 @@ HingeDefinition hinge_at_rest(const std::array<int, 4>& corners, const PerPartic
 
 /// The right-hand side for y = (positions of the free particles in ascending order, then their
 /// velocities); 6 numbers per free particle. It keeps a copy of the definition; several threads may
-/// call it. InputError, naming the entry: particles out of range, quantities not positive, no free
-/// particle.
+/// call it.
 RightHandSide cloth_rhs(const ClothDefinition& cloth);
 
 /// y of a state: prescribed particles are left out.
 std::vector<double> free_coordinates(const ClothDefinition& cloth, const ClothState& state);
 
-/// The state of a y at time t [s]; prescribed particles are at their prescribed positions. Wrong
-/// size: InputError.
+/// The state of a y at time t [s]; prescribed particles are at their prescribed positions.
 ClothState cloth_state(const ClothDefinition& cloth, double t, std::span<const double> y);
-
-/// Kinetic, spring, bending and gravity energy of all particles [J]. With elastic_geometry at rest,
-/// without damping, external force or moving particles, it is constant until a hinge folds through
-/// theta = pi. There theta jumps to -pi and sin(theta/2) changes sign. The bending energy jumps by
-/// 2 pi ke c sin(theta0/2), c being the factor at rest, and the right-hand side is discontinuous.
-/// No order study may pass through such a fold.
-double mechanical_energy(const ClothDefinition& cloth, const ClothState& state);
 
 }  // namespace foldproof::oracles

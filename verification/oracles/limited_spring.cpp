@@ -24,7 +24,7 @@ LimitedSpringAnswer limited_spring(const LimitedSpringInput& input) {
   const Digits50 h = input.step;
   const Vector predicted = d + h * u, along = unit(d);
   const Digits50 before = dot(predicted, along), length_before = length(predicted);
-  LimitedSpringAnswer answer{input.v_a, input.v_b, length_before.convert_to<double>(), 0};
+  LimitedSpringAnswer answer{input.v_a, input.v_b, length_before.convert_to<double>()};
   answer.is_violated = length_before > input.longest || length_before < input.shortest;
   if (!answer.is_violated) return answer;
 
@@ -38,10 +38,6 @@ LimitedSpringAnswer limited_spring(const LimitedSpringInput& input) {
   answer.v_a = nearest(exact(input.v_a) - (gained * wa / (wa + wb)) * along);
   answer.v_b = nearest(exact(input.v_b) + (gained * wb / (wa + wb)) * along);
   answer.length = length(after * along + across).convert_to<double>();
-  const Digits50 rate = dot(u, along);
-  answer.energy_taken =
-      Digits50((rate * rate - (rate + gained) * (rate + gained)) / (2 * (wa + wb)))
-          .convert_to<double>();
   if (after > 0) answer.sensitivity = std::max(1.0, Digits50(limit / after).convert_to<double>());
   return answer;
 }

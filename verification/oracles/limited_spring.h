@@ -13,9 +13,8 @@ struct LimitedSpringInput {
 };
 
 struct LimitedSpringAnswer {
-  Vector3 v_a, v_b;     // m/s
-  double length;        // predicted from v_a and v_b [m]
-  double energy_taken;  // from the kinetic energy of ends with masses; of two free ends only [J]
+  Vector3 v_a, v_b;         // m/s
+  double length;            // predicted from v_a and v_b [m]
   bool is_violated = true;  // false: within the limits, nothing changes
   bool is_reachable = true;
   // change of the answer along d per change of the given motion across it, at least 1 [1]

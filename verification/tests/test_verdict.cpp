@@ -1,7 +1,6 @@
 // Verdicts: what holds, what fails, and that nothing that is NaN or stopped ever passes.
 #include <catch2/catch.hpp>
 #include <stdexcept>
-#include <thread>
 
 #include "reference/scene/key_file.h"
 #include "verification/verdict.h"
@@ -105,13 +104,6 @@ TEST_CASE("the worst row is judged in its column's unit, with the largest uncert
   CHECK(outcome_of(judge_worst(table, "error", 6, "why").verdict) == Outcome::fails);
 }
 
-TEST_CASE("a check's record has the time that it took") {
-  CHECK(record_of_check([](const Subject&) -> Finding {
-          std::this_thread::sleep_for(std::chrono::milliseconds(20));
-          return {};
-        }).seconds >= 0.02);
-}
-
 TEST_CASE("a check that throws fails and says why; one that is not offered is not applicable") {
   const Record broken =
       record_of_check([](const Subject&) -> Finding { throw std::runtime_error("out of cloth"); });
@@ -203,28 +195,4 @@ TEST_CASE("a fault in the file of another room, and a name that is taken, are re
   CHECK(room_of("verification/verdict.cpp") == "verdict");
   CHECK(room_of("convergence/stability/sheet.cpp") == "convergence");
   CHECK(room_of("scripts/program/jobs.cpp") == "program");
-}
-
-TEST_CASE("a map is written with one value for each of its points, or refused") {
-  Map map{"map",
-          "Title",
-          {"x", "m", Scale::linear},
-          {"y", "s", Scale::log},
-          {1, 3, 7},
-          {0.5, 4},
-          {11, 12, 13, 21, 22, not_a_number},
-          "quantity",
-          "1",
-          Scale::linear,
-          "",
-          {}};
-  const ScratchFolder folder;
-  const auto write = [&] {
-    RunRecord run;
-    run.studies.push_back({"study", "", "", "", 0, {}, {map}, {}});
-    write_run(folder.file("map.h5"), run);
-  };
-  CHECK_NOTHROW(write());
-  map.values.pop_back();
-  CHECK_THROWS_WITH(write(), Contains("5 values for 3 x 2 points"));
 }

@@ -112,22 +112,6 @@ TEST_CASE("expect: what is wrong is refused with its line") {
     CHECK_NOTHROW(trial(allowed));
 }
 
-TEST_CASE("expect: bounds, and parts and coarser meshes of [ablation], are read") {
-  const Case of = trial(
-      "[expect.stays_flat]\nat_most = 2.5e-7\nwhy = \"words\"\n[ablation]\n"
-      "coarser_mesh = [\"cloth.columns=2\", \"cloth.rows=1.5\"]\nuntil = 0.03\nbending = "
-      "\"out\"\n");
-  CHECK(of.expectations.at(0).bound == 2.5e-7);
-  CHECK(of.expectations[0].why == "words");
-  CHECK(finding_name(of.scene, of.expectations[0]) == "case.trial.stays-flat");
-  CHECK(of.coarser_mesh == Keys{"cloth.columns=2", "cloth.rows=1.5"});
-  CHECK(of.ablated_until == 0.03);
-  REQUIRE(of.declared.size() == 1);
-  CHECK(of.declared[0].part + ": " + of.declared[0].why == "bending: out");
-  CHECK(trial("[ablation]\ncoarser_mesh = \"cloth.columns=09\"\n").coarser_mesh.size() == 1);
-  CHECK(trial("[ablation]\ncoarser_mesh = \"\"\n").coarser_mesh.empty());
-}
-
 TEST_CASE(
     "expect: shipped cases must end, must not cross themselves, and account for their energy "
     "unless they say otherwise") {

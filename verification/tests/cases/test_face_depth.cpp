@@ -48,12 +48,6 @@ double faces_outside(const Scene& scene, const std::vector<Object>& objects) {
   return value_at(*find_quantity("faces_outside"), scene, objects, start_state(scene));
 }
 
-std::vector<Object> ring_at(const Vector3& place) {
-  RigidObject ring{Torus{0.12, 0.03}, {}, {}};
-  ring.place.translation = place;
-  return {{"ring", ring, 0.1}};
-}
-
 }  // namespace
 
 TEMPLATE_TEST_CASE("closed forms of the deepest point are what a search finds", "", Sphere, Capsule,
@@ -83,21 +77,6 @@ TEST_CASE("a body whose axis pierces the face is as deep in it as its radius") {
   CHECK(deepest_point(Box{{0.5, 0.7, 0.3}}, cut) == Approx(0.3).epsilon(1e-15));
 }
 
-TEST_CASE("depth of faces: slivers and points are as deep as their segments") {
-  const Capsule capsule{0.4, 0.6};
-  std::mt19937 bits(8);
-  for (int k = 0; k < 300; ++k) {
-    const Vector3 a = random_point(bits, 1.1), b = random_point(bits, 1.1);
-    double deepest = -9;
-    for (int i = 0; i <= 2000; ++i)
-      deepest = std::max(deepest, -capsule.at(a + i / 2000.0 * (b - a)).phi);
-    const Vector3 middle = 0.3 * a + 0.7 * b;
-    CHECK(deepest_point(capsule, {a, middle, b}) == Approx(deepest).margin(2e-3));
-    CHECK(deepest_point(capsule, {a, middle, b}) >= deepest - 1e-12);
-    CHECK(deepest_point(capsule, {a, a, a}) == exactly(-capsule.at(a).phi));
-  }
-}
-
 TEST_CASE("depth of faces: in an object that is turned and moved, and at least what is known") {
   RigidObject body{Box{{0.5, 0.7, 0.3}}, {}, {}};
   body.place.rotation = Eigen::AngleAxisd(0.7, Vector3(1, 2, -1).normalized());
@@ -110,43 +89,6 @@ TEST_CASE("depth of faces: in an object that is turned and moved, and at least w
   CHECK(deepest > 0.1);
   CHECK(deepest_in_object({"box", body, 0.3}, 0.4, faces, 0.011, 1e-4) == exactly(deepest));
   CHECK(deepest_in_object({"box", body, 0.3}, 0.4, faces, 0.77, 1e-4) == 0.77);
-}
-
-TEST_CASE("depth of faces: a search adds its tolerance to what it finds, once it finds more") {
-  const auto bump = [](const Vector3& p) { return 0.5 - (p - Vector3(0.3, 0.2, 0)).norm(); };
-  const FaceCorners large = {Vector3(0, 0, 0), Vector3(1, 0, 0), Vector3(0, 1, 0)};
-  const FaceCorners other = {Vector3(3, 0, 0), Vector3(4, 0, 0), Vector3(3, 1, 0)};
-  for (const std::vector<FaceCorners>& faces :
-       std::vector<std::vector<FaceCorners>>{{large}, {other, large}, {large, other}}) {
-    for (const double tolerance : {0.1, 0.01, 1e-3})
-      CHECK(deepest_of({bump, 1, tolerance}, faces, 0) ==
-            Approx(0.5 + tolerance / 2).epsilon(0).margin(tolerance / 2));
-    CHECK(deepest_of({bump, 1, 1e-3}, faces, 0.5) == 0.5);
-  }
-  // a linear field: of the middles of the quarters, that of the corner with the largest x
-  const auto slope = [](const Vector3& p) { return p.x(); };
-  CHECK(deepest_of({slope, 1, 0.4}, std::vector<FaceCorners>{large}, 0) == exactly(2.0 / 3 + 0.4));
-}
-
-TEST_CASE("depth of faces: of a whole cloth, a search is a thousandth of its longest side off") {
-  // the core of a ring passes through the middle of the face, where the search begins
-  for (const Triangle& face : std::vector<Triangle>{{0, 1, 2}, {1, 2, 0}, {2, 0, 1}})
-    for (const bool is_alone : {true, false}) {
-      PerParticle3 x(3, 6);
-      x << 0, 0.5, 0.1, 5, 5.2, 5, 0, 0.1, 0.3, 5, 5, 5.1, 0, 0, 0, 7, 7, 7;
-      const PerParticle3 kept = is_alone ? PerParticle3(x.leftCols(3)) : x;
-      std::vector<Triangle> triangles = {face};
-      if (!is_alone) triangles.push_back({3, 4, 5});  // smaller, and far away
-      const Scene scene = scene_at_rest(make_triangle_mesh(kept, triangles), 0.2);
-      const Vector3 middle = (x.col(0) + x.col(1) + x.col(2)) / 3;
-      CHECK(faces_outside(scene, ring_at(middle - Vector3(0.12, 0, 0))) ==
-            exactly(0.03 + 1e-3 * std::hypot(0.5, 0.1)));
-      for (const int corner : {0, 1, 2}) {  // where a corner is the deepest point, it is exact
-        const Vector3 place = x.col(corner);
-        CHECK(faces_outside(scene, ring_at(place + 0.12 * (place - middle).normalized())) ==
-              exactly(0.03));
-      }
-    }
 }
 
 TEST_CASE("the enclosing circle is about the longest side unless all angles are acute") {

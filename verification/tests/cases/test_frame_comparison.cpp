@@ -118,23 +118,6 @@ TEST_CASE("points without faces are compared one-sided") {
         "one-sided, points to the run's surface");
 }
 
-TEST_CASE("comparison: a surface that is not oriented has no folds, depths are at the time") {
-  const Compared cloth(
-      "[[object]]\nshape = \"sphere\"\nradius = 0.1\nmove = [0.1, 0.12, -0.5]\n"
-      "velocity = [0, 0, 1]\n[[object]]\nshape = \"sphere\"\nradius = 0.02\n"
-      "move = [0.2, 0.12, 0.01]\n");
-  TimedMesh frame{"f", 0.45, cloth.of.scene.x, cloth.of.scene.mesh.triangles};
-  std::swap(frame.triangles[3][0], frame.triangles[3][1]);
-  const FrameComparison c = cloth.with(frame, 0.43);
-  for (const double fraction : c.frame.folds) CHECK(std::isnan(fraction));
-  CHECK(std::isnan(c.frame.bending));
-  CHECK(c.run.folds[0] == exactly(1));
-  CHECK(c.time == 0.45);
-  CHECK(c.run.depth == exactly(0.03));  // both at the run's time
-  CHECK(c.frame.depth == exactly(0.03));
-  CHECK(cloth.with(frame, 0.1).run.depth == exactly(0.01));
-}
-
 TEST_CASE("between frames a cubic motion is met exactly") {
   const auto at = [](double t) {
     State s{t, PerParticle3::Zero(3, 2), PerParticle3::Zero(3, 2)};
@@ -144,23 +127,4 @@ TEST_CASE("between frames a cubic motion is met exactly") {
   };
   for (const double t : {0.4, 0.7, 1.3, 1.9})
     CHECK((state_between(at(0.4), at(1.9), t).x - at(t).x).norm() < 1e-14);
-}
-
-TEST_CASE("between frames: velocities go evenly, and beyond the frames each stays") {
-  State a{0.4, PerParticle3::Constant(3, 2, 0.7), PerParticle3::Constant(3, 2, -3)};
-  State b{0.9, PerParticle3::Constant(3, 2, 1.9), PerParticle3::Constant(3, 2, 5)};
-  a.x(1, 1) = -0.3, b.v(2, 0) = 11;
-  a.bonds.resize(3), b.bonds.resize(2);
-  for (const double t : {0.41, 0.55, 0.7, 0.88}) {
-    const State now = state_between(a, b, t);
-    CHECK(now.time == t);
-    CHECK((now.v - a.v - (t - 0.4) / 0.5 * (b.v - a.v)).norm() < 1e-13);
-  }
-  for (const double t : {0.3, 0.4, 0.9, 1.5}) {
-    const State now = state_between(a, b, t), &end = t < 0.5 ? a : b;
-    CHECK(now.time == end.time);
-    CHECK(now.x == end.x);
-    CHECK(now.v == end.v);
-    CHECK(now.bonds.size() == end.bonds.size());
-  }
 }

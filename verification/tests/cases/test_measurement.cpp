@@ -72,15 +72,6 @@ double over_frames(const std::string& more, const std::vector<std::pair<double, 
   return values_of(one, states).at(0);
 }
 
-std::string refusal(const std::string& quantities) {
-  try {
-    trial(quantities);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
-
 }  // namespace
 
 TEST_CASE("heights are measured against gravity and weighted with masses") {
@@ -193,56 +184,6 @@ TEST_CASE("a run that stopped has no end, and what it had before") {
   CHECK(over_frames("when = \"maximum\"", frames) == Approx(7));
   CHECK(std::isnan(over_frames("when = \"maximum\"", {{0, 3}, {0.01, nan}, {0.02, 5}})));
   CHECK(std::isnan(over_frames("when = \"minimum\"", {{0, 3}, {0.01, nan}, {0.02, 5}})));
-}
-
-TEST_CASE("of several quantities each has its own instants and regions, as has [expect]") {
-  const Case all = trial(
-      "[[quantity]]\nname = \"a\"\nwhat = \"highest\"\nwhen = \"maximum\"\n"
-      "of = { particles = [2] }\n[[quantity]]\nname = \"b\"\nwhat = \"highest\"\n"
-      "when = \"minimum\"\nof = { particles = [7] }\n[[quantity]]\nwhat = \"takes_steps\"\n"
-      "[[quantity]]\nwhat = \"keeps_its_place\"\n[[quantity]]\nwhat = \"contact_points\"\n"
-      "when = \"maximum\"\n[[quantity]]\nwhat = \"makes_contact\"\n");
-  std::vector<State> frames;
-  for (const double lift : {0.3, -0.5, 0.9, 0.2}) {
-    frames.push_back({0.01 * double(frames.size()), all.scene.x, all.scene.v});
-    frames.back().x.row(1).array() += lift;
-  }
-  const std::vector<double> expected = {0.9, 0.1 - 0.5, 29, 0.9, 11, 11};
-  const std::vector<double> values = values_of(all, frames, {0, 1, 11, 3});
-  for (std::size_t k = 0; k < expected.size(); ++k) CHECK(values.at(k) == Approx(expected[k]));
-  CHECK(unit_of(all.quantities[0]) == "m");
-  CHECK(unit_of({"", "reaches_turning_rate"}) == "degrees/s");
-}
-
-TEST_CASE("a quantity that cannot be is refused with its place") {
-  const std::string q = "[[quantity]]\nwhat = ";
-  const std::vector<std::pair<std::string, std::string>> rows = {
-      {q + "\"hieght\"", "trial.toml:10: unknown quantity 'hieght'; known: height, lowest"},
-      {q + "\"distance\"", "trial.toml:10: 'distance' needs of = { particles = [...] } with 2"},
-      {q + "\"distance\"\nof = { particles = [1, 2, 3] }", "with 2"},
-      {q + "\"angle\"\nof = { particles = [1, 2] }", "with 3 numbers"},
-      {q + "\"height\"\nof = { particles = [12] }", "trial.toml:11"},
-      {q + "\"height\"\nof = { box = [[5, 5, 5], [6, 6, 6]] }", "trial.toml:11: 'of' names no"},
-      {q + "\"height\"\nof = { box = [[0, 0, 0]] }", "'box' must be two points"},
-      {q + "\"height\"\nof = \"none\"", "trial.toml:11: 'of' must be \"all\""},
-      {q + "\"height\"\nwhen = \"ende\"", "known: end, maximum, minimum"},
-      {q + "\"height\"\nwhen = 0.0501", "trial.toml:11: 'when' is a time outside the run"},
-      {q + "\"height\"\nwhen = -1e-9", "outside the run"},
-      {q + "\"height\"\nalong = [1, 0, 0]", "along"},
-      {q + "\"position\"\nalong = [0, 0, 0]", "trial.toml:11: 'along'"},
-      {q + "\"energy\"\nof = \"all\"", "trial.toml:11: 'energy' is measured on the whole cloth"},
-      {q + "\"stays_outside\"\nwhen = \"end\"", "trial.toml:11: 'stays_outside' is"},
-      {q + "\"stays_outside\"\nof = \"all\"", "leave out 'of'"},
-      {q + "\"is_reproducible\"", "trial.toml:10: 'is_reproducible' repeats steps"},
-      {q + "\"sticks\"", "trial.toml:10: 'sticks' makes no sense here: the case has no"},
-      {"[[quantity]]\nname = \"x\"", "what"},
-      {q + "\"height\"\n" + q + "\"speed\"\n" + q + "\"height\"", "trial.toml:14: two quantities"},
-      {q + "\"height\"\nname = \"b\"\n" + q + "\"lowest\"\nname = \"b\"", "are called 'b'"}};
-  for (const auto& [text, piece] : rows) CHECK_THAT(refusal(text), Contains(piece));
-  for (const std::string& allowed :
-       {q + "\"height\"\nwhen = 0.05", q + "\"height\"\nwhen = 0", q + "\"takes_steps\"",
-        q + "\"height\"\nname = \"a\"\n" + q + "\"height\""})
-    CHECK(refusal(allowed) == "");
 }
 
 }  // namespace foldproof

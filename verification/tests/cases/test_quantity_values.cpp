@@ -12,8 +12,6 @@ using namespace foldproof;
 
 namespace {
 
-constexpr double degrees = 180 / pi;
-
 Approx exactly(double value) { return Approx(value).epsilon(1e-10).margin(1e-13); }
 
 PerParticle3 random_places(int count, double reach, unsigned seed) {
@@ -40,77 +38,12 @@ Scene scene_of_everything() {
   return scene;
 }
 
-State crumpled(const Scene& scene, unsigned seed, double reach = 0.06) {
-  return {0.7, scene.x + random_places(20, reach, seed), random_places(20, 2, seed + 50)};
-}
-
 double value(const char* key, const Scene& scene, const State& s,
              std::span<const Object> objects = {}) {
   return value_at(*find_quantity(key), scene, objects, s);
 }
 
 }  // namespace
-
-TEST_CASE("quantities of shape: plane, angles, lengths, extent and area") {
-  const Scene scene = scene_of_everything();
-  const TriangleMesh& mesh = scene.mesh;
-  State flat = start_state(scene), shrunk = flat;
-  flat.x = 1.2 * mesh.rest;  // and wider
-  flat.x.row(2).setConstant(0.4), flat.x(2, 7) = 0.33;
-  CHECK(value("stays_flat", scene, flat) == exactly(0.07));
-  CHECK(value("leaves_its_plane", scene, flat) == exactly(0.07));
-  CHECK(value("lengthens_by", scene, flat) == exactly(0.2));
-  flat.x = 1.2 * mesh.rest;
-  CHECK(value("stretches_to", scene, flat) == exactly(1.2 / 0.93 - 1));
-  CHECK(value("keeps_its_lengths", scene, flat) == exactly(1.2 / 0.93 - 1));
-  CHECK(value("stays_within_strain_limits", scene, flat) == exactly(1.2 / 0.93 - 1.13));
-  shrunk.x = 0.5 * mesh.rest;  // every spring is too short
-  CHECK(value("stays_within_strain_limits", scene, shrunk) == exactly(1 - 0.5 / 0.93 - 0.07));
-  CHECK(value("keeps_its_lengths", scene, shrunk) == exactly(1 - 0.5 / 0.93));
-  CHECK(value("stretches_to", scene, shrunk) == 0);
-  CHECK(value("keeps_its_area", scene, shrunk) == exactly(0.75));
-  CHECK(value("never_crosses_itself", scene, shrunk) == 0);
-  shrunk.x.row(0) = (shrunk.x.row(0).array() - 0.1).abs();  // one half on the other
-  CHECK(value("never_crosses_itself", scene, shrunk) > 10);
-  shrunk.x(0, 3) = foldproof::nan;
-  for (const char* key :
-       {"folds_to", "folds_back_to", "keeps_its_angles", "stretches_to", "never_crosses_itself"})
-    CHECK(std::isnan(value(key, scene, shrunk)));
-  Scene one = scene_at_rest(  // all folds are to one side
-      make_triangle_mesh(
-          (PerParticle3(3, 4) << 0.5, 0.6, 0, 0, 1, -1, 0, 0, 0.4, 0.4, 0, 1).finished(),
-          {{0, 2, 3}, {1, 3, 2}}),
-      0.2);
-  const double folded = hinge_angles(one.mesh, one.x).at(0) * degrees;
-  CHECK(value("folds_to", one, start_state(one)) == exactly(folded));
-  CHECK(value("folds_back_to", one, start_state(one)) == exactly(-folded));
-  for (const double turn : {70.0, -70.0, 200.0, -200.0}) {  // the shorter way
-    one.rest_angles = {(folded + turn) / degrees};
-    CHECK(value("keeps_its_angles", one, start_state(one)) ==
-          exactly(std::min(std::abs(turn), 360 - std::abs(turn))));
-  }
-}
-
-TEST_CASE("quantities of place: speeds, turning rate and path lengths of the mean") {
-  const Scene scene = scene_of_everything();
-  const PerParticle mass = lumped_masses(scene.mesh, 0.23);
-  const Vector3 up = -scene.gravity->normalized();
-  const State s = crumpled(scene, 1);
-  double momentum = 0, inertia = 0;
-  for (Eigen::Index i = 0; i < 20; ++i) {
-    const Vector3 x = s.x.col(i), v = s.v.col(i);
-    momentum += mass[i] * x.cross(v).y();
-    inertia += mass[i] * (x.squaredNorm() - x.y() * x.y());
-  }
-  const Vector3 way = (s.x - scene.x).rowwise().mean();
-  const double lift = (up.transpose() * s.x).minCoeff() - (up.transpose() * scene.x).minCoeff();
-  CHECK(value("speed_is_limited", scene, s) == exactly(s.v.colwise().norm().maxCoeff()));
-  CHECK(value("reaches_turning_rate", scene, s) == exactly(std::abs(momentum) / inertia * degrees));
-  CHECK(value("keeps_its_place", scene, s) == exactly(way.norm()));
-  CHECK(value("is_carried", scene, s) == exactly(way.norm()));
-  CHECK(value("is_carried_aside", scene, s) == exactly(way.cross(up).norm()));
-  CHECK(value("is_lifted", scene, s) == exactly(lift));
-}
 
 TEST_CASE("quantities of objects: depths of free particles, and what two objects pinch") {
   Scene scene = scene_of_everything();
@@ -188,30 +121,4 @@ TEST_CASE("quantities of a run: energies, momenta, contacts and steps from its d
   CHECK(of_run("runs_to_its_end") == 0);
   result.stop = Stop{"it stops", 1.9, 4, 2};
   CHECK(of_run("runs_to_its_end") == 1);
-}
-
-TEST_CASE("quantities: a scene without what they need says so") {
-  Scene whole = scene_of_everything(), bare = scene_at_rest(whole.mesh, 0.23), flat = bare;
-  whole.x = whole.mesh.rest;
-  whole.objects.emplace_back(), whole.sticky.emplace_back();
-  for (const Quantity& row : quantities())
-    if (row.rejection) CHECK(row.rejection(whole) == "");
-  const auto rejected = [](const char* key, const Scene& scene) {
-    return find_quantity(key)->rejection(scene);
-  };
-  const std::vector<const char*> keys = {
-      "sticks",       "faces_outside", "folds_to",
-      "stretches_to", "stays_outside", "is_lifted",
-      "collapses_to", "forms_creases", "stays_within_strain_limits"};
-  std::string lacks;
-  for (const char* key : keys) lacks += rejected(key, bare).substr(15);
-  CHECK(lacks ==
-        " [[sticky]] [[object]] [bending] [stretch] [[object]] [gravity] [gravity] [bending] "
-        "[strain_limits]");
-  bare.gravity = Vector3::Zero();
-  CHECK(rejected("is_lifted", bare) != "");
-  flat.x(2, 7) += 0.00499;  // a plane is one to a hundredth of the longest extent
-  CHECK(rejected("stays_flat", flat) == "");
-  flat.x(2, 7) -= 2 * 0.00501;
-  CHECK(rejected("stays_flat", flat) != "");
 }

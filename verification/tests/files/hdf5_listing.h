@@ -1,11 +1,9 @@
-// All of an HDF5 file as texts, read through the library itself: for tests of what writes it. And
-// files that the project's classes would never write.
+// All of an HDF5 file as texts, read through the library itself: for tests of what writes it.
 #pragma once
 
 #include <fmt/format.h>
 #include <hdf5.h>
 
-#include <fstream>
 #include <functional>
 #include <map>
 #include <sstream>
@@ -13,8 +11,6 @@
 #include <string>
 #include <tuple>
 #include <vector>
-
-#include "verification/tests/files/small_files.h"
 
 namespace foldproof {
 
@@ -107,51 +103,6 @@ inline std::string difference_of(const Listing& is, const Listing& expected) {
       if (!others->contains(name) || others->at(name) != value)
         lines += what + name + " = " + value + "\n";
   return lines;
-}
-
-inline hid_t made(hid_t id) {
-  if (id < 0) throw std::runtime_error("HDF5 refuses what a test asks for");
-  return id;
-}
-
-/// A file, open by the C interface; closed when it goes out of scope.
-class RawFile {
- public:
-  explicit RawFile(const std::string& path)
-      : id_(made(H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT))) {}
-  ~RawFile() { H5Fclose(id_); }
-  RawFile(const RawFile&) = delete;
-  RawFile& operator=(const RawFile&) = delete;
-  operator hid_t() const { return id_; }
-
- private:
-  hid_t id_;
-};
-
-/// Changes one number of a dataset.
-inline void overwrite(hid_t file, const char* name, std::size_t at, double value) {
-  const hid_t set = made(H5Dopen2(file, name, H5P_DEFAULT)), space = H5Dget_space(set);
-  std::vector<double> values(std::size_t(H5Sget_simple_extent_npoints(space)));
-  made(H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
-  values.at(at) = value;
-  made(H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
-  H5Sclose(space), H5Dclose(set);
-}
-
-inline void overwrite_text(hid_t object, const char* attribute, const char* text) {
-  const hid_t id = made(H5Aopen(object, attribute, H5P_DEFAULT)), type = H5Aget_type(id);
-  made(H5Awrite(id, type, &text));
-  H5Tclose(type), H5Aclose(id);
-}
-
-/// Changes the byte where `text` ends in the file, the only place where it stands.
-inline void damage_after(const std::string& path, const std::string& text) {
-  std::string bytes = bytes_of_file(path);
-  const std::size_t at = bytes.find(text);
-  if (at == std::string::npos || bytes.find(text, at + 1) != std::string::npos)
-    throw std::runtime_error("a test's mark does not stand once in the file");
-  bytes[at + text.size() - 1] ^= 0x55;
-  std::ofstream(path, std::ios::binary | std::ios::in) << bytes;
 }
 
 }  // namespace foldproof

@@ -1,22 +1,18 @@
 // Kept verdicts: what counts as worse, and which files are refused; verdicts.json and junit.xml.
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <limits>
-#include <nlohmann/json.hpp>
 
 #include "reference/mesh/text_file.h"
 #include "reference/types.h"
 #include "verification/files/baseline_file.h"
 #include "verification/files/verdicts_file.h"
 #include "verification/specimens/scratch_folder.h"
-#include "verification/tests/files/results_specimen.h"
 
 using namespace foldproof;
 
 namespace {
 
 using Lines = std::vector<std::string>;
-using nlohmann::json;
 
 constexpr auto holds = Outcome::holds, fails = Outcome::fails, inconclusive = Outcome::inconclusive,
                not_applicable = Outcome::not_applicable;
@@ -177,34 +173,6 @@ TEST_CASE("junit.xml: without a number it says what was required, and lines stay
                  !Catch::Matchers::Contains("nan"));
 }
 
-TEST_CASE("baseline file: findings and the declaration are read, claims are not") {
-  const ScratchFolder scratch;
-  std::string rows;
-  const char* const outcomes[] = {"holds", "fails", "inconclusive", "not applicable"};
-  for (const std::string outcome : outcomes) rows += row_of("law." + outcome, outcome) + ",";
-  for (int twice = 0; twice < 2; ++twice) rows += row_of("claim.a", "undecided", "claim") + ",";
-  rows += R"({"name":"b","kind":"bench","outcome":"did not run","measured":null,"bound":null})";
-  const std::string declaration =
-      R"(,"declaration":{"level":3,"precision":"f4","order":5,"solve_tolerance":1e-7,)"
-      R"("capabilities":["held","planes"]})";
-  const Baseline baseline =
-      read_baseline(scratch.write("a", "{\"findings\":[" + rows + "]" + declaration + "}"));
-  REQUIRE(baseline.verdicts.size() == 5);
-  for (size_t k = 0; k < 4; ++k) {
-    const KeptVerdict& kept = baseline.verdicts[k];
-    CHECK((kept.name == std::string("law.") + outcomes[k] && kept.outcome == outcomes[k]));
-    CHECK((kept.measured == 3.5 && kept.bound == 7.25));
-  }
-  const KeptVerdict& last = baseline.verdicts[4];
-  CHECK((last.name == "b" && std::isnan(last.measured) && std::isnan(last.bound)));
-  REQUIRE(baseline.declared);
-  CHECK((baseline.declared->level == 3 && baseline.declared->precision == "f4"));
-  CHECK((baseline.declared->order == 5 && baseline.declared->solve_tolerance == 1e-7));
-  CHECK(baseline.declared->capabilities == Lines{"held", "planes"});
-  CHECK_FALSE(
-      read_baseline(scratch.write("b", "{\"findings\":[" + row_of("a", "fails") + "]}")).declared);
-}
-
 TEST_CASE("baseline file: each refusal names the file and says why") {
   const ScratchFolder scratch;
   const std::string good = row_of("a", "holds"), path = scratch.file("kept.json");
@@ -221,61 +189,6 @@ TEST_CASE("baseline file: each refusal names the file and says why") {
     CHECK_THROWS_WITH(read_baseline(path),
                       Catch::Matchers::StartsWith(path + ": ") && Catch::Matchers::Contains(why));
   }
-}
-
-TEST_CASE("verdicts: verdicts.json has a run's findings and claims, and null for no number") {
-  RunRecord run = full_run();
-  run.records[0].finding.headline = "too far";
-  run.records[0].finding.verdict.measured = std::nan("");
-  run.records[1].finding.verdict.bound = std::numeric_limits<double>::infinity();
-  run.declared = Declared{3, "f4", 5, 1e-7, {"held", "planes"}};
-  const json is = json::parse(verdicts_json(run)), rows = is.at("findings");
-  CHECK((is.at("schema") == 1 && is.at("program").at("seed") == 37));
-  CHECK_THAT(is.at("program").at("parts").get<std::string>(), Catch::Matchers::Contains("day 2"));
-  CHECK(is.at("declaration") == json::parse(R"({"level": 3, "precision": "f4", "order": 5,
-    "solve_tolerance": 1e-7, "capabilities": ["held", "planes"]})"));
-  CHECK((rows.at(0).at("measured").is_null() && rows.at(0).at("headline") == "too far"));
-  CHECK((rows.at(0).at("basis") == "empirical" && rows.at(1).at("basis") == "reasoned"));
-  CHECK((rows.at(0).at("uncertainty") == 0.125 && rows.at(0).at("outcome") == "measured"));
-  CHECK((rows.at(1).at("bound").is_null() && !rows.at(1).contains("headline")));
-  const json& claim = rows.at(2);
-  CHECK((claim.at("name") == "claim.stiff" && claim.at("recorded") == "refuted"));
-  CHECK((claim.at("ruling") == "confirmed under a condition" && claim.at("outcome") == "fails"));
-  CHECK(claim.at("decided_by").at(1) == json::parse(R"({"finding": "law.bare",
-    "role": "contradicts", "outcome": "missing"})"));
-}
-
-TEST_CASE("verdicts: junit.xml counts what fails, what did not run and what is skipped") {
-  const ScratchFolder folder;
-  RunRecord run = full_run();
-  run.provenance.date = "a \"date\"";
-  Record bare = bare_record();
-  bare.outcome = fails, bare.finding.headline = "too far", bare.finding.note = "<once>";
-  run.records = {record_of("good", holds, 0.25),
-                 full_record(),
-                 record_of("unrun", std::nullopt, no_number),
-                 record_of("maybe", inconclusive, 4.5),
-                 record_of("other", not_applicable, 1e-9),
-                 bare};
-  for (const Ruling ruling : {Ruling::refuted, Ruling::undecided}) {
-    run.claims.push_back(full_claim());
-    run.claims.back().ruling = run.claims.back().claim.recorded = ruling;
-  }
-  write_verdicts(folder.file(""), run);
-  CHECK(read_text_file(folder.file("verdicts.json"), table_text_limits) == verdicts_json(run));
-  for (const char* part :
-       {R"(<testsuite name="foldproof" tests="9" failures="3" errors="1" skipped="2")",
-        R"(time="12.250" timestamp="a &quot;date&quot;">)",
-        R"(<testcase classname="check" name="good" time="0.000"/>)",
-        R"(<testcase classname="bench" name="law.full" time="6.500"/>)",
-        R"(<error message="did not run: no number. )",
-        R"(<failure message="inconclusive: measured 4.5, uncertainty 0, bound 1 [1]. )",
-        R"(<skipped message="not applicable: measured 1e-09, )",
-        R"("fails: too far; measured 0.375, uncertainty 0, bound 0.75 [1].  &lt;once&gt;"/>)",
-        R"("ruling: confirmed under a condition; recorded: refuted. it is &gt; stiff"/>)",
-        R"(<testcase classname="claim" name="stiff" time="0"/>)",
-        R"(<skipped message="ruling: undecided; recorded: undecided. it is &gt; stiff"/>)"})
-    CHECK_THAT(junit_in(folder), Catch::Matchers::Contains(part));
 }
 
 TEST_CASE("verdicts: text is escaped for XML, and keeps only what XML allows") {

@@ -68,29 +68,6 @@ struct SmallFile {
 
 }  // namespace
 
-TEST_CASE("a result is found again, by this store and by the next") {
-  const Kept kept;
-  ResultStore store(kept.folder);
-  CHECK_FALSE(fs::exists(kept.folder));
-  store.start("abc", "first");
-  store.keep("abc", specimen);
-  store.keep("k1", {{}, {{"a", "b"}}});
-  const ResultStore next(kept.folder);
-  for (const ResultStore* one : {&std::as_const(store), &next}) {
-    const auto found = one->find("abc");
-    REQUIRE(found);
-    CHECK(found->arrays.at("x") == specimen.arrays.at("x"));
-    CHECK(found->texts == specimen.texts);
-    CHECK(one->find("k1").value().arrays.empty());
-    CHECK((one->starts("abc") == 1 && one->contains("abc")));
-    CHECK((!one->find("abd").has_value() && !one->contains("abd")));
-  }
-  ResultStore nameless;  // keeps nothing
-  nameless.start("abc", "x");
-  nameless.keep("abc", specimen);
-  CHECK((!nameless.find("abc").has_value() && nameless.starts("abc") == 0));
-}
-
 TEST_CASE("a run that was started and did not end has no result") {
   const Kept kept;
   fs::create_directory(kept.folder);
@@ -99,22 +76,6 @@ TEST_CASE("a run that was started and did not end has no result") {
   const ResultStore store(kept.folder);
   CHECK(store.starts("abc") == 3);
   CHECK((!store.contains("abc") && !store.find("abc").has_value()));
-}
-
-TEST_CASE("a torn last line, and lines of others, are as if they were not there") {
-  const Kept kept;
-  ResultStore(kept.folder).keep("abc", specimen);
-  std::ofstream(files_in(kept.folder, ".jsonl").at(0), std::ios::app)
-      << "[1]\n5\nnull\n{\"start\": 5}\n{\"result\": {}}\n{\"result\": \"abe\"}\n"
-      << "{\"result\": \"abf\", \"texts\": 7, \"arrays\": {}}\n"
-      << "{\"result\": \"abg\", \"texts\": {}, \"arrays\": {\"x\": \"y\"}}\n"
-      << "{\"start\":\"s\",\"result\":\"r\",\"texts\":{},\"arrays\":{}}\n"
-      << "{\"result\": \"abd\", \"texts\": {\"why";
-  const ResultStore store(kept.folder);
-  CHECK(store.find("abc").has_value());
-  for (const char* key : {"abd", "abe", "abf", "abg", "5"})
-    CHECK((!store.contains(key) && store.starts(key) == 0));
-  CHECK((store.starts("s") == 1 && store.contains("r")));
 }
 
 TEST_CASE("arrays that cannot be read, or are another length, are no result") {
@@ -294,23 +255,6 @@ TEST_CASE("isolated reader: it reports what the reader says, and how the reader 
   for (const int signal : {SIGKILL, SIGUSR1})
     CHECK(file.failure([&] { return std::raise(signal) == 0; }) ==
           "it is damaged: reading it ended with signal " + std::to_string(signal));
-}
-
-TEST_CASE("a store may be used by several threads") {
-  const Kept kept;
-  ResultStore store(kept.folder);
-  const auto name = [](int k) { return "key" + std::to_string(k); };
-  const auto write = [&](int first) {
-    for (int k = first; k < first + 10; ++k) {
-      store.start(name(k), "");
-      store.keep(name(k), {{{"x", {double(k)}}}, {}});
-    }
-  };
-  std::vector<std::thread> threads;
-  for (int t = 0; t < 4; ++t) threads.emplace_back(write, 10 * t);
-  for (std::thread& thread : threads) thread.join();
-  for (int k = 0; k < 40; ++k)
-    CHECK(store.find(name(k)).value().arrays.at("x") == std::vector<double>{double(k)});
 }
 
 }  // namespace foldproof

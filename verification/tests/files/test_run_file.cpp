@@ -5,12 +5,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "verification/files/baseline_file.h"
-#include "verification/files/findings_file.h"
-#include "verification/files/hdf5_file.h"
 #include "verification/files/part_file.h"
 #include "verification/files/results_file.h"
-#include "verification/files/studies_file.h"
 #include "verification/specimens/scratch_folder.h"
 #include "verification/tests/files/hdf5_listing.h"
 #include "verification/tests/files/results_specimen.h"
@@ -22,59 +18,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-Listing written_by(const std::function<void(const Hdf5&)>& write) {
-  const ScratchFolder folder;
-  write_hdf5(folder.file("a.h5"), write);
-  return hdf5_listing(folder.file("a.h5"));
-}
-
 const char* const both_origins =
     "12 jobs on 0123456789 (clean), begun day 1; 1 job on fedcba9876 (dirty), begun day 2";
-
-void add_findings(Listing& all) {
-  add_listed(all, "/findings/", "");
-  add_listed(all, "/findings/law.full/", R"(
-    @order = 0; @kind = bench; @study = of-steps; @claim = it is so; @source = BMF03 section 7
-    @measured = 3.25; @bound = 4.5; @uncertainty = 0.125; @unit = steps
-    @why_bound = empirical: twice the largest; @basis = empirical; @scope = specific
-    @certainty = estimated; @outcome = measured; @note = a <note>; @seconds = 6.5; @better = lower
-    @headline = three and a quarter; @faults = [2] first-fault | second-fault; evidence/
-    evidence/step = [2] 0.5 | 0.25; evidence/step@order = 0; evidence/step@unit = s
-    evidence/case = [2] drape | twist; evidence/case@order = 1; evidence/case@unit
-    evidence/error = [2] -2.75 | 1e-09; evidence/error@order = 2; evidence/error@unit = m)");
-  add_listed(all, "/findings/law.bare/", R"(
-    @order = 1; @kind = check; @study; @claim; @source; @measured = 0.375; @bound = 0.75
-    @uncertainty = 0; @unit = 1; @why_bound = by hand; @basis = reasoned; @scope = specific
-    @certainty = computed; @outcome = not applicable; @note; @seconds = 0)");
-}
-
-void add_studies(Listing& all) {
-  add_listed(all, "/studies/", "");
-  add_listed(all, "/studies/bare/", R"(@order = 1; @claim = a claim; @source = a source
-    @about = an about; @seconds = 2.25; figures/; maps/; tables/)");
-  const std::string study = "/studies/steps/", figure = study + "figures/convergence/",
-                    bare_curve = "@label = bare; @floor = nan; x = [2] 1.5 | 2.5; y = [2] -4 | 6.5";
-  add_listed(all, study, R"(@order = 0; @claim = they converge; @source = theory
-    @about = about it; @seconds = 9.5; figures/; maps/; tables/)");
-  add_listed(all, figure, R"(@order = 0; @title = A title; @x_label = step; @x_unit = ms
-    @x_scale = log; @y_label = damping; @y_unit = kg/s; @y_scale = linear; @slope = 4.5
-    @caption = as expected.; curves/)");
-  add_listed(all, figure + "curves/curve-00/", R"(@order = 0; @label = marked; @floor = 1e-12
-    @slope = 3.5; x = [3] 0.5 | 0.25 | 0.125; y = [3] 7 | 9 | nan; pair_orders = [2] 1.75 | 2.5
-    marks = [3] unfinished | measured | diverged)");
-  add_listed(all, figure + "curves/curve-01/", "@order = 1; " + bare_curve);
-  add_listed(all, study + "figures/empty/", R"(@order = 1; @title = Nothing; @x_label = damping
-    @x_unit = kg/s; @x_scale = linear; @y_label = step; @y_unit = ms; @y_scale = log
-    @slope = nan; @caption; curves/)");
-  add_listed(all, study + "maps/stability/", R"(@order = 0; @title = Where it is; @x_label = damping
-    @x_unit = kg/s; @x_scale = linear; @y_label = step; @y_unit = ms; @y_scale = log
-    @quantity = growth; @unit = 1/s; @scale = log; @caption = of one mode.; curves/
-    x = [3] 0.25 | 0.5 | 0.75; x@unit = kg/s; y = [2] 10 | 20; y@unit = ms
-    values = [2 x 3] 1.5 | 2.5 | 3.5 | 4.5 | 5.5 | 6.5; values@unit = 1/s)");
-  add_listed(all, study + "maps/stability/curves/curve-00/", "@order = 0; " + bare_curve);
-  add_listed(all, study + "tables/first/", R"(@order = 0; @title = One; case = [1] c
-    case@order = 0; case@unit; length = [1] 0.875; length@order = 1; length@unit = m)");
-}
 
 const PartOf of_job{"strain-sweeps", "0123", "full", 7};
 const RunOrigin origin{"89abcdef", "dirty", "a date", 5};
@@ -106,28 +51,6 @@ RunRecord part_specimen() {
 }
 
 }  // namespace
-
-TEST_CASE("run file: a finding is written with all that it has, and with nothing that it lacks") {
-  Record full = full_record();
-  full.faults = {"first-fault", "second-fault"};
-  full.finding.headline = "three and a quarter";
-  Listing expected = {{"/", ""}};
-  add_findings(expected);
-  const Listing is = written_by([&](const Hdf5& file) {
-    write_findings(file, {full, bare_record()});
-  });
-  CHECK(difference_of(is, expected) == "");
-}
-
-TEST_CASE("studies file: figures, maps and tables are written with all that they have") {
-  Listing expected = {{"/", ""}};
-  add_studies(expected);
-  std::vector<StudyRecord> studies = full_run().studies;
-  const auto write = [&](const Hdf5& file) { write_studies(file, studies); };
-  CHECK(difference_of(written_by(write), expected) == "");
-  studies[0].maps[0].values.pop_back();
-  CHECK_THROWS_WITH(written_by(write), Catch::Contains("'stability': 5 values for 3 x 2 points"));
-}
 
 TEST_CASE("run file: a run is written whole, without faults and parts if it has none") {
   const ScratchFolder folder;

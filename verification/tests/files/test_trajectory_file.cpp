@@ -161,37 +161,9 @@ struct RunFile {
     write();
     return read_stored_run(path);
   }
-  /// By the reader of frames and, where it says why, by the reader of runs.
-  void check_refused(const std::string& frames_why, const std::string& run_why = "") const {
-    write();
-    CHECK_THROWS_WITH(read_stored_frames(path), Catch::StartsWith(path + ": " + frames_why));
-    CHECK_THROWS_AS(read_stored_frames(path), InputError);
-    if (!run_why.empty())
-      CHECK_THROWS_WITH(read_stored_run(path), Catch::StartsWith(path + ": " + run_why));
-  }
 };
 
 }  // namespace
-
-TEST_CASE("trajectory: the root tells of the case and of the run, and where its meshes lie") {
-  for (const bool is_read : {false, true}) {
-    Scene scene = full_scene();
-    scene.text = is_read ? "the text" : "";
-    scene.folder = "some/folder";
-    Trajectory run(scene);
-    const Listing is = run.finished();
-    Listing expected;
-    add_listed(expected, "/", R"(@case_name = a case; @title = A title; @about = About it
-      @integrator = B; @program = foldproof; @stopped = the reason; @seconds = 12.75
-      gravity = [3] 0.5 | -9.75 | 0.25; gravity@unit = m/s^2; findings/a finding/)");
-    expected["/@case_text"] = scene.text;
-    expected["/@case_folder"] =
-        is_read ? std::filesystem::current_path().string() + "/some/folder" : "";
-    const std::vector<std::string> built = describe_parts(scene, run.system);
-    expected["/@built"] = array_text({built.size()}, built);
-    for (const auto& [name, value] : expected) CHECK(is.at(name) == value);
-  }
-}
 
 TEST_CASE("trajectory: frames are wanted at the start, each whole interval, and the end") {
   const auto frames_wanted = [](double end, double interval) {
@@ -346,39 +318,6 @@ TEST_CASE("trajectory: a file for ParaView names each frame of the arrays") {
       {array + "a&amp;b.h5:/frames/positions<", 3},
       {array + "a&amp;b.h5:/frames/velocities<", 3}};
   for (const auto& [part, times] : parts) CHECK(count(part) == times);
-}
-
-TEST_CASE("stored frames: triangles are of three particles that are there") {
-  RunFile file;
-  file.write();
-  const StoredFrames run = read_stored_frames(file.path);
-  CHECK(run.triangles == std::vector<Triangle>{{3, 1, 4}, {2, 0, 11}});
-  CHECK((run.times == file.times && run.positions == file.positions));
-  for (const size_t k : {0, 1}) CHECK(run.frame(k) == counted(12, 1 + 36 * double(k)));
-  file.corners.back() = 12;
-  file.check_refused("a triangle names particle 12 of 12");
-  file.corners.back() = -1;
-  file.check_refused("a triangle names particle -1 of 12");
-  file.corners.pop_back();
-  file.check_refused("its positions are not three a particle in every frame, or its triangles");
-}
-
-TEST_CASE("stored run: frames are refused that are not of their particles, or not there") {
-  RunFile file;
-  const char *const uneven = "its positions are not three a particle in every frame",
-                    *const unfit = "its frames are not of the 12 particles";
-  for (const size_t count : {71u, 73u, 75u, 69u}) {
-    file.positions = ramp(count);
-    file.check_refused(uneven, unfit);
-  }
-  file.positions = ramp(72), file.velocities = ramp(36);
-  CHECK_THROWS_WITH(file.read(), Catch::Contains(unfit));
-  file.times.clear(), file.positions.clear();
-  file.check_refused(uneven, unfit);
-  { const Hdf5 other = Hdf5::create_file(file.path); }
-  const std::string none = file.path + ": is no stored simulation: ";
-  CHECK_THROWS_WITH(read_stored_frames(file.path), Catch::StartsWith(none));
-  CHECK_THROWS_WITH(read_stored_run(file.path), Catch::StartsWith(none));
 }
 
 TEST_CASE("stored run: its case with the overrides at the end of its text, and frames are read") {

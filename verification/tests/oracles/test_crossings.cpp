@@ -1,21 +1,18 @@
-// Moving features and crossings of meshes: against distances in 50 digits, all pairs of triangles,
-// and hand-made configurations.
+// Exact decisions: moving features, crossings of meshes, and sides of bodies.
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <limits>
-#include <random>
 
 #include "verification/oracles/crossing_subdivision.h"
 #include "verification/oracles/exact_crossings.h"
 #include "verification/oracles/exact_geometry.h"
-#include "verification/oracles/feature_distance.h"
 
 using namespace foldproof;
 using namespace foldproof::oracles;
 
 namespace {
 
-constexpr Features vertex = Features::vertex_and_triangle, edges = Features::edge_and_edge;
+constexpr Features vertex = Features::vertex_and_triangle;
 constexpr double last_bit = std::numeric_limits<double>::epsilon();
 const Vector3 still(0, 0, 0);
 
@@ -50,22 +47,6 @@ std::size_t pairs_of_edge(const Vector3& a, const Vector3& b, const Corners3& t)
 
 }  // namespace
 
-TEST_CASE("features meet just where their distance is zero") {
-  std::mt19937 bits(29);
-  int meetings = 0;
-  for (int k = 0; k < 20000; ++k) {
-    std::uniform_int_distribution<int> coordinate(k % 2 == 0 ? -1 : -3, k % 2 == 0 ? 1 : 3);
-    FourPoints x;
-    for (double& c : x.reshaped()) c = coordinate(bits);
-    for (const Features kind : {vertex, edges}) {
-      const bool is_met = meet(kind, x);
-      meetings += is_met;
-      REQUIRE(is_met == (feature_distance(kind, x).value == 0));
-    }
-  }
-  CHECK(meetings > 3000);
-}
-
 TEST_CASE("a vertex hits a triangle within, on its border, at either end of the time, or not") {
   struct Row {
     Vector3 from, displacement;
@@ -89,54 +70,6 @@ TEST_CASE("a vertex hits a triangle within, on its border, at either end of the 
   CHECK(ever_meet(vertex, until(motion, 0.5)));
   CHECK_FALSE(ever_meet(vertex, until(motion, std::nextafter(0.5, 0))));
   CHECK_FALSE(ever_meet(vertex, until(motion, 0)));
-}
-
-TEST_CASE("degenerate features meet as what is left of them") {
-  const Vector3 o(0, 0, 0);
-  const FourPoints line = points({1, -1, 0}, o, {4, 0, 0}, {2, 0, 0}),  // a triangle: a segment
-      dot = points({1, 1, 1}, {1, 1, 1}, o, o),                         // edges: points
-      parallel = points({0, 0, 1}, {2, 0, 1}, {2, 0, 0}, {5, 0, 0});
-  const auto first_two = [](const Vector3& way) { return points(way, way, still, still); };
-  for (const double off : {0, 1}) {
-    const bool meets = off == 0;
-    CHECK(ever_meet(vertex, exact_motion(line, points({0, 3, off}, still, still, still))) == meets);
-    CHECK(ever_meet(edges, exact_motion(dot, first_two({-3, -3, -3 + off}))) == meets);
-    CHECK(ever_meet(edges, exact_motion(parallel, first_two({-off, 0, -3}))) == meets);
-  }
-}
-
-TEST_CASE("halved times decide what is plain, and say when they cannot") {
-  const auto over = [](const Vector3& from, const Vector3& way, int halvings) {
-    return decide_by_subdivision(vertex, vertex_over_triangle(from, way), halvings);
-  };
-  CHECK(over({1, 1, 3}, {0, 0, -7}, 0) == MeetDecision::meet);
-  CHECK(over({1, 1, 3}, {0, 0, -2}, 0) == MeetDecision::apart);
-  CHECK(over({1, 1, 3}, {0, 0, -3}, 6) == MeetDecision::unclear);  // just reaches it
-  // through the plane while above the triangle in the middle of its way only
-  CHECK(over({-4, 1, 4}, {10, 0, -9}, 0) == MeetDecision::unclear);
-  CHECK(over({-4, 1, 4}, {10, 0, -9}, 5) == MeetDecision::meet);
-}
-
-TEST_CASE("a motion between fractions has each of their numbers, over one denominator") {
-  const std::array<long, 3> denominators{2, 3, 5};
-  const auto numerator = [](std::size_t point, std::size_t axis) {
-    return long(7 * point + 3 * axis) - 11;
-  };
-  std::array<std::array<Fraction, 3>, 8> x;
-  for (std::size_t i = 0; i < 8; ++i)
-    for (std::size_t k = 0; k < 3; ++k) x[i][k] = {numerator(i, k), denominators[k]};
-  const ExactMotion motion = motion_between(x);
-  const auto whole = [&](std::size_t point, std::size_t axis) {
-    return 30 / denominators[axis] * numerator(point, axis);
-  };
-  for (std::size_t i = 0; i < 4; ++i) {
-    const Exact &p = motion.start[i], &way = motion.displacement[i];
-    const std::array<Whole, 3> start{p.x, p.y, p.z}, displacement{way.x, way.y, way.z};
-    for (std::size_t k = 0; k < 3; ++k) {
-      CHECK(start[k] == whole(i, k));
-      CHECK(displacement[k] == whole(i + 4, k) - whole(i, k));
-    }
-  }
 }
 
 TEST_CASE("an edge crosses a triangle, touches it, or stays clear") {
@@ -174,4 +107,34 @@ TEST_CASE("neighbours are counted when one is folded onto the other, not side by
            {{1, 3, 0}, 4},   // one on the other: two edges each
            {{3, 3, 0}, 2}})  // 0 3 and 1 2 cross, neither tip is in the other triangle
     CHECK(hinge(tip) == count);
+}
+
+TEST_CASE("a point has no side where no segment from it is clean, or a triangle has no area") {
+  const TriangleSoup thin{box_between({0, 0, 0}, {1, 1, 1}).x, {{0, 0, 1}, {0, 1, 2}}};
+  CHECK_THROWS_WITH(side_of(thin, {0, 0, 0}), Catch::Contains("without area has no inside"));
+  // so small a box about the point (1, 1, 1) that all segments leave it through one corner
+  const double step = std::numeric_limits<double>::epsilon(), half = 1 + 2 * step,
+               end = 1 + 4 * step;
+  CHECK_THROWS_AS(side_of(box_between({1, 1, 1}, {end, end, end}), {half, half, half}),
+                  std::runtime_error);
+}
+
+TEST_CASE("triangles within a body are found, though they meet no triangle of it") {
+  TriangleSoup cloth{PerParticle3(3, 9), {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}}};
+  cloth.x.leftCols(3) << 0.1, 0.2, 0.1, 0.1, 0.1, 0.2, 0.15, 0.15, 0.15;       // inside
+  cloth.x.middleCols(3, 3) << 0.1, 0.2, 0.1, 0.1, 0.1, 0.2, 0.35, 0.36, 0.37;  // outside
+  cloth.x.rightCols(3) << 0.1, 0.2, 0.1, 0.1, 0.1, 0.2, 0.36, 0.3, 0.25;       // through the top
+  const TriangleSoup box = box_between({0, 0, 0}, {.3, .3, .3});
+  CHECK(triangles_in_body(cloth, box) == std::vector<int>{0, 2});
+}
+
+TEST_CASE("a last bit decides on which side of a plane a point is") {
+  const Vector3 a(0.1, 0.2, 0.3), b(1.1, 0.2, 0.3), c(0.1, 1.2, 0.3);
+  const double above = std::nextafter(0.3, 1);
+  CHECK(orientation(a, b, c, {0.7, 0.4, above}) == 1);
+  CHECK(orientation(a, b, c, {0.7, 0.4, 0.3}) == 0);
+  CHECK(orientation(a, c, b, {0.7, 0.4, above}) == -1);
+  const Vector3 far(0, 0, std::numeric_limits<double>::denorm_min());
+  // the product underflows in double
+  CHECK(orientation({0, 0, 0}, {1e-200, 0, 0}, {0, 1e-200, 0}, far) == 1);
 }

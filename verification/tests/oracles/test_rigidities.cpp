@@ -1,10 +1,15 @@
-// Statics of strips, plates and meshes of hinges: tables, counts by hand, and refused meshes.
+// Strips, plates and meshes of hinges: tables, and counts by hand; the equation of a whole sheet.
 #include <Eigen/Dense>
+#include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "reference/types.h"
+#include "verification/oracles/cloth.h"
+#include "verification/oracles/elastica.h"
+#include "verification/oracles/gsl.h"
+#include "verification/oracles/heavy_cantilever.h"
 #include "verification/oracles/homogenised_bending.h"
 #include "verification/oracles/sheets/growing_ring.h"
 #include "verification/oracles/sheets/sagging_plate.h"
@@ -23,6 +28,53 @@ TEST_CASE("the loaded tip by elliptic integrals is the table's") {
     CHECK(tip.drop.uncertainty < 1e-10);
   }
   CHECK(std::abs(tip_load(1e-3).drop.value / (1e-3 / 3) - 1) < 1e-5);
+}
+
+TEST_CASE("elliptic integrals and shooting agree on a loaded tip, and know how sure they are") {
+  for (const double alpha : {.01, .7, 6., 37., 100.}) {
+    const LoadedTip one = tip_load(alpha), other = tip_load_by_shooting(alpha);
+    for (const auto& [p, q] :
+         {std::pair{one.drop, other.drop}, std::pair{one.reach, other.reach}}) {
+      CHECK(std::abs(p.value - q.value) <= p.uncertainty + q.uncertainty);
+      CHECK(p.uncertainty >= 1e-13);
+      CHECK(p.uncertainty < 1e-9);
+      CHECK(q.uncertainty > 1e-14);
+      CHECK(q.uncertainty < 2e-7);
+    }
+  }
+}
+
+TEST_CASE("the heavy cantilever's tip is the table's") {
+  const std::array<std::array<double, 3>, 5> table{{{1, .1234714020, .9912463953},
+                                                    {5, .4959050446, .8466571800},
+                                                    {10, .7001997155, .6563537612},
+                                                    {100, .9375239354, .1592233826},
+                                                    {1e4, .9941099339, .0142608898}}};
+  for (const auto& [gamma, drop, reach] : table) {
+    const CantileverTip tip = heavy_cantilever(gamma);
+    CHECK(std::abs(tip.drop.value - drop) <= 5e-11 + tip.drop.uncertainty);
+    CHECK(std::abs(tip.reach.value - reach) <= 5e-11 + tip.reach.uncertainty);
+    CHECK(std::max(tip.drop.uncertainty, tip.reach.uncertainty) < 5e-11);  // the table's last digit
+  }
+  const auto slope = [](double gamma) {
+    return heavy_cantilever(gamma).drop.value / heavy_cantilever(gamma).reach.value;
+  };
+  CHECK(std::abs(slope(1e-3) * 8 / 1e-3 - 1) < 1e-6);
+  const double test_angle = std::tan(41.5 * pi / 180);
+  const Estimate gamma =
+      bracketed_root([&](double g) { return slope(g) - test_angle; }, 7, 9, 1e-9);
+  CHECK(std::abs(gamma.value - 8.004197) < 5.1e-7);
+}
+
+TEST_CASE("loops without weight are as high as Peirce printed") {
+  const auto height = [&](double first_slope, double turn) {
+    const StripShape shape =
+        strip_by_collocation({0, first_slope, {{first_slope + turn, 0, 0}}, 0}, std::array{.5});
+    return -shape.points[0].up;
+  };
+  CHECK(std::abs(height(0, -2 * pi) - 1 / pi) < 1e-11);       // ring: a circle
+  CHECK(std::abs(height(-pi / 2, -pi) - .4243) < 5e-5);       // pear loop
+  CHECK(std::abs(height(pi / 2, -3 * pi) - .1337) < 2.5e-4);  // heart loop; ours is .13386
 }
 
 TEST_CASE("a narrow ring of plate sags as a cantilever") {
@@ -73,79 +125,6 @@ TEST_CASE("homogenised rigidities are the table's") {
   CHECK(std::abs(strip_rigidity(relaxed_rigidity(equilateral_triangles(1)), .4) - 2. / 9) < 1e-12);
 }
 
-TEST_CASE("a cylinder's rigidity takes the twist twice, and a strip curves freely across") {
-  Eigen::Matrix3d R;
-  R << 2, .3, .1, .3, 1.5, -.2, .1, -.2, .7;
-  for (const double angle : {0., .4, 1.9}) {
-    const double c = std::cos(angle), s = std::sin(angle);
-    const Eigen::Vector3d k(c * c, s * s, 2 * c * s), n(c * c, s * s, c * s);
-    CHECK(cylinder_rigidity(R, angle) == Approx(k.dot(R * k)).epsilon(1e-14));
-    CHECK(strip_rigidity(R, angle) == Approx(1 / n.dot(R.inverse() * n)).epsilon(1e-13));
-  }
-}
-
-TEST_CASE("the range of rigidities holds all directions, and touches both its ends") {
-  Eigen::Matrix3d level = Eigen::Vector3d(2, .5, .3).asDiagonal(), turned;
-  CHECK(cylinder_range(level).greatest == 2);  // at no angle
-  CHECK(cylinder_range(level).least == Approx(.5).epsilon(2e-6));
-  // the greatest lies between two eighths of a turn beyond a right angle
-  turned << .5, 0, -.2, 0, .5, -.2, -.2, -.2, .3;
-  const RigidityRange range = cylinder_range(turned);
-  CHECK(range.greatest == Approx(cylinder_rigidity(turned, 3 * pi / 4)).epsilon(2e-6));
-  CHECK(range.least == Approx(cylinder_rigidity(turned, pi / 4)).epsilon(2e-6));
-}
-
-TEST_CASE("a periodic mesh must close, with one triangle on each side of each edge") {
-  PeriodicMesh open = equilateral_triangles(1), doubled = open, over = open, thin = open;
-  open.triangles.pop_back();
-  doubled.triangles.push_back(doubled.triangles[0]);
-  for (auto& triangle : over.triangles) std::swap(triangle[0], triangle[1]);
-  thin.period_b = Eigen::Vector2d(.5, 0);
-  CHECK_THROWS_WITH(forced_rigidity(open), Catch::Contains("an edge has one triangle"));
-  CHECK_THROWS_WITH(relaxed_rigidity(doubled), Catch::Contains("two triangles on one side"));
-  CHECK_THROWS_WITH(forced_rigidity(over), Catch::Contains("no area or is turned over"));
-  CHECK_THROWS_AS(forced_rigidity(thin), InputError);
-  CHECK_THROWS_WITH(equilateral_ribbon(1, 1), Catch::Contains("a ribbon needs two rows"));
-}
-
-TEST_CASE("hinges of a sheet turn by the angle between normals, and weigh by their areas") {
-  PlaneSheet sheet;
-  sheet.points.resize(2, 5);
-  sheet.points << .4, .6, 0, 1.1, 1.7, .8, -.5, 0, .2, .9;
-  sheet.hinges = {{0, 1, 2, 3}, {2, 4, 3, 0}};
-  sheet.held = {1, 1, 1, 1, 1};
-  const double angle = .6, curvature = 1e-5;
-  double energy = 0, weights = 0;
-  for (std::size_t k = 0; k < 2; ++k) {
-    std::array<Eigen::Vector3d, 4> x;
-    for (std::size_t i = 0; i < 4; ++i) {
-      const Eigen::Vector2d p = sheet.points.col(sheet.hinges[k][i]);
-      const double s = std::cos(angle) * p.x() + std::sin(angle) * p.y();
-      x[i] = Eigen::Vector3d(p.x(), p.y(), curvature * s * s / 2);
-    }
-    const Eigen::Vector3d above = (x[0] - x[2]).cross(x[0] - x[3]),
-                          below = (x[1] - x[3]).cross(x[1] - x[2]);
-    const double areas = above.norm() + below.norm(), factor = (x[3] - x[2]).squaredNorm() / areas,
-                 theta = std::atan2(above.cross(below).norm(), above.dot(below)) / curvature;
-    const double expected = factor / 2 * theta * theta;
-    sheet.counted = {k == 0, k == 1};
-    CHECK(forced_cylinder_rigidity(sheet, angle) == Approx(expected / (areas / 6)).epsilon(1e-8));
-    energy += expected;
-    weights += areas / 6;
-  }
-  sheet.counted = {1, 1};
-  const double held = forced_cylinder_rigidity(sheet, angle);
-  CHECK(held == Approx(energy / weights).epsilon(1e-8));
-  CHECK(relaxed_cylinder_rigidity(sheet, angle) == Approx(held).epsilon(1e-14));
-  sheet.held[0] = 0;
-  CHECK(relaxed_cylinder_rigidity(sheet, angle) < held * (1 - 1e-3));
-  CHECK(relaxed_cylinder_rigidity(sheet, angle) > 1e-3);
-  sheet.held[4] = 0;
-  CHECK(std::abs(relaxed_cylinder_rigidity(sheet, angle)) < 1e-12);
-  std::swap(sheet.hinges[0][0], sheet.hinges[0][1]);
-  CHECK_THROWS_AS(forced_cylinder_rigidity(sheet, angle), InputError);
-}
-
 // Every hinge: theta = (w1 + w2 - w3 - w4)/h, c = l/(2 h). A period has four slanting hinges and
 // one of the middle row; the outer rows' edges have none. Bending, w = x^2/2: a slanting hinge
 // turns by l^2/(2 h), wherever its rows are shifted; a shift makes the middle one flat. Twisting,
@@ -156,4 +135,34 @@ TEST_CASE("a ribbon of two rows is as stiff as its three kinds of hinges") {
   CHECK(two.bending ==
         Approx(c / 2 * 4 * std::pow(edge * edge / (2 * h), 2) / edge).epsilon(1e-13));
   CHECK(two.twisting == Approx(4 * c / 2 * 4 * std::pow(edge / 2, 2) / edge).epsilon(1e-13));
+}
+
+TEST_CASE("free particles of a sheet obey Newton's second law, pushed by particle and time") {
+  ClothDefinition cloth;
+  cloth.masses = {.3, .7, 1.1};
+  cloth.springs = {{2, 0, .9, .17}};
+  cloth.material.young = 53;
+  cloth.material.spring_damping = .31;
+  cloth.gravity = Vector3(.4, -.9, -9.7);
+  cloth.external_force = [](int particle, double t) {
+    return Vector3(particle + .5, t, particle * t);
+  };
+  cloth.prescribed[0] = harmonic_motion({{.1, .2, .3}, {.4, .5, .6}, .7, .8});
+  const double t = .29, angle = 2 * pi * .7 * t + .8;
+  const Vector3 x0 = Vector3(.1, .2, .3) + std::sin(angle) * Vector3(.4, .5, .6),
+                v0 = 2 * pi * .7 * std::cos(angle) * Vector3(.4, .5, .6);
+  const std::array<double, 12> y{1.1, -.4, .6, 2.3, .9, -.7, .31, .53, -.29, -.83, .47, .61};
+  std::array<double, 12> dy;
+  cloth_rhs(cloth)(t, y, dy);
+  for (std::size_t k = 0; k < 6; ++k) CHECK(dy[k] == y[6 + k]);
+  const Vector3 d = x0 - Vector3(2.3, .9, -.7), n = d.normalized(),
+                closing = v0 - Vector3(-.83, .47, .61);
+  const Vector3 spring =
+      (53 * .17 / .9 * (d.norm() / .9 - 1) + .31 * .17 / (.9 * .9) * closing.dot(n)) * n;
+  const Vector3 first = cloth.gravity + Vector3(1.5, t, t) / .7,
+                second = cloth.gravity + (spring + Vector3(2.5, t, 2 * t)) / 1.1;
+  for (int k = 0; k < 3; ++k) {
+    CHECK(dy[std::size_t(6 + k)] == Approx(first[k]).epsilon(1e-14));
+    CHECK(dy[std::size_t(9 + k)] == Approx(second[k]).epsilon(1e-14));
+  }
 }

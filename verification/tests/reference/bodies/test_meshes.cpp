@@ -3,7 +3,6 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "reference/bodies/body_deformation.h"
 #include "reference/bodies/closed_mesh.h"
 #include "reference/bodies/repair.h"
 #include "reference/bodies/thin_parts.h"
@@ -125,38 +124,6 @@ TEST_CASE("doubled vertices of a seam join the triangles of a piece") {
   CHECK(oriented_patches(seam).patches.size() == 1);
 }
 
-TEST_CASE("bodies bend along an arc, twist with the height and breathe at mid-height, in turn") {
-  const Bounds box(Vector3(-0.7, 0.4, -1.1), Vector3(0.9, 2.9, 0.5));
-  const auto deformed = [&](std::vector<BodyDeformation> parts, const Vector3& X, double t) {
-    return deformation_of(std::move(parts), box)(X, t);
-  };
-  const BodyDeformation twist{DeformationKind::twist, 1.3, 0.9},
-      breathe{DeformationKind::breathe, 0.3, 0.9};
-  // the axis starts at (0.1, 0.4, -0.3) and is 2.5 m high
-  const Vector3 base(0.1, 0.4, -0.3);
-  for (const double height : {0.0, 0.25, 1.25, 1.9}) {
-    const Vector3 X(0.6, height, -0.4);
-    for (const double amplitude : {1.3, -0.8}) {
-      const BodyDeformation bend{DeformationKind::bend, amplitude, 0.9};
-      // a third of the period: 3/4 of the amplitude
-      const double curvature = 0.75 * amplitude / 2.5, phi = curvature * height;
-      const Vector3 axis((1 - std::cos(phi)) / curvature, std::sin(phi) / curvature, 0);
-      const Vector3 beside(0.6 * std::cos(phi), -0.6 * std::sin(phi), -0.4);
-      CHECK((deformed({bend}, base + X, 0.3) - base - axis - beside).norm() < 1e-14);
-      CHECK((deformed({bend}, base + X, 1.8) - base - X).norm() < 1e-13);
-      CHECK((deformed({bend, twist}, X, 0.4) - deformed({twist}, deformed({bend}, X, 0.4), 0.4))
-                .norm() < 1e-14);
-    }
-    const Vector3 turned = Eigen::AngleAxisd(0.75 * 1.3 * height / 2.5, Vector3::UnitY()) * X;
-    CHECK((deformed({twist}, base + X, 0.6) - base - turned).norm() < 1e-14);
-    // half the period: the whole amplitude, less the square of the way to mid-height
-    const double factor = 1 + 0.3 * (1 - std::pow(height / 1.25 - 1, 2));
-    CHECK(
-        (deformed({breathe}, base + X, 0.45) - base - Vector3(0.6 * factor, height, -0.4 * factor))
-            .norm() < 1e-14);
-  }
-}
-
 namespace {
 
 const GridMethod method{48, 4, 3, MarchingOrder::second};
@@ -243,15 +210,6 @@ TEST_CASE("edges, tips and round bodies are not accused of being thin") {
   }
 }
 
-namespace {
-
-std::vector<Triangle> flipped(std::vector<Triangle> triangles, const std::vector<size_t>& which) {
-  for (const size_t t : which) std::swap(triangles[t][1], triangles[t][2]);
-  return triangles;
-}
-
-}  // namespace
-
 TEST_CASE("triangles without area, by their shape, are left out of a repair") {
   for (const double size : {1e-4, 1.0, 1e4})
     for (int turn = 0; turn < 3; ++turn) {
@@ -264,41 +222,4 @@ TEST_CASE("triangles without area, by their shape, are left out of a repair") {
       const TriangleSoup soup{size * x, {turned(0), turned(3)}, {}};
       CHECK(orient_triangles(soup) == std::vector<Triangle>{turned(3)});
     }
-}
-
-TEST_CASE("the larger part of a patch's area keeps its orientation") {
-  const TriangleMesh ball = make_icosphere(0.9, 1);
-  std::mt19937 random(8);
-  for (int k = 0; k < 20; ++k) {
-    std::vector<size_t> some, others;
-    for (size_t t = 0; t < ball.triangles.size(); ++t)
-      (random() % 3 == 0 ? some : others).push_back(t);
-    CHECK(orient_triangles({ball.rest, flipped(ball.triangles, some), {}}) == ball.triangles);
-    CHECK(orient_triangles({ball.rest, flipped(ball.triangles, others), {}}) ==
-          flipped(flipped(ball.triangles, some), others));
-  }
-}
-
-TEST_CASE("patches are turned by their own larger area, of equal ones to their first triangle") {
-  // a strip of triangles (0, 1, 2), (2, 1, 3), (2, 3, 4) with their heights; another far beside it
-  const auto strip = [](double first, double rest) {
-    PerParticle3 x = PerParticle3::Zero(3, 10);
-    x.row(0) << -first, 0, 0, rest, rest, 15, 20, 20, 22, 22;
-    x.row(1) << 0, -1, 1, -1, 1, 0, -1, 1, -1, 1;
-    return x;
-  };
-  const std::vector<Triangle> even{{0, 1, 2}, {2, 1, 3}, {2, 3, 4},
-                                   {5, 6, 7}, {7, 6, 8}, {7, 8, 9}};
-  const auto turned = [&](double first, const std::vector<size_t>& which) {
-    return orient_triangles({strip(first, 2), flipped(even, which), {}});
-  };
-  // areas: first, 2, 2; and 5, 2, 2
-  CHECK(turned(5, {0}) == flipped(even, {0, 1, 2}));
-  CHECK(turned(3, {0}) == even);
-  CHECK(turned(4, {0}) == flipped(even, {0, 1, 2}));
-  CHECK(turned(4, {1, 2}) == even);
-  CHECK(turned(5, {2, 4}) == even);
-  // three triangles at the edge 0-1, of which two run the same way: sheets of their own
-  const std::vector<Triangle> fins{{0, 1, 2}, {0, 1, 3}, {1, 0, 4}};
-  CHECK(orient_triangles({strip(5, 2), fins, {}}) == fins);
 }

@@ -1,4 +1,4 @@
-// Methods made for tests of runs: they note their steps, and move the cloth as they are told.
+// A method made for tests of runs, which notes its steps.
 #pragma once
 
 #include <catch2/catch.hpp>
@@ -10,12 +10,10 @@ namespace foldproof::noted_run {
 inline constexpr double infinite = std::numeric_limits<double>::infinity();
 
 inline std::vector<double> steps_taken;
-inline std::vector<size_t> history_seen;
 
 /// Moves with the velocities, which lose a tenth a step; every step costs two solves.
 inline State drift(const System& system, std::span<const State> past, double h, Work& work) {
   steps_taken.push_back(h);
-  history_seen.push_back(past.size());
   State next = past.back();
   next.time += h;
   next.x += h * next.v;
@@ -55,7 +53,6 @@ struct Seen {
 inline RunResult run(const System& system, const Integrator& integrator, const State& start,
                      const Schedule& schedule, const Observer& observer) {
   steps_taken.clear();
-  history_seen.clear();
   return simulate(system, integrator, start, schedule, observer);
 }
 
@@ -71,14 +68,5 @@ inline void expect_steps(const std::vector<double>& taken, const std::vector<dou
   REQUIRE(taken.size() == expected.size());
   for (size_t k = 0; k < taken.size(); ++k) CHECK(taken[k] == Approx(expected[k]).epsilon(1e-11));
 }
-
-/// A method whose step ends where `next_state` says.
-inline std::function<State(const State&)> next_state;
-inline State chosen(const System&, std::span<const State> past, double h, Work&) {
-  State next = next_state(past.back());
-  next.time = past.back().time + h;
-  return next;
-}
-inline const Integrator choosing{"", "", "", 1, 1, chosen};
 
 }  // namespace foldproof::noted_run

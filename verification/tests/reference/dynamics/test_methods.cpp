@@ -41,10 +41,6 @@ struct DynamicsSpecimen {
   Vector3 path_velocity(double t) const { return velocity_at(motion, start, t); }
 };
 
-double difference(const PerParticle3& a, const PerParticle3& b) {
-  return (a - b).cwiseAbs().maxCoeff();
-}
-
 }  // namespace
 
 TEST_CASE("a step's end and all of its stages have the bonds of its start") {
@@ -61,42 +57,4 @@ TEST_CASE("a step's end and all of its stages have the bonds of its start") {
     CHECK(step.time == of.now.time + h);
     CHECK(least == 1);
   }
-}
-
-TEST_CASE("at the end of a step filters see the move first, then the velocity that it left") {
-  DynamicsSpecimen of;
-  struct Call {
-    double from, to, length;
-    State at;
-    PerParticle3 given;
-  };
-  std::vector<Call> calls;
-  of.system.filters.emplace_back(CustomFilter{[&](const Span& span, const State& s, auto& v) {
-    calls.push_back({span.start, span.end, span.step, s, v});
-    v.leftCols(2) *= 0.8;
-  }});
-  const double t = of.now.time, end = t + h;
-  PerParticle3 move = columns(uneven_matrix(12, 1.1, 0.3).col(2)),
-               last = columns(uneven_matrix(12, 0.8, 4.3).col(5));
-  Work work;
-  const State step = finish_step(of.system, of.now, h, {move, last}, work);
-  move.col(of.prescribed) = (of.path(end) - of.now.x.col(of.prescribed)) / h;
-  last.leftCols(2) -= 0.2 * move.leftCols(2);
-  last.col(of.prescribed) = of.path_velocity(end);
-  REQUIRE(calls.size() == 2);
-  const auto expect = [](const Call& call, double from, double to, const PerParticle3& given) {
-    CHECK(std::tuple(call.from, call.to, call.length) == std::tuple(from, to, h));
-    CHECK(call.at.time == from);
-    CHECK(difference(call.given, given) < 1e-14);
-  };
-  expect(calls[0], t, end, move);
-  expect(calls[1], end, end, last);
-  CHECK(calls[0].at.x == of.now.x);
-  CHECK(calls[0].at.v == of.now.v);
-  CHECK(difference(calls[1].at.v, last) < 1e-14);
-  CHECK(calls[1].at.x == step.x);
-  move.leftCols(2) *= 0.8;
-  last.leftCols(2) *= 0.8;
-  CHECK(difference(step.x, of.now.x + h * move) < 1e-14);
-  CHECK(difference(step.v, last) < 1e-14);
 }

@@ -1,7 +1,6 @@
 // Self-collision: pairs of features, repulsion, and rims.
 #include <catch2/catch.hpp>
 
-#include "reference/filters/approach.h"
 #include "reference/filters/feature_pair.h"
 #include "reference/filters/repulsion.h"
 #include "reference/filters/self_collision.h"
@@ -54,8 +53,6 @@ TEST_CASE("particles are tangled in triangles that cross, and pairs whose partic
 
 namespace {
 
-const FeaturePair vertex_over_triangle{PairKind::vertex_triangle, {0, 1, 2, 3}};
-
 /// How many of the pairs repel each other weakly at rest, in a step of 0.5.
 long count_repelled(const std::vector<FeaturePair>& pairs, const PerParticle3& x,
                     double thickness = 0.5, int threads = 1) {
@@ -73,24 +70,6 @@ PerParticle3 columns(std::initializer_list<Vector3> of) {
 
 }  // namespace
 
-TEST_CASE("pairs repel below the thickness and apart, two edges if they are nearest inside both") {
-  const auto vertex = [](double height, double thickness) {
-    return count_repelled({vertex_over_triangle},
-                          columns({{0.5, 0.5, height}, {0, 0, 0}, {2, 0, 0}, {0, 2, 0}}),
-                          thickness);
-  };
-  CHECK(vertex(0.25, 0.2500001) == 1);
-  CHECK(vertex(0.25, 0.25) == 0);
-  CHECK(vertex(0, 0.25) == 0);
-  const auto edges = [](double x, double y) {
-    return count_repelled({{PairKind::edge_edge, {0, 1, 2, 3}}},
-                          columns({{-1, 0, 0}, {2, 0, 0}, {x, y, 0.25}, {x, 2, 0.25}}));
-  };
-  CHECK(edges(0.5, -1) == 1);
-  CHECK(edges(0.5, 0.125) == 0);
-  CHECK(edges(2.125, -1) == 0);
-}
-
 TEST_CASE("a vertex bears load over a rim only if no triangle is nearer") {
   // two sides of a roof with the ridge 1-2
   const FeaturePair side{PairKind::vertex_triangle, {0, 1, 2, 3}},
@@ -105,18 +84,6 @@ TEST_CASE("a vertex bears load over a rim only if no triangle is nearer") {
   CHECK(bearing({side, other}, {1, 0.25, 0}) == 1);
   CHECK(bearing({other, side}, {1, 0.25, 0}) == 1);
   CHECK(bearing({other}, {1, 0.25, 0}) == 1);
-}
-
-TEST_CASE("neither an edge nor another vertex takes away the load that a vertex bears at a rim") {
-  // vertex 0 stands beyond the rim of 1-2-3, 0.25 away; its edge 0-4 crosses the edge 5-6 0.125
-  // above; vertex 7 is nearer to the triangle
-  PerParticle3 x(3, 8);
-  x << 1, 0, 2, 1, 1, 0, 2, 0.5, -0.25, 0, 0, 2, -2.25, -1.25, -1.25, -0.0625, 0, 0, 0, 0, 0, 0.125,
-      0.125, 0;
-  const FeaturePair rim{PairKind::vertex_triangle, {0, 1, 2, 3}},
-      edges{PairKind::edge_edge, {0, 4, 5, 6}}, nearer{PairKind::vertex_triangle, {7, 1, 2, 3}},
-      far{PairKind::vertex_triangle, {4, 1, 2, 3}}, at_an_end{PairKind::edge_edge, {0, 4, 1, 2}};
-  CHECK(count_repelled({far, at_an_end, edges, far, rim, at_an_end, nearer}, x, 0.5, 3) == 3);
 }
 
 namespace {
@@ -136,15 +103,6 @@ TEST_CASE("an edge without length is touched at its first end") {
   CHECK(at.distance == Approx(0.5 * along.norm()));
 }
 
-TEST_CASE("of points that are equally near, those at the first end stay") {
-  const auto edges = [](double a, double b, double c, double d) {
-    return Eigen::Vector4d(
-        nearness(PairKind::edge_edge, columns({a, 0, 0}, {b, 0, 0}, {c, 0, 2}, {d, 0, 2})).weights);
-  };
-  CHECK(edges(0, 4, 1, 3) == Eigen::Vector4d(0.75, 0.25, -1, 0));
-  CHECK(edges(1, 3, 0, 4) == Eigen::Vector4d(1, 0, -0.75, -0.25));
-}
-
 TEST_CASE("features that touch are at no distance and have no normal") {
   const Nearness vertex = nearness(PairKind::vertex_triangle,
                                    columns({1, 2, 0.5}, {0, 0, 0.5}, {4, 0, 0.5}, {0, 4, 0.5}));
@@ -154,39 +112,5 @@ TEST_CASE("features that touch are at no distance and have no normal") {
         nearness(PairKind::edge_edge, Corners4::Constant(0.3))}) {
     CHECK(at.distance == 0);
     CHECK(at.normal == Vector3::Zero());
-  }
-}
-
-TEST_CASE("an approach is reported halfway between the distance kept and one half more") {
-  for (const PairKind kind : {PairKind::vertex_triangle, PairKind::edge_edge}) {
-    // the first feature sinks by `way` against the second in a parallel plane, `height` below it,
-    // and both drift: one plane parts them
-    const auto approach = [&](double height, double way) {
-      const bool is_vertex = kind == PairKind::vertex_triangle;
-      const Corners4 x =
-          is_vertex ? columns({0.5, 0.25, height}, {0, 0, 0}, {2, 0, 0}, {0, 2, 0})
-                    : columns({-1, 0.5, height}, {2, 0.5, height}, {0.5, -1, 0}, {0.5, 2, 0});
-      Corners4 displacement = Corners4::Zero();
-      displacement.leftCols(is_vertex ? 1 : 2).row(2).setConstant(-way);
-      return first_approach(kind, x.colwise() + Vector3(0.5, -0.75, 3),
-                            displacement.colwise() + Vector3(-0.25, 2, 4), 0.125);
-    };
-    // far: kept 0.125, reported within 0.1875, the plane's gap 0.15625
-    const std::optional<Approach> met = approach(0.875, 0.75);
-    REQUIRE(met);
-    CHECK(met->time == 0.71875 / 0.75);
-    CHECK(met->at.distance == Approx(0.15625).epsilon(1e-14));
-    CHECK(met->at.normal == Vector3(0, 0, 1));
-    for (const double way : {0.71875, 0.5, 0.0, -3.0})  // the first ends there
-      CHECK_FALSE(approach(0.875, way));
-    // between one and two such distances half of the rest may be used up; nearer, half is kept
-    for (const auto& [height, reached] : {std::pair(0.15625, 0.1328125), std::pair(0.125, 0.078125),
-                                          std::pair(0.0625, 0.0390625), std::pair(0.0, 0.0)}) {
-      const std::optional<Approach> near = approach(height, 1);
-      REQUIRE(near);
-      CHECK(near->time == Approx(height - reached).epsilon(1e-14));
-      if (height > 0) CHECK_FALSE(approach(height, 0.02));
-    }
-    CHECK(approach(0, 0));  // touching features have nothing left to keep
   }
 }

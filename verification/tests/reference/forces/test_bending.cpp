@@ -43,24 +43,3 @@ TEST_CASE("a hinge folded flat onto itself has a bound, though its sine may roun
     CHECK(rows.minCoeff() > 0);
   }
 }
-
-TEST_CASE("bending refuses constants, angles and laws that mean nothing") {
-  const TriangleMesh mesh = make_sheet({SheetPattern::one_diagonal, 1.3, 0.7, 2, 1});
-  const auto refused = [&](const BendingMaterial& material, const std::vector<double>& angles,
-                           const char* why) {
-    CHECK_THROWS_WITH(make_bending(mesh, material, angles), Catch::Contains(why));
-  };
-  for (const double good : {0.0, 1e-300, 0.4})
-    CHECK(make_bending(mesh, material_of(good, good), {pi, -pi, 0.1}).hinges.size() == 3);
-  for (const double bad : {-1e-300, -2.0, std::nan("")}) {
-    refused(material_of(bad, 0.3), {0.3, 0.1, 0.2}, "stiffness");
-    refused(material_of(0.3, bad), {0.3, 0.1, 0.2}, "damping");
-  }
-  for (const double bad : {std::nextafter(pi, 4), std::nextafter(-pi, -4), std::nan("")})
-    refused(material_of(0.3, 0.3), {0.3, 0.1, bad}, "[-pi, pi]");
-  refused(material_of(0.3, 0.3), {0.3, 0.1}, "2 rest angles given for 3");
-  refused(material_of(0.3, 0.3), {0.3, 0.1, 0.2, 0.4}, "4 rest angles given for 3");
-  BendingMaterial unknown;
-  unknown.law = "linear";
-  refused(unknown, {0.3, 0.1, 0.2}, "'linear'");
-}

@@ -1,6 +1,5 @@
 // Bonds of sticking: where they form, when they break, and in what order they are kept.
 #include <catch2/catch.hpp>
-#include <cmath>
 #include <tuple>
 
 #include "reference/forces/sticking.h"
@@ -35,32 +34,7 @@ std::vector<Key> updated(const Sticking& sticking, State& s) {
   return list;
 }
 
-const double beyond_half = std::nextafter(0.5, 1), beyond_quarter = std::nextafter(0.25, 1);
-
 }  // namespace
-
-TEST_CASE("bonds form within the near distance, at it, and not beyond, where the particle is") {
-  // particles 1 and 3 are within reach; 0 and 2 are not, 4 does not stick
-  State s = state_of(PerParticle3{{0.25, 0.25, 0.25, 0.5, 0.25},
-                                  {0.25, 0.25, 0.25, 0.125, 0.25},
-                                  {beyond_quarter, 0.25, -beyond_quarter, -0.125, 0.125}});
-  CHECK(updated(Sticking{{palm({2, 3, 1, 0}, 0.25, 0.0625)}}, s) ==
-        std::vector<Key>{{0, 1, 0}, {0, 3, 0}});
-  CHECK(s.bonds[0].place == Vector3(0.25, 0.25, 0.25));
-  CHECK(s.bonds[1].place == Vector3(0.5, 0.125, -0.125));
-}
-
-TEST_CASE("bonds break beyond the far distance, not at it, and each particle's by itself") {
-  // all stick to (0.25, 0.25, 0), from distances up to more than 0.5, and too far to bond again
-  const Vector3 place(0.25, 0.25, 0);
-  State s = state_of(
-      PerParticle3{
-          {0.25, 0.25, 0.25, 0.25}, {0.25, 0.25, 0.25, 0.25}, {beyond_half, 0.5, -0.375, -0.75}},
-      {{0, 0, 0, place}, {0, 0, 1, place}, {0, 0, 2, place}, {0, 0, 3, place}});
-  CHECK(updated(Sticking{{palm({0, 1, 2, 3}, 0.125, 0.5)}}, s) ==
-        std::vector<Key>{{0, 1, 0}, {0, 2, 0}});
-  for (const Bond& bond : s.bonds) CHECK(bond.place == place);
-}
 
 TEST_CASE("a particle's bonds to a patch break together, and hold while their mean is near") {
   StickyPatch two = palm({0, 1}, 0.125, 0.5);

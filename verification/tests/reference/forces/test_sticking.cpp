@@ -67,23 +67,6 @@ double slope_of(const StickyPatch& patch, double d) {
 
 }  // namespace
 
-TEST_CASE("the energy and the slope of the stiffness fall as it does during the release") {
-  State s = state();
-  s.bonds.resize(1);
-  Sticking all = sticking();
-  const StickyTarget full = all.targets_at(s)[0];
-  const double energy = all.energy(s);
-  all.patches[0].until = 2.25;
-  for (const auto& [time, release, fraction] :
-       {std::tuple{2.3, 0.0, 1.0}, {1.75, 0.5, 1.0}, {2.0, 0.5, 0.5625}, {2.5, 0.5, 0.0}}) {
-    s.time = time;
-    all.patches[0].release = release;
-    CHECK(all.targets_at(s)[0].stiffness == Approx(fraction * full.stiffness));
-    CHECK(all.targets_at(s)[0].stiffness_slope == Approx(fraction * full.stiffness_slope));
-    CHECK(all.energy(s) == Approx(fraction * energy));
-  }
-}
-
 TEST_CASE("the semidefinite derivative of sticking never pushes along its springs") {
   const auto product = [](const Sticking& of, const State& s, const Vector3& direction) {
     ForceDifferential K;
@@ -111,16 +94,4 @@ TEST_CASE("the semidefinite derivative of sticking never pushes along its spring
   // at its target a spring has one stiffness in all directions
   const Sticking one{{patch({{0, 1, 2}}, 8, 0, 0.7)}};
   CHECK(agree(product(one, state_at_target(one), u), -8 * u, 1e-14));
-}
-
-TEST_CASE("the shortest forecast is that of the patches that have bonds") {
-  State s = state();
-  const std::vector<Bond> bonds = s.bonds;
-  for (const auto& [first, last, expected] :
-       {std::tuple{0, 8, 0.0}, {0, 5, 0.23}, {3, 5, 0.41}, {7, 8, 1.0}}) {
-    s.bonds.assign(bonds.begin() + first, bonds.begin() + last + 1);
-    CHECK(sticking().shortest_forecast(s) == expected);
-  }
-  s.bonds.clear();
-  CHECK(std::isinf(sticking().shortest_forecast(s)));
 }

@@ -98,21 +98,6 @@ TEST_CASE("a triangle without area moves its surroundings as its first corner mo
     for (const Vector3& u : nodes) CHECK((u - Vector3(0.03, 0, 0)).norm() < 1e-15);
 }
 
-TEST_CASE("a mesh sequence has frames of equally many vertices at times that rise") {
-  const auto refused = [](const std::vector<double>& times, int vertices, const char* text) {
-    const PerParticle3 last = PerParticle3::Constant(3, vertices, 0.4);
-    CHECK_THROWS_WITH(make_deforming_body({four_faces, times, {irregular(), irregular(), last}},
-                                          sampling, BetweenFrames::carried),
-                      Contains(text));
-  };
-  refused({}, 4, "it needs a frame");
-  refused({0.3, 0.5}, 4, "a time for each");
-  refused({0.3, 0.3, 0.5}, 4, "frame 1: the times must rise");
-  refused({0.3, 0.5, NAN}, 4, "frame 2: the times must rise");
-  refused({0.3, 0.5, 1.1}, 3, "frame 2: it must have as many vertices as the first");
-  refused({0.3, 0.5, 1.1}, 5, "frame 2: it must have as many vertices as the first");
-}
-
 TEST_CASE("frames that intersect themselves are the union, by their winding number") {
   const TriangleMesh ball = make_icosphere(0.15, 3);
   const auto frame = [&](double apart) {

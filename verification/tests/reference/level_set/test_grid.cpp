@@ -1,10 +1,9 @@
 // Level sets on grids: lattices, and marching.
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <stdexcept>
 
+#include "reference/level_set/fast_marching.h"
 #include "reference/level_set/grid.h"
-#include "reference/level_set/mesh_grid.h"
 
 using namespace foldproof;
 
@@ -33,24 +32,6 @@ TEST_CASE("a lattice has whole cells all round its bounds, a rounding adds none"
   check({4, 0.7, 0}, 4, 1, {4, 1, 1});
   check({4, 3 + 1e-10, 3 + 1e-7}, 4, 1, {4, 3, 4});
   check({0.01, 0, 0}, 4, 1, {4, 1, 1});
-}
-
-TEST_CASE("a lattice needs extent, 4 to 2^20 cells and a margin of 1 to 2^20") {
-  constexpr int most = 1 << 20;
-  const Vector3 low(0.5, 0.25, 0.75);
-  const Bounds needle(Vector3(0, 0, 0), Vector3(3, 0, 0));
-  CHECK(lattice_about(needle, most, 1).nodes == Node{most + 3, 4, 4});
-  const auto refused = [](const Bounds& bounds, int cells, int margin, const char* text) {
-    CHECK_THROWS_WITH(lattice_about(bounds, cells, margin), Contains(text));
-  };
-  refused(needle, 3, 2, "give at least 4 and 1");
-  refused(needle, 5, 0, "give at least 4 and 1");
-  refused(needle, most + 1, 1, "at most 2^20");
-  refused(needle, 4, most, "2^30 nodes at most");
-  refused(needle, 4, most + 1, "at most 2^20");
-  refused(Bounds(low, low), 4, 1, "no extent");
-  refused(Bounds(), 4, 1, "no extent");
-  refused(Bounds(low, Vector3(INFINITY, 1, 1)), 4, 1, "no extent");
 }
 
 TEST_CASE("a lattice has at most 2^30 nodes") {
@@ -86,26 +67,4 @@ TEST_CASE("marching takes differences of second order where values fall towards 
   CHECK(last(1.25, 1, MarchingOrder::second) == 3);
   CHECK(last(-0.25, 1, MarchingOrder::second) == 3);  // on the other side
   CHECK(last(0, 1, MarchingOrder::second) == Approx(8.0 / 3).epsilon(1e-15));
-}
-
-TEST_CASE("marching leaves out neighbours that are no upwind ones, and takes the nearer of two") {
-  const Lattice lattice{{0, 0, 0}, 1, {3, 3, 1}};
-  const auto middle = [&](double left, double right, double below) {
-    return march(lattice, {{3, 5, 1}, {left, right, below}}, MarchingOrder::first).phi[4];
-  };
-  CHECK(middle(0.25, 0.5, 1.5) == 1.25);
-  CHECK(middle(0.5, 0.25, 1.25) == 1.25);
-  const double root = 0.5 * (0.25 + 0.75 + std::sqrt(2 - 0.25));
-  CHECK(middle(0.25, 0.5, 0.75) == Approx(root).epsilon(1e-15));
-  CHECK(middle(0.5, 0.25, 0.75) == Approx(root).epsilon(1e-15));
-}
-
-TEST_CASE("marching needs seeds, which part inside from outside, -0 being inside") {
-  const Lattice lattice{{0.3, 0.7, -0.2}, 0.5, {3, 4, 3}};
-  const Seeds inside{{lattice.index({1, 1, 1})}, {-0.0}},
-      seeds{{lattice.index({1, 1, 1}), lattice.index({1, 2, 1})}, {-0.0, 0.5}};
-  CHECK(march(lattice, inside, MarchingOrder::first).phi[lattice.index({1, 2, 1})] ==
-        Approx(-0.5).epsilon(1e-15));
-  CHECK_THROWS_AS(march(lattice, seeds, MarchingOrder::first), std::logic_error);
-  CHECK_THROWS_WITH(march(lattice, {}, MarchingOrder::first), Contains("give a finer grid"));
 }

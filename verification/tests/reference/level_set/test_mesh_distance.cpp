@@ -1,7 +1,6 @@
 // The distance to a mesh: its normals, its search with a bound, and what is on the surface.
 #include <catch2/catch.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -13,7 +12,6 @@ using Catch::Contains;
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 const std::vector<Triangle> tetrahedron{{0, 1, 3}, {1, 2, 3}, {2, 0, 3}, {1, 0, 2}};
 
@@ -62,33 +60,6 @@ TEST_CASE("a search is within its bound, and of equal triangles the first is nea
   x << 0, 4, 0, 0, 4, 0, 0, 0, 4, 0, 0, 4, 1, 1, 1, -1, -1, -1;
   const MeshDistance two = make_mesh_distance(x, {{0, 1, 2}, {3, 4, 5}});
   CHECK(nearest_feature(two, {1, 1, 0}, infinity).triangle == 0);
-}
-
-TEST_CASE("a mesh's distance has the side of the nearest feature's normal, and is +0 on it") {
-  const MeshDistance mesh = lone_triangle();
-  for (const double above : {-2.5, 0.0, 0.25}) {
-    const Distance found = mesh.at({1, 1, 3 + above});
-    CHECK(found.phi == above);
-    CHECK(std::signbit(found.phi) == (above < 0));
-    CHECK((found.normal - Vector3(0, 0, 1)).norm() < 1e-15);
-  }
-}
-
-TEST_CASE("up to its resolution a mesh's normal is the feature's, beyond it points to p") {
-  PerParticle3 x = irregular();
-  x.col(3) = Vector3(0, 0, 8);  // resolution 2^-45
-  const MeshDistance mesh = make_mesh_distance(x, tetrahedron);
-  REQUIRE(mesh.resolution == 128 * epsilon);
-  const int of = int(std::ranges::find(mesh.tree.order, 0) - mesh.tree.order.begin());
-  const Vector3 apex = mesh.normals[of][2];  // the first triangle's last corner
-  const Vector3 up(0, 0, 1);
-  REQUIRE((apex - up).norm() > 1e-3);
-  const Distance at_limit = mesh.at(Vector3(0, 0, 8) + mesh.resolution * up);
-  CHECK(at_limit.phi == mesh.resolution);
-  CHECK((at_limit.normal - apex).norm() < 1e-12);
-  const Distance beyond = mesh.at(Vector3(0, 0, 8) + 2 * mesh.resolution * up);
-  CHECK(beyond.phi == 2 * mesh.resolution);
-  CHECK((beyond.normal - up).norm() < 1e-14);
 }
 
 TEST_CASE("a mesh without triangles has no distance, nor has a place that is none") {

@@ -22,15 +22,6 @@ DistanceFunction constant(double phi) {
 
 }  // namespace
 
-TEST_CASE("a cell whose corners just reach a surface counts as holding it") {
-  const double half = 0.25 * std::sqrt(3.0);  // of the diagonal of half the cube [m]
-  const auto branches = [](double phi) {
-    return make_octree({constant(phi)}, sampling(3)).branches.size();
-  };
-  CHECK(branches(half) == 9);
-  CHECK(branches(std::nextafter(half, 1.0)) == 1);
-}
-
 TEST_CASE("a cell is split where it misses by more than is allowed, not by just as much") {
   // 8, and 1/4 more at odd nodes along x
   const DistanceFunction bumps = [](const Vector3& p) {
@@ -54,33 +45,6 @@ TEST_CASE("a cell is split where it misses by more than is allowed, not by just 
   CHECK(branches(0.25, 0.125, 20) == 1);
 }
 
-TEST_CASE("a part needs a channel within reach, or unless another is nowhere farther") {
-  BranchNodes<double> near, far;
-  near.fill(0.5);
-  far.fill(0.75);
-  CHECK(needs_channel({near, far}, 0, 0));
-  CHECK_FALSE(needs_channel({near, far}, 1, 0.625));
-  CHECK_FALSE(needs_channel({far, near}, 0, 0));
-  for (const int n : {0, 13, 26}) {
-    BranchNodes<double> reaching = far, crossing = far, touching = far, other = near, third = near;
-    reaching[n] = 0.625;
-    crossing[n] = 0.25;
-    touching[n] = 0.5;
-    CHECK(needs_channel({near, reaching}, 1, 0.625));
-    CHECK_FALSE(needs_channel({near, reaching}, 1, std::nextafter(0.625, 0.0)));
-    CHECK(needs_channel({near, crossing}, 1, 0));
-    CHECK(needs_channel({near, crossing}, 0, 0));
-    CHECK_FALSE(needs_channel({near, touching}, 1, 0));
-    // each of two others is farther somewhere
-    other[n] = third[(n + 5) % 27] = 1;
-    CHECK(needs_channel({other, third, far}, 2, 0));
-    CHECK_FALSE(needs_channel({other, near, far}, 2, 0));
-  }
-  // of parts alike at all nodes the first has the channel
-  for (int part = 0; part < 3; ++part)
-    CHECK(needs_channel({near, near, near}, std::size_t(part), 0) == (part == 0));
-}
-
 namespace {
 
 /// One branch with one channel for each function of the node's position.
@@ -99,26 +63,7 @@ Octree single_branch(const std::vector<std::function<double(const Vector3&)>>& p
   return tree;
 }
 
-/// Planes x = 1, y = 2 and z = 3, each with the solid below it.
-Octree three_planes() {
-  return single_branch({[](const Vector3& p) { return p.x() - 1; },
-                        [](const Vector3& p) { return p.y() - 2; },
-                        [](const Vector3& p) { return p.z() - 3; }});
-}
-
 }  // namespace
-
-TEST_CASE("of parts at one distance the first channel is nearest, and none contains its surface") {
-  const Octree tree = three_planes();
-  const Vector3 p(1.5, 2.5, 3.5);
-  CHECK(tree.at(p).phi == 0.5);
-  CHECK(tree.at(p).normal == Vector3(1, 0, 0));
-  CHECK(nearest_parts(tree, p).first_part == 10);
-  CHECK(nearest_parts(tree, p).second_part == 11);
-  CHECK(nearest_parts(tree, {1, 2.5, 3.5}).inside == 0);
-  CHECK(nearest_parts(tree, {1, 1.5, 3.5}).inside == 1);
-  CHECK(nearest_parts(tree, {0.5, 1.5, 2.5}).inside == 3);
-}
 
 TEST_CASE("a cell without slope has a normal, as has a point on the surface beyond the cube") {
   const Vector3 p(1.3, 2.7, 3.9);
@@ -132,17 +77,6 @@ TEST_CASE("a cell without slope has a normal, as has a point on the surface beyo
     CHECK(tree.at({x, 2, 3}).normal == Vector3(1, 0, 0));
   }
   CHECK(std::isnan(tree.at({0.3, NAN, 2.5}).phi));
-}
-
-TEST_CASE("a node on the surfaces of two parts belongs to the first and is not pinched") {
-  const Octree tree = single_branch({[](const Vector3& p) { return p.x() - 1.25; },
-                                     [](const Vector3& p) { return p.y() - 2.5; }});
-  const NodeFlags centre = node_flags(tree, 0)[13];
-  CHECK(centre.part == 10);
-  CHECK_FALSE(centre.pinched);
-  CHECK(node_flags(tree, 0)[0].pinched);
-  CHECK_FALSE(node_flags(tree, 0)[3].pinched);  // y at the surface
-  CHECK_FALSE(node_flags(tree, 0)[26].pinched);
 }
 
 namespace {
@@ -174,44 +108,6 @@ void check_boundary(const Vector3& eighths, int depth, bool is_on_boundary) {
 }
 
 }  // namespace
-
-TEST_CASE("an octree's settings are rejected beyond their limits") {
-  struct Limit {
-    std::function<void(OctreeSettings&, double)> set;
-    std::vector<double> good, bad;
-  };
-  const std::vector<Limit> limits = {
-      {[](auto& s, double v) { s.depth = int(v); }, {1, 20}, {0, 21}},
-      {[](auto& s, double v) { s.surface_depth = int(v); }, {0, 2}, {-1, 3}},
-      {[](auto& s, double v) { s.width = v; }, {0.01}, {0, NAN}},
-      {[](auto& s, double v) { s.tolerance = v; }, {1e-300}, {0, NAN}},
-      {[](auto& s, double v) { s.band = v; }, {0}, {-1e-300, NAN}},
-      {[](auto& s, double v) { s.beyond = v; }, {0}, {-1e-300, NAN}},
-      {[](auto& s, double v) { s.reach = v; }, {0}, {-1e-300, NAN}}};
-  for (const Limit& limit : limits) {
-    OctreeSettings settings = usable();
-    for (const double good : limit.good) {
-      limit.set(settings, good);
-      CHECK_NOTHROW(make_octree({constant(5)}, settings));
-    }
-    for (const double bad : limit.bad) {
-      limit.set(settings, bad);
-      CHECK_THROWS_AS(make_octree({constant(5)}, settings), InputError);
-    }
-  }
-}
-
-TEST_CASE("an octree covers 1 to 255 bodies, each with a channel if it needs one") {
-  OctreeSettings settings = usable();
-  settings.reach = 6;
-  const Octree tree = make_octree(std::vector<DistanceFunction>(255, constant(5)), settings);
-  CHECK(int(tree.branches[0].parts) == 255);
-  CHECK(tree.part.back() == 254);
-  const std::string message = "octree: there must be 1 to 255 bodies";
-  CHECK_THROWS_WITH(make_octree(std::vector<DistanceFunction>(256, constant(5)), settings),
-                    Contains(message));
-  CHECK_THROWS_WITH(make_octree({}, settings), Contains(message));
-}
 
 TEST_CASE("a body that reaches a node of the cube's boundary is refused, one inside is not") {
   for (int x = 0; x <= 8; x += 4)

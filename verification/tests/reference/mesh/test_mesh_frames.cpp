@@ -2,7 +2,6 @@
 #include <catch2/catch.hpp>
 #include <cstdint>
 #include <cstring>
-#include <filesystem>
 
 #include "reference/level_set/deforming.h"
 #include "reference/mesh/mesh_frames.h"

@@ -4,7 +4,6 @@
 #include <catch2/catch.hpp>
 #include <cstdint>
 #include <cstring>
-#include <filesystem>
 
 #include "reference/mesh/mesh_reading.h"
 #include "verification/specimens/scratch_folder.h"
@@ -212,26 +211,4 @@ TEST_CASE("PLY files are refused in a line that says what is wrong") {
       text.replace(text.find(from), from.size(), word);
       CHECK_THAT(said_of_ply(text), Catch::StartsWith(said));
     }
-}
-
-TEST_CASE("a PLY file holds 64 elements and properties, 4 million triangles, 256 MiB") {
-  std::string more = "comment " + std::string(4096 - 8, 'c') + "\n";
-  for (int k = 0; k < 29; ++k) more += "element e" + std::to_string(k) + " 0\nproperty int p\n";
-  CHECK(said_of_ply(ascii(more, 1, one_face)) == "");
-  CHECK(said_of_ply(ascii(more + "element z 0\n", 1, one_face)).starts_with(":69: more than 64"));
-  CHECK(said_of_ply(ascii("comment c" + more.substr(8), 1, one_face)).starts_with(":3: a line"));
-  const auto polygon = [](std::uint32_t count) {
-    return binary_start(false) +
-           "element vertex 1\nproperty char x\nproperty char y\nproperty char z\nelement face 1\n"
-           "property list uint char vertex_indices\nend_header\nxyz" +
-           bytes_of(count, false) + std::string(count, '\0');
-  };
-  CHECK(read(polygon(4'000'002)).soup.triangles.size() == 4'000'000);
-  CHECK(said_of_ply(polygon(4'000'003)).starts_with(": more than 4000000 triangles"));
-  const ScratchFolder folder;
-  const std::string path = folder.write("t.ply", ascii("", 1, one_face));
-  CHECK(read_mesh_file(path).soup.origin.file == path);
-  std::filesystem::resize_file(path, (1 << 28) + 1);  // a file of holes
-  CHECK_THROWS_WITH(read_mesh_file(path),
-                    Catch::StartsWith(path + ": longer than 268435456 bytes"));
 }

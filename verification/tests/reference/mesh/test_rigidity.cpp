@@ -1,6 +1,5 @@
 // Rigidity of flat meshes, against hinges that are bent by a little.
 #include <Eigen/Dense>
-#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -48,13 +47,6 @@ double bent_energy(const TriangleMesh& mesh, const RestPlane& plane, const Eigen
   return 2 * energy / area;
 }
 
-/// Bending that only feels curvature along `angle`: D = cos^4 of the angle from there.
-Rigidity along_only(double angle, double strength) {
-  const double c = std::cos(angle), s = std::sin(angle);
-  const Eigen::Vector3d q(c * c, s * s, c * s);
-  return {strength * q * q.transpose()};
-}
-
 }  // namespace
 
 TEST_CASE("the rigidity of a flat mesh is that of its hinges when it is bent by a little") {
@@ -70,43 +62,6 @@ TEST_CASE("the rigidity of a flat mesh is that of its hinges when it is bent by 
     CHECK(k.dot(R * k) == Approx(bent_energy(mesh, plane, k)).epsilon(1e-7));
 }
 
-TEST_CASE("a particle with three hinges has a rigidity, one with two has none") {
-  PerParticle3 x(3, 7);  // a strip of five triangles
-  x << 0, 0.4, 1, 1.5, 2.1, 2.4, 3.2, 0, 0.9, 0.1, 1.1, -0.1, 1, 0.2, 0, 0, 0, 0, 0, 0, 0;
-  const TriangleMesh strip =
-      make_triangle_mesh(x, {{0, 2, 1}, {1, 2, 3}, {2, 4, 3}, {3, 4, 5}, {4, 6, 5}});
-  const std::vector<RigidityExtremes> around = rigidity_around_particles(strip);
-  for (const size_t v : {0u, 1u, 5u, 6u}) CHECK(std::isnan(around[v].least + around[v].greatest));
-  TriangleMesh part = strip;  // with the hinges around particle 2 alone
-  part.hinges.pop_back();
-  RestPlane plane;
-  REQUIRE(is_flat(part, plane));
-  CHECK(around[2].greatest == Approx(extremes_of(rigidity_of(part, plane)).greatest));
-}
-
-TEST_CASE("a strip has no rigidity where the matrix is singular, to 1e-12 of its trace cubed") {
-  // determinant 3 d, trace 4
-  const auto diagonal = [](double d) { return Rigidity{Eigen::Vector3d(1, d, 3).asDiagonal()}; };
-  const double limit = 1e-12 * 64 / 3;
-  CHECK(std::isnan(diagonal(0.99 * limit).of_strip(0.4)));
-  CHECK(diagonal(1.01 * limit).of_strip(0.4) > 0);
-  CHECK(std::isnan(diagonal(-2).of_strip(0.4)));
-  CHECK(diagonal(2).of_strip(pi / 4) == Approx(4 / (1 + 1.0 / 2 + 1.0 / 3)));
-}
-
-TEST_CASE("extremes are those of 180 directions, the first and the last included") {
-  for (const int degrees : {0, 1, 37, 90, 178, 179}) {
-    const RigidityExtremes found = extremes_of(along_only(degrees * pi / 180, 0.3));
-    CHECK(found.greatest == Approx(0.3));
-    CHECK(found.greatest_angle == Approx(degrees * pi / 180).margin(1e-12));
-    CHECK(found.least == Approx(0).margin(1e-12));
-  }
-  // c^4 + s^4 is 1 both at 0 and at 90 degrees, 1/2 between
-  const RigidityExtremes twice = extremes_of({Eigen::Vector3d(1, 1, 0).asDiagonal()});
-  CHECK(twice.greatest_angle == 0);
-  CHECK(twice.anisotropy() == Approx(2));
-}
-
 TEST_CASE(
     "a mesh is flat if no particle is farther from its plane than a millionth of its extent") {
   RestPlane plane;
@@ -117,23 +72,6 @@ TEST_CASE(
     CHECK(is_flat(roof, plane) == (std::abs(height) < 1e-6));
   }
   CHECK_FALSE(is_flat(make_icosphere(1, 0), plane));
-}
-
-TEST_CASE(
-    "a plane's first direction is along x, or along y if x is within 45 degrees of the normal") {
-  for (const auto& [normal, first, second] : std::vector<std::array<Vector3, 3>>{
-           {Vector3(0, 0, 1), Vector3(1, 0, 0), Vector3(0, 1, 0)},
-           {Vector3(0.6, 0.8, 0), Vector3(0.8, -0.6, 0), Vector3(0, 0, -1)},
-           {Vector3(0.8, 0.6, 0), Vector3(-0.6, 0.8, 0), Vector3(0, 0, 1)},
-           {Vector3(-0.8, 0, 0.6), Vector3(0, 1, 0), Vector3(-0.6, 0, -0.8)}}) {
-    const Vector3 u = normal.unitOrthogonal(), from(0.3, 0.2, -7);
-    PerParticle3 x(3, 3);
-    x << from, from + 2 * u, from + 3 * normal.cross(u) + u;
-    RestPlane plane;
-    CHECK(is_flat(make_triangle_mesh(x, {{0, 1, 2}}), plane));
-    CHECK((plane.first - first).norm() < 1e-14);
-    CHECK((plane.second - second).norm() < 1e-14);
-  }
 }
 
 TEST_CASE("a pattern of springs has its own Young's modulus") {

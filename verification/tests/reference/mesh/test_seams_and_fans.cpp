@@ -56,10 +56,3 @@ TEST_CASE("what cannot be sewn is refused with its place, whichever two corners 
                       Catch::StartsWith("a.obj:5: a coordinate is not finite"));
   }
 }
-
-TEST_CASE("seams need a distance") {
-  const TriangleMesh sheet = make_sheet({SheetPattern::one_diagonal, 1, 1, 1, 1});
-  for (const double distance : {0.0, -1.0, double(INFINITY), double(NAN)})
-    CHECK_THROWS_WITH(close_seams({sheet.rest, sheet.triangles, {}}, distance),
-                      Catch::Contains("seams need a distance > 0 m"));
-}

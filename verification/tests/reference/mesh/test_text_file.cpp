@@ -24,12 +24,6 @@ std::string said_of(const std::string& text, const TextLimits& limits) {
   return "";
 }
 
-std::string lines_of(const std::vector<size_t>& lengths) {
-  std::string text;
-  for (const size_t length : lengths) text += std::string(length, 'a') + "\n";
-  return text;
-}
-
 }  // namespace
 
 TEST_CASE("a text comes back whole, with every kind of byte and line") {
@@ -39,19 +33,6 @@ TEST_CASE("a text comes back whole, with every kind of byte and line") {
   CHECK(said_of("", {0, 0}) == "");
   CHECK(said_of("\n\n\n", {3, 0}) == "");
   CHECK(said_of("no end of line", {14, 14}) == "");
-}
-
-TEST_CASE("texts and lines are read up to their limits, and refused from the next byte on") {
-  CHECK(said_of(lines_of({4, 3, 2}), {12, 9}) == "");
-  CHECK(said_of(lines_of({4, 3, 2}), {11, 9}).starts_with(": longer than 11 bytes"));
-  const size_t piece = 1 << 16;  // in which a file is read
-  const TextLimits limits{5 * piece, piece + 100};
-  const std::string said = ": a line of more than 65636 bytes";
-  CHECK(said_of(lines_of({piece - 50, piece + 100, 3, 2 * piece / 3, piece}), limits) == "");
-  CHECK(said_of(lines_of({piece - 50, piece + 101, 3}), limits).starts_with(":2" + said));
-  CHECK(said_of(lines_of({piece - 1, 3, piece - 4, piece + 101}), limits).starts_with(":4" + said));
-  CHECK(said_of(lines_of({3}) + std::string(piece + 100, 'z'), limits) == "");
-  CHECK(said_of(lines_of({3}) + std::string(piece + 101, 'z'), limits).starts_with(":2" + said));
 }
 
 TEST_CASE("what is no regular file is refused by its name") {

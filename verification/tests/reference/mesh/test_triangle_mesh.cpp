@@ -18,8 +18,6 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-const double infinity = std::numeric_limits<double>::infinity();
-
 /// Places in general position.
 PerParticle3 places(int count) {
   PerParticle3 x(3, count);
@@ -86,28 +84,6 @@ TEST_CASE("a triangle has area if it exceeds 1e-12 of its longest side squared")
       }
 }
 
-TEST_CASE("areas, heights, masses and lengths of two triangles are those worked out by hand") {
-  // right triangles of the sides 3, 4, 5 and 5, 12, 13 share the side 5
-  PerParticle3 x(3, 4);
-  x << 1, 4, 1, 4,  //
-      2, 2, 6, 2,   //
-      7, 7, 7, 19;
-  const TriangleMesh mesh = make_triangle_mesh(x, {{0, 1, 2}, {3, 2, 1}});
-  CHECK(triangle_areas(mesh.triangles, x).isApprox(Eigen::Vector2d(6, 30), 1e-15));
-  CHECK(lumped_masses(mesh, 0.7).isApprox(0.7 * Eigen::Vector4d(2, 12, 12, 10), 1e-14));
-  for (const double density : {0.0, infinity, std::nan("")})
-    CHECK_THROWS_WITH(lumped_masses(mesh, density), Contains("lumped_masses: density is "));
-  Eigen::VectorXd lengths(5), areas(5);  // of the edges 01, 02, 12, 13, 23
-  lengths << 3, 4, 5, 12, 13;
-  areas << 6, 6, 36, 30, 30;
-  CHECK(rest_lengths(mesh).isApprox(lengths, 1e-15));
-  CHECK(edge_areas(mesh).isApprox(areas, 1e-15));
-  CHECK(smallest_height(mesh.triangles, x) == Approx(12.0 / 5).epsilon(1e-15));
-  for (const Triangle& turned : {Triangle{3, 2, 1}, {2, 1, 3}, {1, 3, 2}})
-    CHECK(smallest_height({turned, {3, 2, 1}}, x) == Approx(60.0 / 13).epsilon(1e-15));
-  CHECK(smallest_height({}, x) == infinity);
-}
-
 namespace {
 
 double volume(const TriangleMesh& mesh) {
@@ -137,29 +113,6 @@ TEST_CASE("mesh: the even statue is clean, too, and its smallest triangle is lar
   CHECK_THROWS_WITH(make_even_statue(1.7, 14), Catch::Contains("give 15 to 256"));
 }
 
-TEST_CASE("what lies between two regions of a triangle belongs to its corner") {
-  const Corners3 corners{Vector3(0, 0, 0), Vector3(1, 0, 0), Vector3(0, 1, 0)};
-  const auto feature_at = [&](double x, double y) {
-    return nearest_on_triangle(corners, {x, y, 3}).feature;
-  };
-  CHECK(feature_at(0, -1) == Feature::a);
-  CHECK(feature_at(-1, 0) == Feature::a);
-  CHECK(feature_at(1, -1) == Feature::b);
-  CHECK(feature_at(2, 1) == Feature::b);
-  CHECK(feature_at(-1, 1) == Feature::c);
-  CHECK(feature_at(1, 2) == Feature::c);
-  // on the edges themselves
-  CHECK(feature_at(0.5, 0) == Feature::ab);
-  CHECK(feature_at(0, 0.5) == Feature::ca);
-  CHECK(feature_at(0.5, 0.5) == Feature::bc);
-  CHECK(feature_at(0.5, -1) == Feature::ab);
-  const NearestFeature within = nearest_on_triangle(corners, {0.5, 0.25, 3});
-  CHECK(within.triangle == -1);
-  CHECK(within.feature == Feature::face);
-  CHECK(within.point == Vector3(0.5, 0.25, 0));
-  CHECK(within.squared_distance == 9);
-}
-
 TEST_CASE("rays through edges and corners cross one triangle, on the lower sides of a cube") {
   // corners at nodes 1 and 4 of every row, or a hair above 4; each face of two triangles
   const double above = GENERATE(0.0, 5e-7);
@@ -180,18 +133,6 @@ TEST_CASE("rays through edges and corners cross one triangle, on the lower sides
     }
     CHECK(int(votes[size_t(index)]) == expected);
   }
-}
-
-TEST_CASE("disagreement: signs against the majority of rays, and rays against each other") {
-  Grid grid;
-  grid.lattice = {Vector3::Zero(), 1, {3, 2, 2}};
-  //          near the surface  on it   outside          inside
-  grid.phi = {0.2, -0.2, -0.1, 0, 0.3, 0.4, 0.5, 0.6, -0.3, -0.4, -0.5, -0.6};
-  const std::vector<std::uint8_t> parity{3, 0, 1, 1, 0, 1, 2, 3, 0, 1, 2, 3};
-  const Disagreement found = disagreement(grid, parity, grid.phi[0]);
-  CHECK(found.with_sign == std::vector<long>{6, 7, 8, 9});
-  CHECK(found.among_rays == std::vector<long>{5, 6, 9, 10});
-  CHECK(disagreement(grid, parity, -1).with_sign == std::vector<long>{0, 1, 2, 6, 7, 8, 9});
 }
 
 TEST_CASE("triangles of one plane intersect where only their edges cross") {

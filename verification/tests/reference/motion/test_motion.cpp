@@ -36,12 +36,6 @@ Vector3 expected_position(const Vector3& x, double t) {
          (std::sin(2 * pi * 0.37 * t + 0.6) - std::sin(0.6)) * m.amplitude;
 }
 
-Vector3 expected_velocity(const Vector3& x, double t) {
-  const Motion m = general_motion();
-  return m.angular_velocity.cross(arm_after(x, t)) + m.velocity +
-         2 * pi * 0.37 * std::cos(2 * pi * 0.37 * t + 0.6) * m.amplitude;
-}
-
 bool are_near(const Vector3& a, const Vector3& b) { return (a - b).norm() < 1e-14; }
 
 /// A quaternion that turns about `axis` by `angle` [rad].
@@ -64,25 +58,6 @@ Keyframes three_keys() {
 
 }  // namespace
 
-TEST_CASE("a motion and its pose turn about a centre, drift and swing while they act") {
-  for (const auto& [time, acted] : {std::pair{0.1, 0.0}, {0.9, 0.5}, {2.3, 1.3}})
-    for (const Vector3& x : {start, first_place}) {
-      CHECK(are_near(position_at(general_motion(), x, time), expected_position(x, acted)));
-      CHECK(are_near(to_world(pose_at(general_motion(), time), x), expected_position(x, acted)));
-    }
-}
-
-TEST_CASE("the velocity of a motion is that of its turn, drift and swing") {
-  const Motion motion = general_motion();
-  CHECK(are_near(velocity_at(motion, start, 0.9), expected_velocity(start, 0.9 - 0.4)));
-  CHECK(are_near(velocity_at(motion, start, 0.4), expected_velocity(start, 0)));
-  CHECK(velocity_at(motion, start, 1.7) == Vector3::Zero());
-  CHECK(velocity_at(motion, start, 0.39) == Vector3::Zero());
-  // of a body, at the point that is there now
-  const Vector3 x = expected_position(start, 0.5);
-  CHECK(are_near(velocity_at(RigidMotion(motion), x, 0.9), expected_velocity(start, 0.5)));
-}
-
 TEST_CASE("a start that is as far ahead as the tolerance counts as passed") {
   Motion motion = general_motion();
   motion.from = 0.5, motion.until = 1.75;
@@ -101,14 +76,6 @@ TEST_CASE("a start that is as far ahead as the tolerance counts as passed") {
   CHECK(ended.motion.velocity == Vector3::Zero());
 }
 
-TEST_CASE("a pose turns, then shifts, is undone in reverse, and of two the first acts first") {
-  const Pose pose{rotation_by(hinge, 1.1), first_place}, next{rotation_by(tilt, -0.7), tilt};
-  const Vector3 placed = turned(start, hinge, 1.1) + first_place;
-  CHECK(are_near(to_world(pose, start), placed));
-  CHECK(are_near(to_body(pose, start), turned(start - first_place, hinge, -1.1)));
-  CHECK(are_near(to_world(after(next, pose), start), turned(placed, tilt, -0.7) + tilt));
-}
-
 TEST_CASE("a turn between keyframes takes the short way, whichever sign its quaternions have") {
   Keyframes keys = three_keys();
   const Vector3 place = to_world(pose_at(keys, 0.45), start),
@@ -124,20 +91,6 @@ TEST_CASE("a turn between keyframes takes the short way, whichever sign its quat
   CHECK(are_near(place_after_turn(rotation_by(tilt, 4.1)),
                  turned(start, tilt, 0.25 * (4.1 - 2 * pi))));
   CHECK(are_near(place_after_turn({0, 0.6, 0, 0.8}), turned(start, {0.6, 0, 0.8}, pi / 4)));
-}
-
-TEST_CASE("times of keyframes must rise, and the first one that does not is named") {
-  const auto made = [](const std::vector<double>& times) {
-    std::vector<Keyframe> keys;
-    for (const double time : times) keys.push_back({time, {}});
-    return make_keyframes(keys);
-  };
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  CHECK_THROWS_WITH(made({}), Catch::Contains("at least one keyframe"));
-  for (const std::vector<double>& times :
-       std::vector<std::vector<double>>{{0.3, 0.3}, {0.3, 0.2, 0.9}, {0.3, nan}, {0.3, 0.7, 0.5}})
-    CHECK_THROWS_WITH(made(times), Catch::Contains(times[1] == 0.7 ? "keyframe 2" : "keyframe 1"));
-  CHECK(made({0.3, 0.300001, 0.7}).keys.size() == 3);
 }
 
 TEST_CASE("a body that does not turn stays in its place, wherever its centre is") {

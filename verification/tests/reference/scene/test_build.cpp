@@ -40,26 +40,3 @@ TEST_CASE("forces and filters come in their order, with the masses of the scene"
       "copies = { count = 2, move = [0, 0, 0] }\n[self_collision]\nthickness = 0.1\n");
   CHECK(std::get<SelfCollision>(build_system(tangled).filters.at(0)).at_start.size() == 4);
 }
-
-TEST_CASE("a deforming surface moves evenly from frame to frame, and rests outside", "[scene]") {
-  MeshSequence sequence{{{0, 1, 2}}, {0.25, 0.75, 1.75}, {}};
-  for (const double height : {1.0, 3.0, 2.0}) {
-    PerParticle3 x(3, 3);
-    x << 0, 1, 0, 0, 0, 1, height, 5, 5;
-    sequence.positions.push_back(x);
-  }
-  SceneObject part;
-  part.vertices = sequence.positions[0];
-  part.animation = std::make_shared<const MeshSequence>(sequence);
-  const std::vector<std::array<double, 3>> rows = {// time, height, speed
-                                                   {0, 1, 0},     {0.25, 1, 4},    {0.5, 2, 4},
-                                                   {0.75, 3, -1}, {1.25, 2.5, -1}, {1.75, 2, 0},
-                                                   {9, 2, 0}};
-  for (const auto& [t, height, speed] : rows) {
-    CHECK(surface_at(part, t)(2, 0) == height);
-    const PerParticle3 v = surface_velocity_at(part, t);
-    REQUIRE(v.cols() == 3);
-    CHECK(v(2, 0) == speed);  // where it jumps, the later one
-    CHECK(v.cwiseAbs().sum() == std::abs(speed));
-  }
-}

@@ -16,29 +16,7 @@ PlacedMesh cloth(const std::string& keys, double most = 1e7, const std::string& 
                          {most, 1000});
 }
 
-void check_limit(const std::string& keys, double triangles, const std::string& key) {
-  INFO(keys);
-  CHECK_NOTHROW(cloth(keys, triangles));
-  CHECK_THROWS_WITH(cloth(keys, triangles - 1), Contains(": '" + key + "' asks for "));
-}
-
-const std::string sheet = "shape = \"sheet\"\nwidth = 0.7\nheight = 0.9\ncolumns = 5\nrows = 3\n";
-
 }  // namespace
-
-TEST_CASE("each shape is refused where it has more triangles than the limit", "[scene]") {
-  check_limit("shape = \"sheet\"\nwidth = 1\nheight = 1\ncolumns = 5\nrows = 3\n", 45, "columns");
-  check_limit(sheet + "pattern = \"criss_cross\"\n", 60, "columns");
-  check_limit("shape = \"disc\"\nradius = 1\nrings = 3\n", 54, "rings");
-  check_limit("shape = \"cylinder\"\nradius = 1\nheight = 1\naround = 5\nalong = 3\n", 30,
-              "around");
-  check_limit("shape = \"sphere\"\nradius = 1\ndivisions = 3\n", 180, "divisions");
-  check_limit("shape = \"sphere\"\nradius = 1\nsubdivisions = 2\n", 320, "subdivisions");
-  check_limit(
-      "shape = \"hinge\"\nlength = 1\nangle = 9\n"
-      "copies = { count = 3, move = [1, 2, 3] }\n",
-      6, "count");
-}
 
 TEST_CASE("seams are sewn before fans are split, and splits are recorded", "[scene]") {
   const ScratchFolder folder;

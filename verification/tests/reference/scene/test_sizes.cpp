@@ -90,17 +90,3 @@ TEST_CASE("a start that crosses itself, or lies flat on itself, is warned of") {
   CHECK_THAT(said(crossed), Contains("the cloth crosses itself at the start, in"));
   CHECK(said(crossed, "[self_collision]\nthickness = 0.01\n") == "");
 }
-
-TEST_CASE("jitter and seed are refused where they change nothing") {
-  const auto said = [](const std::string& keys) {
-    return rejection_message([&] {
-      read_scene_text(
-          "[cloth]\nshape = \"sheet\"\nwidth = 1\nheight = 1\ncolumns = 2\nrows = 2\n"
-          "density = 0.2\n" +
-              keys + "[time]\nend = 1\n",
-          "some.toml");
-    });
-  };
-  CHECK_THAT(said("pattern = \"alternating\"\njitter = 0.2\n"), Contains("changes nothing"));
-  CHECK_THAT(said("seed = 4\n"), Contains("'seed' changes nothing"));
-}

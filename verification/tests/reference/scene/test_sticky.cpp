@@ -13,19 +13,6 @@ const std::string numbers = "stiffness = 3.5\nforecast_time = 0.02\nnear = 0.01\
 
 }  // namespace
 
-TEST_CASE("a sticky patch is named after its surface and number, and refused beyond its limits",
-          "[scene]") {
-  const std::string one = "[[sticky]]\nsurface = { of = \"cloth\" }\nparticles = {}\n" + numbers;
-  const auto read = [&](const std::string& keys) { return sheet_with(one + one + keys); };
-  CHECK(read("").sticky.at(1).name == "cloth 2");
-  CHECK(read("from = 0.25\nuntil = 0.5\nrelease = 0.25\n").sticky[1].release == 0.25);
-  CHECK(read("release = 100\n").sticky[1].release == 100);
-  check_refused(read, {{"from = -1e-9\n", "'from' must not be negative"},
-                       {"release = -1e-9\n", "'release' must not be negative"},
-                       {"from = 0.5\nuntil = 0.5\n", "'until' must be later than 'from'"},
-                       {"from = 0.25\nuntil = 0.5\nrelease = 0.2501\n", "'release' must not be"}});
-}
-
 TEST_CASE("a triangle of a refined cloth means all its parts", "[scene]") {
   const auto refined = [](int times, const std::string& surface) {
     return scene_with("refine = " + std::to_string(times) + "\n[[sticky]]\n" + numbers +

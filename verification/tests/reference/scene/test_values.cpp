@@ -22,27 +22,6 @@ const std::string lies_outside = "' lies outside the case file's folder";
 
 }  // namespace
 
-TEST_CASE("values are refused beyond their limits, which they may reach", "[scene]") {
-  const auto keys = table(
-      "zero = 0\nleast = 5e-324\nbelow = -5e-324\none = 1\n"
-      "most = 1000000000\nmore = 1000000001\n");
-  CHECK(positive(*keys, "least") == 5e-324);
-  CHECK(positive_or(*keys, "absent", 0) == 0);
-  CHECK(non_negative_or(*keys, "zero", 7) == 0);
-  CHECK(non_negative_or(*keys, "absent", 7) == 7);
-  CHECK(count_or(*keys, "one", 7) == 1);
-  CHECK(count_or(*keys, "most", 7) == 1'000'000'000);
-  CHECK(count_or(*keys, "absent", 7) == 7);
-  CHECK_NOTHROW(reject_many_triangles(*keys, "one", 12345, {12345, 3}));
-  CHECK_THROWS_WITH(positive(*keys, "zero"), "some.toml:2: 'zero' must be > 0");
-  CHECK_THROWS_WITH(positive_or(*keys, "zero", 7), "some.toml:2: 'zero' must be > 0");
-  CHECK_THROWS_WITH(non_negative_or(*keys, "below", 7), Contains("'below' must not be negative"));
-  CHECK_THROWS_WITH(count_or(*keys, "zero", 7), Contains("must lie in 1 .. 1,000,000,000"));
-  CHECK_THROWS_WITH(count_or(*keys, "more", 7), Contains("must lie in 1 .. 1,000,000,000"));
-  CHECK_THROWS_WITH(reject_many_triangles(*keys, "one", 12346, {12345, 3}),
-                    Contains("some.toml:5: 'one' asks for 1.235e+04 triangles"));
-}
-
 TEST_CASE("a file lies in a folder, or below it, or outside, links followed", "[scene]") {
   const ScratchFolder scratch;
   namespace fs = std::filesystem;
@@ -86,15 +65,4 @@ TEST_CASE("a path of a case is relative to its folder, one of --set is as typed"
     set_key(*keys, "mesh=" + typed);
     CHECK(path_of(*keys, "mesh", folder) == typed);
   }
-}
-
-TEST_CASE("an error without a place gets one, and others keep theirs", "[scene]") {
-  using Texts = std::vector<std::pair<std::string, std::string>>;
-  for (const auto& [thrown, becomes] : Texts{{"radius is 0", "some.toml:7: radius is 0"},
-                                             {"some.toml:9: is 0", "some.toml:9: is 0"},
-                                             {"--set a=0: is 0", "--set a=0: is 0"}}) {
-    const auto fail = [&]() -> int { throw InputError(thrown); };
-    CHECK_THROWS_WITH(with_error_location("some.toml:7", fail), becomes);
-  }
-  CHECK(with_error_location("some.toml:7", [] { return 42; }) == 42);
 }
