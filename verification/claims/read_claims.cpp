@@ -86,16 +86,16 @@ std::vector<Decider> deciders_of(const KeyTable& row) {
   std::vector<Decider> deciders;
   if (row.has("missing") && !row.has("decided_by")) return deciders;
   for (const auto& entry : rows_of_deciders(row)) {
-    const std::string finding = written_text(*entry, "finding");
-    if (std::ranges::any_of(deciders,
-                            [&](const Decider& earlier) { return earlier.finding == finding; }))
-      throw InputError(entry->where("finding") + ": the finding '" + finding + "' is named twice");
     const std::string tier = entry->has("tier") ? entry->text("tier") : "every";
     if (tier != "every" && tier != "full")
       throw InputError(entry->where("tier") + ": unknown tier '" + tier + "'; known: every, full");
-    deciders.push_back({finding,
-                        word_of(*entry, "role", {Role::supports, Role::limits, Role::contradicts}),
-                        tier == "full"});
+    const Role role = word_of(*entry, "role", {Role::supports, Role::limits, Role::contradicts});
+    for (const std::string& finding : choices_of(written_text(*entry, "finding"))) {
+      if (std::ranges::find(deciders, finding, &Decider::finding) != deciders.end())
+        throw InputError(entry->where("finding") + ": the finding '" + finding +
+                         "' is named twice");
+      deciders.push_back({finding, role, tier == "full"});
+    }
   }
   if (deciders.empty())
     throw InputError(row.where("decided_by") + ": no finding decides this claim");
@@ -169,6 +169,17 @@ Claim claim_of(const KeyTable& row, const Paper& paper) {
 }
 
 }  // namespace
+
+std::vector<std::string> choices_of(const std::string& name) {
+  const size_t from = name.find('{'), to = name.find('}', from);
+  if (to == std::string::npos) return {name};
+  std::vector<std::string> names;
+  for (size_t at = from + 1; at <= to; at = std::min(name.find(',', at), to) + 1)
+    for (const std::string& rest : choices_of(name.substr(to + 1)))
+      names.push_back(name.substr(0, from) + name.substr(at, name.find_first_of(",}", at) - at) +
+                      rest);
+  return names;
+}
 
 std::vector<Claim> read_claims(const std::string& folder) {
   std::vector<std::filesystem::path> paths;

@@ -18,4 +18,7 @@ namespace foldproof {
 ///   - "folder: ..." for a folder without such files.
 std::vector<Claim> read_claims(const std::string& folder);
 
+/// A name for each of its alternatives: "fall.{x,y}" stands for "fall.x" and "fall.y".
+std::vector<std::string> choices_of(const std::string& name);
+
 }  // namespace foldproof

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "reference/scene/key_file.h"
+#include "verification/claims/read_claims.h"
 
 namespace foldproof {
 
@@ -39,18 +40,6 @@ std::pair<std::string, std::string> find_and_replace(const KeyTable& row) {
   };
   const std::string before = edit.substr(0, from), after = part(2, to, edit.size());
   return {before + part(0, from, between) + after, before + part(1, between, to) + after};
-}
-
-/// A name for each choice of its alternatives: "fall.{x,y}" stands for "fall.x" and "fall.y".
-std::vector<std::string> choices_of(const std::string& name) {
-  const size_t from = name.find('{'), to = name.find('}', from);
-  if (to == std::string::npos) return {name};
-  std::vector<std::string> names;
-  for (size_t at = from + 1; at <= to; at = std::min(name.find(',', at), to) + 1)
-    for (const std::string& rest : choices_of(name.substr(to + 1)))
-      names.push_back(name.substr(0, from) + name.substr(at, name.find_first_of(",}", at) - at) +
-                      rest);
-  return names;
 }
 
 /// `file` is that of the row above; empty for the first row, which must name its own.
