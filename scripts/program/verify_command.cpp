@@ -140,35 +140,26 @@ RunRecord run_whole_suite(const Options& options) {
   return run;
 }
 
-int run_checks(const Options& options) {
+/// Runs everything of one kind, or what is named of it.
+int run_kind(const std::string& kind, const Options& options) {
   require_folder_to_resume(options);
   const OutFolder folder(options.out);
   const std::vector<Claim> claims = written_claims();
   RunRecord run = new_run(options);
   const InterruptionNotice notice = kept_results_notice(options);
   const Tier tier = tier_of(options);
-  run_selection(select({options.names, {"check"}}, tier), reference_subject(), tier,
+  run_selection(select({options.names, {kind}}, tier), reference_subject(), tier,
                 running_of(options), run);
-  rule_covered_claims(claims, run);
-  return conclude(run, options, options.out.empty() ? "" : "run.h5");
-}
-
-int run_studies(const Options& options) {
-  require_folder_to_resume(options);
-  const OutFolder folder(options.out);
-  const std::vector<Claim> claims = written_claims();
-  RunRecord run = new_run(options);
-  const InterruptionNotice notice = kept_results_notice(options);
-  const Tier tier = tier_of(options);
-  run_selection(select({options.names, {"study"}}, tier), reference_subject(), tier,
-                running_of(options), run);
-  if (options.names.empty()) {
+  if (kind == "study" && options.names.empty()) {
     reject_claims_of_lost_findings(claims, run);
     reject_faults_of_lost_findings(read_faults(faults_folder()), run);
   }
   rule_covered_claims(claims, run);
   return conclude(run, options, options.out.empty() ? "" : "run.h5");
 }
+
+int run_checks(const Options& options) { return run_kind("check", options); }
+int run_studies(const Options& options) { return run_kind("study", options); }
 
 struct VerifyOptions : Options {
   bool no_report = false, no_bench = false;
