@@ -23,10 +23,14 @@ CASE = "drape_sphere"
 RATE = ("--rate", "30")
 FORMS = ("obj", "ply", "pc2", "npz", "usda")
 # shipped cases of some seconds, among them the one that rests within 1e-12 m on a slope, the one
-# that slides there, and the one whose folds turn fastest between two frames
-QUICK_CASES = ("incline", "incline_slides", "spinning_sphere", "hanging_sheet", "hinge", "pinch")
+# that slides there, the one whose folds turn fastest between two frames, the one whose bending
+# energy changes most by rounding, and the one that starts crossed, with layers that touch
+QUICK_CASES = ("incline", "incline_slides", "spinning_sphere", "hanging_sheet", "hinge", "pinch",
+               "hard/stiff_bending", "hard/reef_fold")
 SHIPPED = sorted(str(file.relative_to(ROOT / "cases").with_suffix(""))
                  for file in (ROOT / "cases").rglob("*.toml") if "\n[time]" in file.read_text())
+# Limits on strain come before objects and self-collision, which stretch springs once more.
+NOT_HELD = {"hard/fast": {"frames.springs-stay-within-limits"}}
 own_cases = SHIPPED if "--all" in sys.argv else QUICK_CASES
 
 
@@ -165,9 +169,9 @@ class ExportedCases(ProgramCase):
                         self.path / "frames")
                 with self.subTest(case=case, form=form):
                     told = self.told("judge", "--frames", self.path / "frames", "--case", shipped)
-                    others = [row for row in told["findings"]
-                              if row["outcome"] not in ("holds", "not applicable")]
-                    self.assertEqual(others, [])
+                    others = {row["name"] for row in told["findings"]
+                              if row["outcome"] not in ("holds", "not applicable")}
+                    self.assertEqual(others, NOT_HELD.get(shipped, set()))
                 shutil.rmtree(self.path / "frames")
 
     def test_an_exported_body_moves_cloth_in_every_format(self) -> None:

@@ -70,6 +70,16 @@ double crossings_in(const TimedMesh& frame) {
   return double(oracles::exact_crossings(frame.x, frame.triangles).size());
 }
 
+double crossings_by_rounding(const FrameMotion& motion) {
+  const PerParticle3& start = motion.of.scene.x;
+  if (motion.matching == Matching::surface || motion.frames.front().x.cols() != start.cols())
+    return 0;
+  const double apart = (motion.frames.front().x - start).cwiseAbs().maxCoeff();
+  if (!(apart <= motion.rounding())) return 0;
+  const double at_start = crossings_in({"", 0, start, motion.of.scene.mesh.triangles});
+  return std::max(0.0, crossings_in(motion.frames.front()) - at_start);
+}
+
 double depth_in(const FrameMotion& motion, const TimedMesh& frame) {
   if (!frame.x.allFinite()) return nan;
   Worst worst;

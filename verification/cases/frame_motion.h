@@ -30,6 +30,10 @@ FrameMotion motion_of(const Case& of, const BuiltScene& built, std::span<const T
 /// Pairs of an edge and a triangle that meet, decided exactly; NaN if a position is not finite.
 double crossings_in(const TimedMesh& frame);
 
+/// How many more pairs meet in the first frame than at the case's start, if rounding is all that
+/// parts them: layers that touch there cross in a file of six digits; else 0.
+double crossings_by_rounding(const FrameMotion& motion);
+
 /// Depth of the deepest vertex inside an object [m]; prescribed vertices, and those between two
 /// objects, do not count. NaN if a position is not finite.
 double depth_in(const FrameMotion& motion, const TimedMesh& frame);

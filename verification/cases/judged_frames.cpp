@@ -43,6 +43,7 @@ double rounding_of(const Quantity& quantity, const FrameMotion& motion) {
   const std::string_view unit = quantity.unit;
   if (unit == "m") return 2 * e;  // a depth in a level set rises by up to 2 along its normal
   if (unit == "1") return 2 * e / rest_lengths(mesh).minCoeff();
+  if (unit == "pairs") return crossings_by_rounding(motion);
   if (unit == "degrees") return 8 * e / smallest_height(mesh.triangles, mesh.rest) * 180 / pi;
   return 0;
 }
