@@ -129,13 +129,16 @@ struct Opinion {
 /// Errors are root mean squares over the free particles, weighted with their masses, in the worst
 /// frame, over the motion: the largest distance from the start, measured alike.
 struct CaseTruth {
-  Opinion first, second;     // of methods of two families; the first has the smaller error bar
+  // the first has the smallest error bar, the second the next of another family; if no other family
+  // knows more than the motion's size, of another method
+  Opinion first, second;
   double motion = nan;       // of the first [m]
   double uncertainty = nan;  // how far apart they are, over the motion [1]; NaN: there are no two
 };
 
 /// The truth that the runs allow; none where nothing moves by more than a billionth of the cloth's
-/// extent. Opinions are chosen by their own error bars, never by how well they agree.
+/// extent. Opinions are chosen by their own error bars, never by how well they agree; one whose bar
+/// is longer than the motion does not count.
 CaseTruth case_truth(const PrecisionPlan& plan, const TrialRuns& runs);
 
 /// An error is told where the truth is known to a tenth of it [1].

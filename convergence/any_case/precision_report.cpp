@@ -159,10 +159,10 @@ std::string truth_in_words(const PrecisionAnswer& answer) {
   const CaseTruth& truth = answer.truth;
   if (std::isnan(truth.uncertainty) && std::isfinite(truth.motion) && truth.second.parts == 0)
     return fmt::format(
-        "truth: unknown; nothing moves ({:.1g} m), or only methods of one family came to an end",
+        "truth: unknown; nothing moves ({:.1g} m), or only one method knows how it moves",
         truth.motion);
   if (std::isnan(truth.uncertainty))
-    return "truth: unknown; no two methods of different families came to an end with two steps";
+    return "truth: unknown; no method came to an end with two steps";
   const auto words = [](const Opinion& opinion) {
     return fmt::format("{} with {} steps a frame{}", opinion.method, opinion.parts,
                        opinion.is_extrapolated ? ", extrapolated" : "");

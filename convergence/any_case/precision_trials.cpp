@@ -186,9 +186,14 @@ CaseTruth case_truth(const PrecisionPlan& plan, const TrialRuns& runs) {
   truth.first = opinions.front();
   truth.motion = largest_motion(truth.first.x, plan.mass);
   if (!(truth.motion > least_motion * longest_side(plan.input_case.scene.x))) return truth;
-  const auto second = std::ranges::find_if(opinions, [&](const Opinion& opinion) {
+  // one whose steps are all too long to be stable knows nothing of the motion
+  std::erase_if(opinions, [&](const Opinion& one) { return !(one.half_width <= truth.motion); });
+  auto second = std::ranges::find_if(opinions, [&](const Opinion& opinion) {
     return family_of(opinion.method) != family_of(truth.first.method);
   });
+  if (second == opinions.end())
+    second = std::ranges::find_if(
+        opinions, [&](const Opinion& one) { return one.method != truth.first.method; });
   if (second == opinions.end()) return truth;
   truth.second = *second;
   truth.uncertainty = frame_distance(truth.first.x, truth.second.x, plan.mass) / truth.motion;

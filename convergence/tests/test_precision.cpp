@@ -227,6 +227,15 @@ TEST_CASE("opinions on the truth are of two families, however well their own agr
   CHECK(one.for_truth == std::vector<std::string>{"RK4", "implicit-midpoint"});
 }
 
+TEST_CASE("a method whose steps are too long to know the motion keeps nobody from a price") {
+  const MadeUp made({{"A", {0.3, 2, 1, 5}}, {"RK4", {1e7, 1, 1, 13}}}, {1e-2}, 1e4);
+  CHECK(made.answer.truth.first.method != "RK4");
+  CHECK(made.answer.truth.second.method != "RK4");
+  CHECK(made.answer.truth.second.parts > 0);
+  CHECK(has_price(made.price(0, "B")));
+  CHECK_FALSE(has_price(made.price(0, "RK4")));
+}
+
 TEST_CASE("methods whose prices are closer than the steps tried are tied") {
   const MadeUp made({{"A", {0.33, 2, 1, 5}}, {"C", {0.6, 2, 1, 7}}}, {1e-3});
   CHECK(made.answer.lists[0].prices.front().method == "RK4");

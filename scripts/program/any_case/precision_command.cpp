@@ -404,8 +404,8 @@ of the cheapest. A price counts applications of force operators.
 error   distance from the truth, divided by the motion. The distance is the root mean square over
         the free particles, weighted by mass, in the worst frame; the motion is the largest such
         distance from the start.
-truth   two methods of different families, each extrapolated where its order has settled. An error
-        less than ten times their distance gets no price.
+truth   two methods, of different families if they know the motion at all, each extrapolated where
+        its order has settled. An error less than ten times their distance gets no price.
 price   interpolated between the two runs that bracket the error. Methods are tied if their prices
         are closer than the steps tried. The steps of the cheapest methods must also last: in a run
         at least three times as long, and at least to the end of the case (--until shortens it),

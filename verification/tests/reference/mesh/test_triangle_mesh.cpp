@@ -160,6 +160,7 @@ TEST_CASE("triangles that overlap in a plane are counted, and neighbours are non
   PerParticle3 obtuse(3, 5);  // only a side of the second parts these two
   obtuse << 0, 1, 0.5, -0.9, -0.35, 0, 0, 0.9, 0.5, -0.95, 0, 0, 0, 0, 0;
   CHECK(count(obtuse, {{0, 1, 2}, {0, 3, 4}}) == 0);
+  CHECK(count(obtuse, {{0, 3, 4}, {0, 1, 2}}) == 0);
   CHECK(count(two, halves) == 3);
   two.rightCols(4).row(0).array() += 0.5;  // now they share a side
   CHECK(count(two, halves) == 0);
