@@ -192,10 +192,10 @@ class Library(Installed):
     def test_the_paper_s_method_stands_without_what_it_does_not_have(self) -> None:
         archives = [next(self.here.prefix.rglob(f"libfoldproof_{name}.a"))
                     for name in ("method", "geometry")]
-        main = self.here.work / "alone.cpp"
+        main = self.here.work / "linked.cpp"
         main.write_text("int main() {}\n", encoding="utf-8")
         libraries = ["-ltbb", "-lz"]  # all of the archives is linked, and nothing may be missing
-        output_of("c++", "-o", self.here.work / "alone", main, "-Wl,--whole-archive", *archives,
+        output_of("c++", "-o", self.here.work / "linked", main, "-Wl,--whole-archive", *archives,
                   "-Wl,--no-whole-archive", *libraries)
         headers = self.here.prefix / "include/foldproof/reference"
         for folder in ("mesh", "motion", "forces", "filters", "dynamics", "level_set", "post"):
