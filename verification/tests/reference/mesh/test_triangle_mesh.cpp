@@ -157,10 +157,10 @@ TEST_CASE("triangles that overlap in a plane are counted, and neighbours are non
     return overlaps_in_plane(turn * x, triangles, turn.col(0), turn.col(1), 1e-9);
   };
   CHECK(count(alone.rest, alone.triangles) == 0);
-  PerParticle3 obtuse(3, 5);  // only a side of the second parts these two
-  obtuse << 0, 1, 0.5, -0.9, -0.35, 0, 0, 0.9, 0.5, -0.95, 0, 0, 0, 0, 0;
-  CHECK(count(obtuse, {{0, 1, 2}, {0, 3, 4}}) == 0);
-  CHECK(count(obtuse, {{0, 3, 4}, {0, 1, 2}}) == 0);
+  PerParticle3 apart(3, 6);  // only the long side of the second parts these two
+  apart << 0, 4, 2, 4.545, 3.849, 4.49, 0, 0, 3.5, 1.935, -2.005, -0.087, 0, 0, 0, 0, 0, 0;
+  CHECK(count(apart, {{0, 1, 2}, {3, 4, 5}}) == 0);
+  CHECK(count(apart, {{3, 4, 5}, {0, 1, 2}}) == 0);
   CHECK(count(two, halves) == 3);
   two.rightCols(4).row(0).array() += 0.5;  // now they share a side
   CHECK(count(two, halves) == 0);
