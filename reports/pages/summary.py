@@ -216,7 +216,7 @@ def _limits(judged: Judged) -> list[list[Piece]]:
         if judged.provenance.get("tier") == "quick":
             full = Quoted("verify --tier full", "command", is_name=True)
             limits.append(["The longest cases and finest meshes need ", full, "."])
-        limits.append(["Not modelled: air drag, several fabrics in one case."])
+        limits.append(["Not modelled: air's added mass."])
     return limits
 
 
