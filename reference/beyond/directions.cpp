@@ -116,7 +116,7 @@ std::string range_of(const Sheet& sheet, double middle, Wanted wanted) {
   return std::isnan(least) ? "" : number(least) + " to " + number(greatest);
 }
 
-/// What the mesh can have beside the wanted warp.
+/// The bias or weft that the mesh can have with the wanted warp, in words.
 std::string possible(const Sheet& sheet, const StripStiffness& wanted) {
   if (const auto p = solution(sheet, {wanted.warp, wanted.weft, none})) {
     const std::string range = range_of(sheet, sheet.strip(*p, pi / 4), [&](double bias) {

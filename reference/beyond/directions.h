@@ -29,8 +29,8 @@ struct ByDirection {
 /// plane [rad]; at a seam they differ. 0 where there is no triangle. Throws as flat_corners.
 std::vector<std::array<double, 2>> angles_of_edges(const TriangleMesh& mesh);
 
-/// What strips of a sheet are to have, cut along the warp, the weft, and the bias half way between;
-/// of springs moduli [N/m], of hinges rigidities [N m]. NaN: the bias is left as it comes.
+/// The wanted stiffness of strips cut along the warp, the weft, and the bias half way between:
+/// moduli of springs [N/m], rigidities of hinges [N m]. NaN: any bias.
 struct StripStiffness {
   double warp, weft, bias;
 };
@@ -38,7 +38,7 @@ struct StripStiffness {
 struct DirectedStiffness {
   double stiffness;  // Y [N/m] or ke [J], of the factor 1
   ByDirection factor;
-  std::string report;  // what strips of this mesh have, in words
+  std::string report;  // the stiffness of strips at five angles, in words
 };
 
 /// The stiffness and factors with which the elements, springs or hinges of a flat mesh, make such

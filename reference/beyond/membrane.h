@@ -25,7 +25,7 @@ struct MembraneMaterial {
 /// the energy is A/2 S:E and the forces its gradient: P = F S, three per triangle (as in Volino,
 /// Magnenat-Thalmann and Faure 2009, A simple approach to nonlinear tensile stiffness, section 3).
 /// Damping adds tau times S of dE/dt, linear in v. Energy counts as stretch.
-/// of_triangle: M places in the materials, of which there is one without it.
+/// of_triangle: M places in the materials; empty: all triangles have the first.
 /// Throws InputError for a negative or NaN number, a Poisson ratio that makes C indefinite
 /// (nu12 nu21 >= 1), and a mesh that is neither flat nor has a pattern.
 CustomForce make_membrane(const TriangleMesh& mesh, const std::vector<MembraneMaterial>& materials,

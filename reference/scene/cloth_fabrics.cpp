@@ -240,8 +240,8 @@ size_t fabric_of_triangle(const Scene& scene, int t) {
   return scene.fabrics.empty() ? 0 : size_t(scene.fabrics.of_triangle[size_t(t)]);
 }
 
-/// The factor of an edge's spring or hinge in each of its two triangles. turn: from the edge to
-/// what it resists along [rad].
+/// The factor of an edge's spring or hinge in each of its two triangles. turn: angle from the edge
+/// to the direction of its resistance [rad].
 std::vector<std::array<double, 2>> factors_of_edges(const Scene& scene,
                                                     ByDirection ClothFabric::*directions,
                                                     double turn) {

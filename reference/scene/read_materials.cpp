@@ -62,7 +62,7 @@ Directed<StretchMaterial> read_stretch(const KeyTable& keys, const TriangleMesh&
 
 namespace {
 
-/// What only the case's own table sets.
+/// Reads the keys that a fabric's table does not have.
 void read_bending_forms(const KeyTable& keys, BendingMaterial& material) {
   material.weighting = choice<Weighting>(
       keys, "weighting", {{"rest", Weighting::rest}, {"current", Weighting::current}});

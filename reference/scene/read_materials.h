@@ -1,5 +1,5 @@
-// What the sheet is made of: the tables [stretch], [bending], [membrane], [air] of a case, and
-// those of its fabrics.
+// Reads the materials of the sheet: the tables [stretch], [bending], [membrane], [air] of a case,
+// and those of its fabrics.
 #pragma once
 
 #include <optional>

@@ -172,7 +172,7 @@ bool slurm_has(const Batch& batch) {
     const bool is_placed = state == "RUNNING" || state == "COMPLETING";
     if (!is_placed || !is_a_ghost(batch, slice)) ++alive;
   }
-  if (alive == 0 && !output.text.empty()) slurm_cancel(batch);  // lest one of them wakes later
+  if (alive == 0 && !output.text.empty()) slurm_cancel(batch);  // none may wake later
   return alive > 0;
 }
 

@@ -146,17 +146,29 @@ Finding rigid_finding() {
       "rest shape with forces beyond 64 roundings of E1 times the extent has no bound");
 }
 
+/// A flat strip along x, its warp at `angle` to x, and its stiffness matrix at rest [N/m].
+struct Strip {
+  System system;
+  State rest;
+  Eigen::MatrixXd K;
+};
+
+Strip strip_at(const TriangleMesh& mesh, double angle) {
+  Scene scene = scene_at_rest(mesh, 1);
+  scene.membrane = cloth;
+  scene.membrane->direction = angle;
+  Strip strip{build_system(scene), start_state(scene), {}};
+  Work work;
+  const auto derivative =
+      elastic_differential_at(strip.system.forces, strip.rest, Definiteness::exact, work);
+  strip.K = -matrix_of(derivative, strip.rest.x.cols());
+  return strip;
+}
+
 /// The force over width and strain of a flat strip of length L along x, its warp at `angle` to x,
 /// whose ends slide on walls: one particle is held across. Solved with the matrix at rest.
 double modulus_of_strip(const TriangleMesh& mesh, double angle) {
-  Scene scene = scene_at_rest(mesh, 0.1);
-  scene.membrane = cloth;
-  scene.membrane->direction = angle;
-  const System system = build_system(scene);
-  const State rest = start_state(scene);
-  Work work;
-  const Eigen::MatrixXd K = -matrix_of(
-      elastic_differential_at(system.forces, rest, Definiteness::exact, work), rest.x.cols());
+  const auto [system, rest, K] = strip_at(mesh, angle);
   const double length = rest.x.row(0).maxCoeff(), width = rest.x.row(1).maxCoeff(), strain = 1e-3;
   Eigen::VectorXd u = Eigen::VectorXd::Zero(K.rows());
   std::vector<Eigen::Index> free, right;
@@ -201,14 +213,7 @@ Finding strip_finding() {
 /// The deflection along it of the lower end of a strip that hangs by its upper edge, free to narrow
 /// and to shear, under its weight of sigma g [N/m^2]; linear, with the matrix at rest.
 double lengthening_of_strip(const TriangleMesh& mesh, double angle, double weight) {
-  Scene scene = scene_at_rest(mesh, 1);
-  scene.membrane = cloth;
-  scene.membrane->direction = angle;
-  const System system = build_system(scene);
-  const State rest = start_state(scene);
-  Work work;
-  const Eigen::MatrixXd K = -matrix_of(
-      elastic_differential_at(system.forces, rest, Definiteness::exact, work), rest.x.cols());
+  const auto [system, rest, K] = strip_at(mesh, angle);
   Eigen::VectorXd u = Eigen::VectorXd::Zero(K.rows()), load = u;
   std::vector<Eigen::Index> free;
   const double length = rest.x.row(0).maxCoeff();
