@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <random>
 #include <string>
 #include <utility>
 
 #include <Eigen/Geometry>
 
 #include "reference/mesh/shapes.h"
+#include "verification/seeds.h"
 
 namespace foldproof::suite {
 
@@ -25,6 +27,13 @@ const Eigen::Matrix3d plane_frame =
 const Vector3 corner_on_plane{0.4, -0.3, 0.7};  // m
 
 }  // namespace
+
+double drawn(std::string_view what, double least, double most) {
+  unsigned own = 2166136261u;  // FNV-1a
+  for (const char letter : what) own = (own ^ static_cast<unsigned char>(letter)) * 16777619u;
+  std::mt19937 generator(shifted_seed(own));
+  return least + (most - least) * double(generator()) / double(std::mt19937::max());
+}
 
 PortableScene resting(std::string name, TriangleMesh mesh, const PortableMaterial& material) {
   PortableScene scene;

@@ -12,6 +12,10 @@
 
 namespace foldproof::suite {
 
+/// A number in this interval: the same for the same words and the same seed (`--seed`; official
+/// results use 0), so that no solver can be tuned to a scene's values.
+double drawn(std::string_view what, double least, double most);
+
 /// In its rest shape, at rest and free, with the masses of its density.
 PortableScene resting(std::string name, TriangleMesh mesh, const PortableMaterial& material = {});
 
