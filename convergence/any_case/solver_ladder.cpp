@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
-#include <variant>
 
+#include "convergence/any_case/portable_case.h"
 #include "reference/dynamics/system.h"
 
 namespace foldproof {
@@ -16,100 +16,10 @@ namespace {
 /// A frame may be off by so much of the end [1].
 constexpr double same_frame = 1e-9;
 
-[[noreturn]] void refuse(const std::string& part) {
-  throw InputError("the protocol of other solvers cannot say " + part);
-}
-
-void require_portable(const Scene& scene) {
-  if (is_driven(scene)) refuse("held particles that move");
-  if (scene.strain_limits) refuse("strain limits; remove [strain_limits]");
-  if (!scene.sticky.empty()) refuse("what cloth sticks to");
-  if (scene.air) refuse("air; remove [air]");
-  if (scene.membrane) refuse("a membrane; remove [membrane], or give [stretch] in its place");
-  if (!scene.fabrics.empty()) refuse("several fabrics; remove [[fabric]]");
-  if (!scene.mesh.pattern.empty()) refuse("a flat pattern; remove pattern");
-}
-
-/// Throws InputError unless it is rigid and stands still.
-const RigidObject& still_body(const Object& object) {
-  const auto* rigid = std::get_if<RigidObject>(&object.body);
-  const auto* motion = rigid ? std::get_if<Motion>(&rigid->motion) : nullptr;
-  if (!motion || motion->velocity.norm() > 0 || motion->amplitude.norm() > 0 ||
-      motion->angular_velocity.norm() > 0)
-    refuse("object '" + object.name + "', which moves or deforms");
-  return *rigid;
-}
-
-void add_object(const Object& object, PortableScene& portable) {
-  const RigidObject& body = still_body(object);
-  const Pose& place = body.place;
-  if (std::holds_alternative<HalfSpace>(body.solid)) {
-    portable.planes.push_back(
-        {place.translation, place.rotation * Vector3::UnitZ(), object.friction});
-    return;
-  }
-  if (const auto* sphere = std::get_if<Sphere>(&body.solid)) {
-    portable.spheres.push_back({place.translation, sphere->radius, object.friction});
-    return;
-  }
-  if (const auto* capsule = std::get_if<Capsule>(&body.solid)) {
-    const Vector3 half = capsule->half_length * (place.rotation * Vector3::UnitZ());
-    portable.capsules.push_back(
-        {place.translation - half, place.translation + half, capsule->radius, object.friction});
-    return;
-  }
-  const auto* box = std::get_if<Box>(&body.solid);
-  if (!box) refuse("object '" + object.name + "', which is no plane, box, sphere or capsule");
-  if (!place.rotation.isApprox(Eigen::Quaterniond::Identity()))
-    refuse("object '" + object.name + "', a box whose edges are not along the axes");
-  portable.boxes.push_back({place.translation, box->half_extents, object.friction});
-}
-
-PortableMaterial material_of(const Scene& scene) {
-  PortableMaterial material{scene.density, 0, 0, 0, 0, 1};
-  if (scene.stretch) {
-    material.young = scene.stretch->stiffness;
-    material.stretch_damping = scene.stretch->damping;
-    material.rest_length_scale = scene.stretch->rest_length_scale;
-  }
-  if (scene.bending) {
-    material.bending_rigidity = scene.bending->stiffness / 4;
-    material.bending_damping = scene.bending->damping;
-  }
-  return material;
-}
-
-/// The scene as physical constants: Young's modulus, bending rigidity B = ke/4, dampings, held
-/// particles, fixed planes, boxes, spheres and capsules, thickness. `dt` is left to the caller.
-/// The reference's own method (bending law, weighting, time integrator) stays out. Throws
-/// InputError naming a part that the protocol cannot say: particles or objects that move, objects
-/// of other shapes, strain limits, sticking, and what the paper does not have.
-PortableScene portable_case(const Scene& scene) {
-  require_portable(scene);
-  PortableScene portable;
-  portable.name = scene.name;
-  portable.mesh = scene.mesh;
-  portable.x = scene.x, portable.v = scene.v;
-  portable.mass = masses_of(scene);
-  for (const PrescribedParticle& p : scene.prescribed) portable.held.push_back(p.particle);
-  if (scene.gravity) portable.gravity = *scene.gravity;
-  portable.material = material_of(scene);
-  portable.rest_angles = scene.rest_angles;
-  for (const SceneObject& part : scene.objects) add_object(part.object, portable);
-  if (scene.self_collision) portable.thickness = scene.self_collision->thickness;
-  return portable;
-}
-
 /// Throws InputError unless the solver declares every capability that the scene needs.
 void require_offered(const PortableScene& scene, Trial& solver) {
   try {
-    if (!scene.held.empty()) solver.require("held");
-    if (!scene.planes.empty()) solver.require("planes");
-    if (!scene.boxes.empty()) solver.require("boxes");
-    if (!scene.spheres.empty()) solver.require("spheres");
-    if (!scene.capsules.empty()) solver.require("capsules");
-    if (scene.material.stretch_damping > 0) solver.require("damping");
-    if (scene.thickness > 0) solver.require("self_collision");
+    for (const std::string& capability : needed_by(scene)) solver.require(capability);
   } catch (const NotOffered& missing) {
     throw InputError("the solver does not offer " + missing.operation + ", which the case needs");
   } catch (const SolverFailure& failure) {

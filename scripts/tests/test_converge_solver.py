@@ -35,6 +35,46 @@ turn = { axis = [0, 1, 0], angle = 95 }
 move = [0.22, 0.08, -0.065]
 """
 
+LED = """
+[[hold]]
+box = [[-1, -1, -1], [0.01, 0.01, 1]]
+amplitude = [0, 0.01, 0.02]
+frequency = 4
+from = 0.013
+"""
+
+TURNING_BOX = """
+[[object]]
+shape = "box"
+size = [0.2, 0.2, 0.04]
+turn = { axis = [1, 0, 0], angle = 20 }
+move = [0.08, 0.05, -0.05]
+velocity = [0, 0.1, 0]
+angular_velocity = [0, 0, 90]
+friction = 0.4
+"""
+
+TWO_FABRICS = """
+[[fabric]]
+box = [[-1, -1, -1], [0.15, 1, 1]]
+density = 0.35
+[fabric.stretch]
+stiffness = 20.0
+damping = 0.01
+[fabric.bending]
+stiffness = 4e-3
+"""
+
+LIMITS = """
+[strain_limits]
+extension = 0.001
+"""
+
+WIND = """
+[air]
+wind = [0, 0, 6]
+"""
+
 
 class SolverTest(ProgramCase):
     """`converge --solver`: another solver's steps, beside the reference's."""
@@ -65,6 +105,18 @@ class SolverTest(ProgramCase):
                      for objects in ("", BALL_AND_ARM))
         self.assertLess(hit[1]["from_reference"], 1e-10)
         self.assertNotEqual(hit[0]["quantities"], free[0]["quantities"])  # it meets them
+
+    def test_what_moves_and_what_cloth_has_is_the_same_over_the_pipe(self) -> None:
+        plain = self.ladders(f"{SERVED} C", "--set", "time.step=1e-3", "--set",
+                             "gravity.acceleration=[0, -6, -8]")
+        for parts in (LED, TURNING_BOX, TWO_FABRICS, LIMITS, WIND):
+            with self.subTest(parts=parts):
+                here, there = self.ladders(f"{SERVED} C", "--set", "time.step=1e-3", "--set",
+                                           "gravity.acceleration=[0, -6, -8]", objects=parts)
+                # paths are stated every millisecond; between, they are straight
+                self.assertLess(there["from_reference"], 1e-6 if parts in (LED, TURNING_BOX)
+                                else 1e-10)
+                self.assertNotEqual(here["quantities"], plain[0]["quantities"])
 
     def test_an_independent_solver_has_its_own_order_and_the_same_limit(self) -> None:
         for kind in ("none", "backward_euler"):
@@ -109,11 +161,13 @@ class SolverTest(ProgramCase):
         ring = self.write("ring.toml", SHEET + RING)
         for words, why in (
             (["drape_sphere", "--solver", toy], "capability 'spheres'"),
-            ([ring, "--solver", toy], "which is no plane, box, sphere or capsule"),
-            ([spins, "--solver", toy], "which moves or deforms"),
+            ([ring, "--solver", toy], "a torus"),
+            ([spins, "--solver", bad("wrong", "on_planes"), "--set", "stretch.damping=0", "--set",
+              "bending.stiffness=0"], "capability 'moving_obstacles'"),
             ([sheet, "--solver", toy], "capability 'damping'"),
             ([sheet, "--solver", toy, "--set", "stretch.damping=0"], "declines: bending"),
-            ([sheet, "--solver", toy, "--set", "strain_limits.extension=0.1"], "cannot say strain"),
+            ([sheet, "--solver", toy, "--set", "stretch.damping=0", "--set",
+              "strain_limits.extension=0.1"], "capability 'strain_limits'"),
             ([sheet, "--solver", toy, "--until", "0.05"], "try --until 0.04"),
             ([sheet, "--solver", toy, "--set", "stretch.damping=0", "--set",
               "self_collision.thickness=0.01"], "capability 'self_collision'"),

@@ -49,6 +49,10 @@ void set_masses(PreparedScene& prepared, const PerParticle& masses) {
     if (auto* weight = std::get_if<Gravity>(&force)) weight->mass = masses;
 }
 
+std::vector<PrescribedParticle>& prescribed_of(PreparedScene& prepared) {
+  return static_cast<PreparedReferenceScene&>(prepared).system.prescribed;
+}
+
 Subject reference_subject() {
   Subject subject;
   subject.name = "foldproof reference";

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -40,6 +41,7 @@ struct Declared {
   int order = 0;
   std::vector<std::string> capabilities;
   double solve_tolerance = 0;
+  Json more = Json::object();  // further fields, as {{"contact_offset", 0.001}}
 };
 
 /// A scene: arrays by name (PROTOCOL.md lists them), and the header's object `scene`.
@@ -47,6 +49,15 @@ struct Scene {
   Json header;
   std::map<std::string, Numbers> numbers;
   std::map<std::string, std::vector<std::int32_t>> integers;
+
+  /// Where the held particles are at a time [s]: H x 3 [m]; those that stay, too.
+  Numbers held_at(double time) const;
+
+  /// Where an obstacle is at a time [s]: its point X is at R X + T.
+  struct Pose {
+    double rotation[3][3], translation[3];  // R; T [m]
+  };
+  Pose pose_at(const Json& obstacle, double time) const;
 };
 
 /// An adapter overrides these. x [m] and v [m/s] are N x 3; forces [N] too; energy in J.
@@ -78,6 +89,34 @@ struct Solver {
 };
 
 namespace detail {
+
+/// The interval that holds a time, and the part of it that has passed; at rest outside.
+inline std::pair<std::size_t, double> between(const Numbers& times, double time) {
+  std::size_t k = 0;
+  while (k + 2 < times.size() && times[k + 1] <= time) ++k;
+  if (times.size() < 2) return {0, 0};
+  const double part = (time - times[k]) / (times[k + 1] - times[k]);
+  return {k, std::min(std::max(part, 0.0), 1.0)};
+}
+
+/// Rows k and the next one, so mixed; the last row alone where there is no other.
+inline Numbers mixed(const Numbers& rows, std::size_t wide, std::pair<std::size_t, double> at) {
+  Numbers row(rows.begin() + long(at.first * wide), rows.begin() + long((at.first + 1) * wide));
+  if ((at.first + 2) * wide > rows.size()) return row;
+  for (std::size_t i = 0; i < wide; ++i)
+    row[i] += at.second * (rows[(at.first + 1) * wide + i] - row[i]);
+  return row;
+}
+
+/// The quaternion (w, x, y, z) between two others, at a constant rate, the short way.
+inline void turn(const double* one, const double* other, double part, double* q) {
+  double cosine = 0;
+  for (int i = 0; i < 4; ++i) cosine += one[i] * other[i];
+  const double sign = cosine < 0 ? -1 : 1, angle = std::acos(std::min(sign * cosine, 1.0));
+  const double a = angle < 1e-9 ? 1 : std::sin((1 - part) * angle) / std::sin(angle),
+               b = angle < 1e-9 ? 0 : sign * std::sin(part * angle) / std::sin(angle);
+  for (int i = 0; i < 4; ++i) q[i] = a * one[i] + b * other[i];
+}
 
 inline int descriptor(const char* name) {
   const char* text = std::getenv(name);
@@ -156,7 +195,7 @@ inline void add_state(const Solver& solver, Answer& answer) {
 }
 
 inline void declare(const Declared& d, Answer& answer) {
-  answer.header = {{"protocol", 1},
+  answer.header = {{"protocol", 2},
                    {"name", d.name},
                    {"version", d.version},
                    {"level", d.level},
@@ -164,6 +203,7 @@ inline void declare(const Declared& d, Answer& answer) {
                    {"scheme", {{"name", d.scheme}, {"order", d.order}}},
                    {"capabilities", d.capabilities},
                    {"solve_tolerance", d.solve_tolerance}};
+  answer.header.update(d.more);
 }
 
 inline void run(Solver& solver, const Scene& message, Answer& answer) {
@@ -241,6 +281,37 @@ inline std::function<void(double)> teller(int out, const Json& id) {
 }
 
 }  // namespace detail
+
+inline Numbers Scene::held_at(double time) const {
+  const std::vector<std::int32_t>& held = integers.at("held");
+  if (numbers.count("held_times"))
+    return detail::mixed(numbers.at("held_x"), 3 * held.size(),
+                         detail::between(numbers.at("held_times"), time));
+  Numbers still;
+  for (const std::int32_t i : held)
+    for (int c = 0; c < 3; ++c) still.push_back(numbers.at("x")[std::size_t(3 * i + c)]);
+  return still;
+}
+
+inline Scene::Pose Scene::pose_at(const Json& obstacle, double time) const {
+  Pose pose{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {0, 0, 0}};
+  if (!obstacle.contains("motion")) return pose;
+  const std::string name = "motion_" + std::to_string(obstacle["motion"].get<int>());
+  const Numbers& poses = numbers.at(name + "_poses");
+  const auto at = detail::between(numbers.at(name + "_times"), time);
+  const Numbers row = detail::mixed(poses, 7, at);
+  std::copy(row.begin(), row.begin() + 3, pose.translation);
+  const double* const one = &poses[7 * at.first + 3];
+  double q[4];
+  detail::turn(one, 7 * (at.first + 2) > poses.size() ? one : one + 7, at.second, q);
+  const double w = q[0], x = q[1], y = q[2], z = q[3];
+  const double rotation[3][3] = {
+      {1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)},
+      {2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)},
+      {2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)}};
+  std::memcpy(pose.rotation, rotation, sizeof rotation);
+  return pose;
+}
 
 /// Answers until `stop` or the end of the pipe; returns the exit code.
 inline int serve(Solver& solver) {

@@ -19,6 +19,7 @@ export class Solver {
   name = 'unnamed'; version = '0'; level = 'L1'; precision = 'f8'; scheme = 'unnamed'; order = 1;
   capabilities = ['set_state', 'held', 'masses'];
   solve_tolerance = 0;  // relative residual of linear systems; 0 where none is solved
+  more = {};            // further fields of the declaration, as { contact_offset: .001 }
   prepare() { throw new Declined('scenes'); }
   advance() { throw new Declined('steps'); }
   set_state(x, v) { this.x = x; this.v = v; }
@@ -28,6 +29,42 @@ export class Solver {
   /// To be called after each step of a long advance, with the part that is done, 0 to 1: says at
   /// most once a second that the solver is at work, so that it is not taken to hang.
   progress(part) { this.tell?.(part); }
+}
+
+/// The interval that holds a time, and the part of it that has passed; at rest outside.
+function between(times, time) {
+  let k = 0;
+  while (k + 2 < times.length && times[k + 1] <= time) ++k;
+  const part = (time - times[k]) / (times[k + 1] - times[k]);
+  return times.length < 2 ? [0, 0] : [k, Math.min(Math.max(part, 0), 1)];
+}
+
+/// Row k of so many numbers each, mixed with the next one.
+function mixed(rows, wide, [k, part]) {
+  const row = Array.from(rows.subarray(k * wide, (k + 1) * wide));
+  return part === 0 ? row : row.map((value, i) => value + part * (rows[(k + 1) * wide + i] - value));
+}
+
+/// Where the held particles are at a time [s]: 3 H numbers [m]; those that stay, too.
+export function held_at(scene, time) {
+  const { held, held_times, held_x, x } = scene;
+  if (held_times) return mixed(held_x, 3 * held.length, between(held_times, time));
+  return Array.from(held).flatMap(i => Array.from(x.subarray(3 * i, 3 * i + 3)));
+}
+
+/// An obstacle at a time [s]: the quaternion w, x, y, z, and the translation [m].
+export function pose_at(scene, { motion }, time) {
+  if (motion === undefined) return { turn: [1, 0, 0, 0], translation: [0, 0, 0] };
+  const poses = scene[`motion_${motion}_poses`];
+  const [k, part] = between(scene[`motion_${motion}_times`], time);
+  const one = mixed(poses, 7, [k, 0]), other = part === 0 ? one : mixed(poses, 7, [k + 1, 0]);
+  const translation = mixed(poses, 7, [k, part]).slice(0, 3);
+  const cosine = one.slice(3).reduce((sum, q, i) => sum + q * other[3 + i], 0);
+  const sign = cosine < 0 ? -1 : 1, angle = Math.acos(Math.min(sign * cosine, 1));
+  if (angle < 1e-9) return { turn: one.slice(3), translation };
+  const a = Math.sin((1 - part) * angle) / Math.sin(angle);
+  const b = sign * Math.sin(part * angle) / Math.sin(angle);
+  return { turn: one.slice(3).map((q, i) => a * q + b * other[3 + i]), translation };
 }
 
 function read(count, descriptor, bytes = Buffer.alloc(count)) {
@@ -99,8 +136,9 @@ function answer(solver, header, arrays) {
   const { op, dt } = header, scene = { header: header.scene, ...arrays };
   if (op === 'start') {
     const { name, version, level, precision, capabilities, solve_tolerance } = solver;
-    const scheme = { name: solver.scheme, order: solver.order };
-    return [{ protocol: 1, name, version, level, precision, scheme, capabilities, solve_tolerance }];
+    const scheme = { name: solver.scheme, order: solver.order }, protocol = 2;
+    return [{ protocol, name, version, level, precision, scheme, capabilities, solve_tolerance,
+      ...solver.more }];
   }
   if (op === 'prepare') return [{ mapping: solver.prepare(scene) ?? {} }];
   if (op === 'run') return run(solver, header, scene);

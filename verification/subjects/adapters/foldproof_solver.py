@@ -20,7 +20,7 @@ from typing import Any, BinaryIO, Callable
 
 import numpy as np
 
-PROTOCOL = 1
+PROTOCOL = 2
 SECONDS_BETWEEN_PROGRESS = 1.0
 TYPES = {"f8": "<f8", "f4": "<f4", "i4": "<i4"}
 
@@ -28,6 +28,26 @@ TYPES = {"f8": "<f8", "f4": "<f4", "i4": "<i4"}
 class Declined(Exception):
     """Raised for what the solver does not offer; the message is the
     reason that the report prints."""
+
+
+def between(times: np.ndarray, time: float) -> tuple[int, float]:
+    """The interval that holds a time, and the part of it that has passed; at rest outside."""
+    k = int(np.clip(np.searchsorted(times, time, "right") - 1, 0, max(len(times) - 2, 0)))
+    if len(times) == 1:
+        return -1, 0.0
+    return k, float(np.clip((time - times[k]) / (times[k + 1] - times[k]), 0, 1))
+
+
+def turned(one: np.ndarray, other: np.ndarray, part: float) -> np.ndarray:
+    """The rotation (3, 3) between two quaternions (w, x, y, z), at a constant rate."""
+    other = other if one @ other >= 0 else -other
+    angle = np.arccos(min(one @ other, 1.0))
+    if angle > 1e-9:
+        one = (np.sin((1 - part) * angle) * one + np.sin(part * angle) * other) / np.sin(angle)
+    w, x, y, z = one / np.linalg.norm(one)
+    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+                     [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+                     [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])
 
 
 class Scene:
@@ -43,6 +63,23 @@ class Scene:
         except KeyError:
             raise AttributeError(f"the scene has no array '{name}'") from None
 
+    def held_at(self, time: float) -> np.ndarray:
+        """Where the held particles are at a time [s]: (H, 3) [m]; those that stay, too."""
+        if "held_times" not in self.arrays:
+            return self.arrays["x"][self.arrays["held"]]
+        k, part = between(self.arrays["held_times"], time)
+        return (1 - part) * self.arrays["held_x"][k] + part * self.arrays["held_x"][k + 1]
+
+    def pose_at(self, obstacle: dict[str, Any], time: float) -> tuple[np.ndarray, np.ndarray]:
+        """R (3, 3), T [m]: the obstacle's point X is at R X + T at that time [s]."""
+        if "motion" not in obstacle:
+            return np.eye(3), np.zeros(3)
+        name = f"motion_{obstacle['motion']}"
+        poses = self.arrays[name + "_poses"]
+        k, part = between(self.arrays[name + "_times"], time)
+        return turned(poses[k, 3:], poses[k + 1, 3:], part), \
+            (1 - part) * poses[k, :3] + part * poses[k + 1, :3]
+
 
 class Solver:
     """What an adapter overrides. x [m] and v [m/s] are (N, 3); forces [N] too; energies in J."""
@@ -51,6 +88,7 @@ class Solver:
     scheme, order = "unnamed", 1
     capabilities: tuple[str, ...] = ()
     solve_tolerance = 0.0  # relative residual of linear systems; 0 where none is solved
+    more: dict[str, Any] = {}  # further fields of the declaration, as {"contact_offset": 0.001}
     x: np.ndarray
     v: np.ndarray
     tell: Callable[[float], None] | None = None  # set by serve()
@@ -120,7 +158,8 @@ def declaration(solver: Solver) -> dict[str, Any]:
     return {
         "protocol": PROTOCOL, "name": solver.name, "version": solver.version, "level": solver.level,
         "precision": solver.precision, "scheme": {"name": solver.scheme, "order": solver.order},
-        "capabilities": list(solver.capabilities), "solve_tolerance": solver.solve_tolerance
+        "capabilities": list(solver.capabilities), "solve_tolerance": solver.solve_tolerance,
+        **solver.more
     }
 
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <span>
 #include <stdexcept>
 #include <type_traits>
 
@@ -50,18 +51,29 @@ std::vector<std::string> texts_of(const json& header, const char* key) {
   return texts;
 }
 
-constexpr const char* known_capabilities[] = {"set_state",      "held",   "masses",  "damping",
-                                              "planes",         "boxes",  "spheres", "capsules",
-                                              "self_collision", "history"};
+/// Those of protocol 1 come first.
+constexpr const char* known_capabilities[] = {"set_state",      "held",
+                                              "masses",         "damping",
+                                              "planes",         "boxes",
+                                              "spheres",        "capsules",
+                                              "self_collision", "history",
+                                              "bodies",         "deforming_bodies",
+                                              "moving_held",    "moving_obstacles",
+                                              "materials",      "layer_friction",
+                                              "strain_limits",  "air"};
+constexpr size_t of_protocol_1 = 10;
 
 /// A misspelt one would be believed, and its laws never asked.
-std::vector<std::string> capabilities_of(const json& header) {
+std::vector<std::string> capabilities_of(const json& header, int protocol) {
   const std::vector<std::string> declared = texts_of(header, "capabilities");
+  const std::span known(known_capabilities,
+                        protocol == 1 ? of_protocol_1 : std::size(known_capabilities));
   for (const std::string& one : declared)
-    if (std::ranges::find(known_capabilities, one) == std::end(known_capabilities))
-      throw SolverFailure("header",
-                          fmt::format("declared '{}', which is no capability; known are {}", one,
-                                      fmt::join(known_capabilities, ", ")));
+    if (std::ranges::find(known, one) == known.end())
+      throw SolverFailure(
+          "header",
+          fmt::format("declared '{}', which is no capability of protocol {}; known are {}", one,
+                      protocol, fmt::join(known, ", ")));
   return declared;
 }
 
@@ -84,18 +96,21 @@ Work work_of(const json& header) {
 }
 
 Declaration read_declaration(const json& header) {
-  if (header.value("protocol", json()) != protocol_version)
-    throw SolverFailure("header", fmt::format("does not speak protocol {}", protocol_version));
+  const json protocol = header.value("protocol", json());
+  if (protocol != 1 && protocol != protocol_version)
+    throw SolverFailure("header",
+                        fmt::format("speaks neither protocol 1 nor {}", protocol_version));
   const json scheme = header.value("scheme", json::object());
   if (!scheme.is_object()) throw SolverFailure("header", "sent no object as 'scheme'");
   Declaration declared;
+  declared.protocol = protocol;
   declared.name = text_of(header, "name");
   declared.version = text_of(header, "version");
   declared.level = level_of(text_of(header, "level"));
   declared.is_single = declares_single(text_of(header, "precision"));
   declared.scheme = text_of(scheme, "name");
   declared.order = int(std::clamp(number_of(scheme, "order", 0), 0.0, 9.0));
-  declared.capabilities = capabilities_of(header);
+  declared.capabilities = capabilities_of(header, declared.protocol);
   declared.solve_tolerance = number_of(header, "solve_tolerance", 0);
   if (!(declared.solve_tolerance >= 0 && declared.solve_tolerance < 1))
     throw SolverFailure("header", "declared a solve_tolerance outside [0, 1)");

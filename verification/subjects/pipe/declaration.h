@@ -11,10 +11,11 @@
 
 namespace foldproof {
 
-constexpr int protocol_version = 1;
+constexpr int protocol_version = 2;  // 1 is served, too
 
 /// The solver's description of itself: its answer to `start`.
 struct Declaration {
+  int protocol = protocol_version;
   std::string name, version;
   int level = 0;           // 0 to 3
   bool is_single = false;  // precision f4 instead of f8

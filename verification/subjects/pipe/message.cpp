@@ -87,7 +87,11 @@ void Request::add(const char* name, const PerParticle3& values) {
 }
 
 void Request::add(const char* name, std::span<const double> values) {
-  append(*this, name, "f8", {long(values.size())}, bytes_of(values.data(), values.size()));
+  add(name, values, {long(values.size())});
+}
+
+void Request::add(const char* name, std::span<const double> values, std::vector<long> shape) {
+  append(*this, name, "f8", std::move(shape), bytes_of(values.data(), values.size()));
 }
 
 void Request::add(const char* name, std::span<const int> values, int wide) {

@@ -21,6 +21,7 @@ struct Request {
   void add(const char* name, const PerParticle3& values);             // f8, N x 3
   void add(const char* name, std::span<const double> values);         // f8, N
   void add(const char* name, std::span<const int> values, int wide);  // i4, N x wide, or N if 1
+  void add(const char* name, std::span<const double> values, std::vector<long> shape);  // f8
 };
 
 /// An array that an answer must hold, in the solver's precision.

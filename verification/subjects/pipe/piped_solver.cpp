@@ -139,6 +139,24 @@ struct PipedSolver::Impl {
 
   Request request_of(const char* operation) const { return {{{"op", operation}}}; }
 
+  json ask_to_start(int protocol) {
+    Request request = request_of("start");
+    request.header["protocol"] = protocol;
+    return ask(std::move(request), {}).header;
+  }
+
+  /// In the latest protocol, or in that of 1 if the solver refuses it.
+  json start() {
+    try {
+      return ask_to_start(protocol_version);
+    } catch (const SolverFailure& failure) {
+      if (failure.cause != "error") throw;
+    } catch (const NotOffered&) {
+    }
+    failed.reset();
+    return ask_to_start(1);
+  }
+
   std::vector<WantedArray> state_arrays() const {
     return {{"x", {particles, 3}}, {"v", {particles, 3}}};
   }
@@ -164,9 +182,7 @@ struct PipedSolver::Impl {
 
 PipedSolver::PipedSolver(SolverCommand command)
     : impl_(std::make_unique<Impl>(std::move(command))) {
-  Request request = impl_->request_of("start");
-  request.header["protocol"] = protocol_version;
-  const json header = impl_->ask(std::move(request), {}).header;
+  const json header = impl_->start();
   try {
     declaration_ = read_declaration(header);
   } catch (const SolverFailure& failure) {

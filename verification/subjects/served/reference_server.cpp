@@ -33,6 +33,7 @@ struct ReferenceSolver : foldproof_solver::Solver {
   ServedReference served;
   std::unique_ptr<PreparedScene> prepared;
   std::vector<State> past;
+  MeshSequence path;  // of the held particles
   int history = 1;
   Work counts;
 
@@ -41,8 +42,12 @@ struct ReferenceSolver : foldproof_solver::Solver {
     declared.name = subject.name, declared.version = subject.version;
     declared.level = "L2", declared.precision = served.is_single ? "f4" : "f8";
     declared.scheme = integrator.title, declared.order = integrator.order;
-    declared.capabilities = {"set_state", "held",    "masses",   "history",        "planes",
-                             "boxes",     "spheres", "capsules", "self_collision", "damping"};
+    declared.capabilities = {"set_state",        "held",        "masses",
+                             "history",          "planes",      "boxes",
+                             "spheres",          "capsules",    "bodies",
+                             "deforming_bodies", "damping",     "self_collision",
+                             "layer_friction",   "moving_held", "materials",
+                             "strain_limits",    "air",         "moving_obstacles"};
     declared.solve_tolerance =
         integrator.family == Family::fully_explicit ? 0 : SolverSettings{}.tolerance;
   }
@@ -53,9 +58,11 @@ struct ReferenceSolver : foldproof_solver::Solver {
     const bool is_own = constants.contains("extension");
     if (!is_own) scene.integrator = served.integrator;
     prepared = subject.prepare(scene);
+    path = is_own ? MeshSequence{} : held_path(message);
     if (constants.at("own_masses")) give_masses(message.numbers.at("mass"));
     history = integrator_named(scene.integrator).history;
-    const State start = is_own ? State{0, scene.x, scene.v} : start_state(scene);
+    State start{0, scene.x, scene.v};
+    if (!is_own && path.times.empty()) start = start_state(scene);
     set_state(as_rows(start.x), as_rows(start.v), 0);
     return {{"stretch", "a spring per edge, of stiffness Y A_e/L0^2 [N/m]"},
             {"bending", "ke = 4 B [J]: exact on equilateral meshes"},
@@ -66,6 +73,17 @@ struct ReferenceSolver : foldproof_solver::Solver {
   void give_masses(const Numbers& masses) {
     set_masses(*prepared,
                Eigen::Map<const PerParticle>(masses.data(), Eigen::Index(masses.size())));
+  }
+
+  /// For a step, held particles move as evenly as they come to their place at its end.
+  void move_held(double from, double dt) {
+    const PerParticle3 start = positions_at(path, from), end = positions_at(path, from + dt);
+    std::vector<PrescribedParticle>& all = prescribed_of(*prepared);
+    for (size_t k = 0; k < all.size(); ++k) {
+      all[k].start = start.col(Eigen::Index(k));
+      all[k].motion.velocity = (end.col(Eigen::Index(k)) - all[k].start) / dt;
+      all[k].motion.from = from;
+    }
   }
 
   void set_state(Numbers new_x, Numbers new_v, double new_time) override {
@@ -79,6 +97,7 @@ struct ReferenceSolver : foldproof_solver::Solver {
 
   void advance(double dt, long steps) override {
     for (long k = 0; k < steps; ++k) {
+      if (!path.times.empty()) move_held(past.back().time, dt);
       past.push_back(subject.step(*prepared, past, dt, counts));
       if (past.size() > size_t(history)) past.erase(past.begin());
     }

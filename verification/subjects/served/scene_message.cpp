@@ -1,8 +1,13 @@
 #include "verification/subjects/served/scene_message.h"
 
+#include <algorithm>
 #include <limits>
+#include <memory>
+#include <optional>
+#include <span>
 #include <utility>
 
+#include "reference/scene/field_recipe.h"
 #include "verification/verdict.h"
 
 namespace foldproof {
@@ -10,6 +15,7 @@ namespace foldproof {
 namespace {
 
 using foldproof_solver::Json;
+using foldproof_solver::Numbers;
 using Message = foldproof_solver::Scene;
 
 constexpr double forever = std::numeric_limits<double>::infinity();
@@ -105,80 +111,182 @@ void read_extension(const Json& extension, Scene& scene) {
   for (const Json& p : extension.at("prescribed")) scene.prescribed.push_back(prescribed_of(p));
 }
 
-/// A body that stands still; its friction is the obstacle's.
-template <class Shape>
-SceneObject standing(const char* name, const Shape& shape, const Pose& pose, const Json& obstacle) {
-  SceneObject part;
-  part.object = Object{name, RigidObject{shape, pose, Motion{}}, obstacle.at("friction")};
-  return part;
+PerParticle3 as_columns(std::span<const double> rows) {
+  return Eigen::Map<const PerParticle3>(rows.data(), 3, Eigen::Index(rows.size() / 3));
 }
+
+std::vector<Triangle> triangles_of(const std::vector<int>& corners) {
+  std::vector<Triangle> triangles;
+  for (size_t t = 0; t + 2 < corners.size(); t += 3)
+    triangles.push_back({corners[t], corners[t + 1], corners[t + 2]});
+  return triangles;
+}
+
+/// Places of points at times; no frames where there are none.
+MeshSequence frames_of(const Message& message, const std::string& name, const char* what) {
+  MeshSequence frames;
+  const auto times = message.numbers.find(name + "_times");
+  if (times == message.numbers.end()) return frames;
+  frames.times = times->second;
+  const std::span<const double> all = message.numbers.at(name + what);
+  const size_t wide = all.size() / frames.times.size();
+  for (size_t k = 0; k < frames.times.size(); ++k)
+    frames.positions.push_back(as_columns(all.subspan(k * wide, wide)));
+  return frames;
+}
+
+RigidMotion motion_of(const Json& obstacle, const Message& message) {
+  if (!obstacle.contains("motion")) return Motion{};
+  const std::string name = "motion_" + std::to_string(obstacle["motion"].get<int>());
+  const Numbers& poses = message.numbers.at(name + "_poses");
+  std::vector<Keyframe> keys;
+  for (const double time : message.numbers.at(name + "_times")) {
+    const double* const p = &poses[7 * keys.size()];
+    keys.push_back(
+        {time,
+         {Eigen::Quaterniond(p[3], p[4], p[5], p[6]).normalized(), Vector3(p[0], p[1], p[2])}});
+  }
+  return make_keyframes(std::move(keys));
+}
+
+struct Placed {
+  Solid solid;
+  Pose pose = {};
+};
 
 Eigen::Quaterniond from_z_to(const Vector3& direction) {
   return Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), direction);
 }
 
 /// A half space whose solid is below the plane.
-SceneObject plane_of(const Json& plane) {
-  const Pose pose{from_z_to(vector_of(plane.at("normal"))), vector_of(plane.at("point"))};
-  return standing("plane", HalfSpace{}, pose, plane);
+Placed plane_of(const Json& plane, const Message&) {
+  return {HalfSpace{}, {from_z_to(vector_of(plane.at("normal"))), vector_of(plane.at("point"))}};
 }
 
 /// Its edges along the axes.
-SceneObject box_of(const Json& box) {
-  const Pose pose{Eigen::Quaterniond::Identity(), vector_of(box.at("centre"))};
-  return standing("box", Box{vector_of(box.at("half_extents"))}, pose, box);
+Placed box_of(const Json& box, const Message&) {
+  return {Box{vector_of(box.at("half_extents"))},
+          {Eigen::Quaterniond::Identity(), vector_of(box.at("centre"))}};
 }
 
-SceneObject sphere_of(const Json& sphere) {
-  const Pose pose{Eigen::Quaterniond::Identity(), vector_of(sphere.at("centre"))};
-  return standing("sphere", Sphere{sphere.at("radius")}, pose, sphere);
+Placed sphere_of(const Json& sphere, const Message&) {
+  return {Sphere{sphere.at("radius")},
+          {Eigen::Quaterniond::Identity(), vector_of(sphere.at("centre"))}};
 }
 
-SceneObject capsule_of(const Json& capsule) {
+Placed capsule_of(const Json& capsule, const Message&) {
   const Vector3 a = vector_of(capsule.at("a")), b = vector_of(capsule.at("b"));
-  const Pose pose{from_z_to(b - a), (a + b) / 2};
-  return standing("capsule", Capsule{capsule.at("radius"), (b - a).norm() / 2}, pose, capsule);
+  return {Capsule{capsule.at("radius"), (b - a).norm() / 2}, {from_z_to(b - a), (a + b) / 2}};
 }
 
-void read_obstacles(const Json& constants, Scene& scene) {
-  using Read = SceneObject (*)(const Json&);
-  constexpr std::pair<const char*, Read> kinds[] = {
-      {"planes", plane_of}, {"boxes", box_of}, {"spheres", sphere_of}, {"capsules", capsule_of}};
-  for (const auto& [key, read] : kinds)
-    for (const Json& obstacle : constants.value(key, Json::array()))
-      scene.objects.push_back(read(obstacle));
+/// A closed mesh by its exact distance.
+Placed body_of(const Json& body, const Message& message) {
+  const std::string name = "body_" + std::to_string(body.at("mesh").get<int>());
+  return {MeshSolid{std::make_shared<const MeshDistance>(
+      make_mesh_distance(as_columns(message.numbers.at(name + "_vertices")),
+                         triangles_of(message.integers.at(name + "_triangles"))))}};
+}
+
+/// The body of a mesh that deforms: a field for each frame, of 64 cells along its longest side.
+std::optional<Body> deforming_body(const Json& obstacle, const Message& message) {
+  if (!obstacle.contains("mesh")) return {};
+  const std::string name = "body_" + std::to_string(obstacle["mesh"].get<int>());
+  MeshSequence frames = frames_of(message, name, "_frames");
+  if (frames.times.empty()) return {};
+  frames.triangles = triangles_of(message.integers.at(name + "_triangles"));
+  Bounds all;
+  for (const PerParticle3& x : frames.positions) all.extend(bounds_of(x));
+  const double cell = bounds_of(frames.positions.front()).sizes().maxCoeff() / 64;
+  return DeformingObject{std::make_shared<const DeformingBody>(
+      make_deforming_body(frames, octree_about(all, cell, cell / 10), BetweenFrames::carried))};
+}
+
+void read_obstacles(const Message& message, Scene& scene) {
+  using Read = Placed (*)(const Json&, const Message&);
+  constexpr std::pair<const char*, Read> kinds[] = {{"planes", plane_of},
+                                                    {"boxes", box_of},
+                                                    {"spheres", sphere_of},
+                                                    {"capsules", capsule_of},
+                                                    {"bodies", body_of}};
+  for (const auto& [kind, read] : kinds)
+    for (const Json& obstacle : message.header.at("scene").value(kind, Json::array())) {
+      SceneObject part;
+      if (auto body = deforming_body(obstacle, message)) {
+        part.object = Object{kind, *std::move(body), obstacle.at("friction")};
+        scene.objects.push_back(std::move(part));
+        continue;
+      }
+      Placed placed = read(obstacle, message);
+      part.object = Object{
+          kind, RigidObject{std::move(placed.solid), placed.pose, motion_of(obstacle, message)},
+          obstacle.at("friction")};
+      scene.objects.push_back(std::move(part));
+    }
+}
+
+StretchMaterial portable_stretch(const Json& m) {
+  return {m.at("young"), m.at("stretch_damping"), m.at("rest_length_scale")};
+}
+
+BendingMaterial portable_bending(const Json& m) {
+  return {4 * m.at("bending_rigidity").get<double>(), m.at("bending_damping")};
+}
+
+void read_materials(const Message& message, const Json& materials, Scene& scene) {
+  for (const Json& m : materials) {
+    ClothFabric fabric;
+    fabric.density = m.at("density");
+    fabric.stretch = portable_stretch(m);
+    fabric.bending = portable_bending(m);
+    scene.fabrics.fabrics.push_back(std::move(fabric));
+  }
+  scene.fabrics.of_triangle = message.integers.at("material_of_triangle");
+}
+
+void read_filters(const Json& constants, Scene& scene) {
+  if (const double thickness = constants.value("thickness", 0.0); thickness > 0)
+    scene.self_collision = SelfCollisionSettings{
+        .thickness = thickness, .friction = constants.value("layer_friction", 0.0)};
+  if (constants.contains("strain_limits")) {
+    scene.strain_limits.emplace();
+    scene.strain_limits->extension = constants["strain_limits"].at("extension");
+    scene.strain_limits->compression = constants["strain_limits"].at("compression");
+  }
 }
 
 void read_material(const Message& message, Scene& scene) {
   const Json& constants = message.header.at("scene");
   const Json& m = constants.at("material");
+  const Json materials = constants.value("materials", Json::array({m}));
+  const auto bends = [](const Json& one) {
+    return one.at("bending_rigidity") > 0 || one.at("bending_damping") > 0;
+  };
   scene.density = m.at("density");
   scene.gravity = vector_of(constants.at("gravity"));
-  scene.stretch =
-      StretchMaterial{m.at("young"), m.at("stretch_damping"), m.at("rest_length_scale")};
-  if (m.at("bending_rigidity") > 0 || m.at("bending_damping") > 0)
-    scene.bending =
-        BendingMaterial{4 * m.at("bending_rigidity").get<double>(), m.at("bending_damping")};
-  read_obstacles(constants, scene);
-  if (const double thickness = constants.value("thickness", 0.0); thickness > 0)
-    scene.self_collision = SelfCollisionSettings{.thickness = thickness};
+  scene.stretch = portable_stretch(m);
+  if (std::any_of(materials.begin(), materials.end(), bends)) scene.bending = portable_bending(m);
+  if (constants.contains("materials")) read_materials(message, materials, scene);
+  if (constants.contains("air")) {
+    const Json& air = constants["air"];
+    scene.air = Air{air.at("density"), vector_of(air.at("wind")), air.at("normal_drag"),
+                    air.at("tangential_drag")};
+  }
+  read_obstacles(message, scene);
+  read_filters(constants, scene);
   for (const int i : message.integers.at("held"))
     scene.prescribed.push_back({i, Vector3(scene.x.col(i)), Motion{}});
 }
 
 TriangleMesh mesh_of(const Message& message) {
-  const std::vector<int>& corners = message.integers.at("triangles");
-  std::vector<Triangle> triangles;
-  for (size_t t = 0; t + 2 < corners.size(); t += 3)
-    triangles.push_back({corners[t], corners[t + 1], corners[t + 2]});
-  return make_triangle_mesh(as_columns(message.numbers.at("rest")), std::move(triangles));
+  return make_triangle_mesh(as_columns(message.numbers.at("rest")),
+                            triangles_of(message.integers.at("triangles")));
 }
 
 }  // namespace
 
-PerParticle3 as_columns(const foldproof_solver::Numbers& rows) {
-  return Eigen::Map<const PerParticle3>(rows.data(), 3, Eigen::Index(rows.size() / 3));
-}
+MeshSequence held_path(const Message& message) { return frames_of(message, "held", "_x"); }
+
+PerParticle3 as_columns(const Numbers& rows) { return as_columns(std::span(rows)); }
 
 PortableScene portable_scene(const Scene& scene) {
   require_portable(scene);

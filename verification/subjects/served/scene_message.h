@@ -15,8 +15,12 @@ PortableScene portable_scene(const Scene& scene);
 /// 3 x N of the N x 3 numbers of a message.
 PerParticle3 as_columns(const foldproof_solver::Numbers& rows);
 
+/// Where the message's held particles are; no frames if they stay.
+MeshSequence held_path(const foldproof_solver::Scene& message);
+
 /// The scene of a message: of its extension, if it has one, else of its material. Bending has then
-/// ke = 4 B, exact on equilateral meshes; rest angles and held particles are the message's.
+/// ke = 4 B, exact on equilateral meshes; rest angles and held particles, as at the
+/// start, are the message's.
 /// Throws InputError for a mesh that is none, or constants outside of their range.
 Scene reference_scene(const foldproof_solver::Scene& message);
 

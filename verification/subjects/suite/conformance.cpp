@@ -65,6 +65,27 @@ void put_box(PortableScene& s) { s.boxes = {{{0.1, 0.1, -0.5}, {1, 1, 0.5}, 0.3}
 void put_sphere(PortableScene& s) { s.spheres = {{{0.1, 0.1, -0.4}, 0.4, 0.3}}; }
 void put_capsule(PortableScene& s) { s.capsules = {{{-1, 0.1, -0.1}, {1, 0.1, -0.1}, 0.1, 0.3}}; }
 
+void put_body(PortableScene& s) {
+  PortableBody body{PerParticle3(3, 4), {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}, 0.3};
+  body.vertices << -1, 1, 0, 0, -1, -1, 1, 0, -1, -1, -1, 0;
+  s.bodies = {body};
+}
+void put_moving(PortableScene& s) {
+  put_plane(s);
+  s.planes[0].motion = {{{0, {}}, {1, {Eigen::Quaterniond::Identity(), Vector3(0.1, 0, 0)}}}};
+}
+void lead_corner(PortableScene& s) {
+  s.held = {0};
+  s.moving_held = {{0, 1}, {s.x.col(0), Vector3(s.x.col(0)) + Vector3(0.1, 0, 0)}};
+}
+void put_materials(PortableScene& s) {
+  s.materials = {s.material, s.material};
+  s.material_of_triangle.resize(s.mesh.triangles.size(), 1);
+}
+void limit_strain(PortableScene& s) { s.strain_limits = {0.1, 0.1}; }
+void put_air(PortableScene& s) { s.air = {1.2, Vector3(1, 0, 0), 1.17, 0.02}; }
+void rub_layers(PortableScene& s) { s.thickness = 0.01, s.layer_friction = 0.3; }
+
 std::string ask_declined(PipedSolver& solver) {
   if (!solver.declines_unknown_operation())
     throw SolverFailure("header", "answered an operation that does not exist");
@@ -93,6 +114,13 @@ std::vector<Demand> all_demands() {
       meets("a sheet on a box is moved", "boxes", put_box),
       meets("a sheet on a sphere is moved", "spheres", put_sphere),
       meets("a sheet on a capsule is moved", "capsules", put_capsule),
+      meets("a sheet on a body is moved", "bodies", put_body),
+      meets("a sheet on a moving plane is moved", "moving_obstacles", put_moving),
+      meets("a sheet with a led corner is moved", "moving_held", lead_corner),
+      meets("a sheet of two materials is moved", "materials", put_materials),
+      meets("a sheet with strain limits is moved", "strain_limits", limit_strain),
+      meets("a sheet in air is moved", "air", put_air),
+      meets("a sheet with friction of layers is moved", "layer_friction", rub_layers),
       {"stop is answered, and nothing else is sent", 0, "",
        [](PipedSolver& s) { return s.stop(), std::string(); }},
   };
