@@ -1,4 +1,4 @@
-"""What protocol 2 adds, right and wrong: led particles, planes that move, materials, limits, air."""
+"""What protocol 2 adds, right and wrong: what is led and moves, materials, limits, air, layers."""
 from __future__ import annotations
 
 import numpy as np
