@@ -12,7 +12,6 @@ namespace foldproof {
 
 namespace {
 
-constexpr double g = 9.80665;                                  // m/s^2
 constexpr double ring_width = specimen_radius - plate_radius;  // m
 
 /// Ring j has 6 j vertices, from `first`, which is half a row inside the plate, to
@@ -87,19 +86,25 @@ const std::vector<DrapeFabric>& drape_fabrics() {
 }
 
 double bending_length(const DrapeFabric& fabric) {
-  return std::cbrt(fabric.rigidity / (fabric.density * g));
+  return std::cbrt(fabric.rigidity / (fabric.density * gravity));
 }
 
-double weight_for(double rigidity, double bending_length) {
-  return rigidity / (g * std::pow(bending_length, 3));
+const std::vector<MeasuredDrape>& measured_drapes() {
+  static const std::vector<MeasuredDrape> drapes{{{"polyester-twill", 1.28e-6, 0.13517}, 41, 0.223},
+                                                 {{"polyester-plain", 0.59e-6, 0.08366}, 46, 0.228},
+                                                 {{"wool-twill", 2.07e-6, 0.1787}, 50, 0.349},
+                                                 {{"viscose-twill", 2.685e-6, 0.28613}, 61, 0.286},
+                                                 {{"elastane-plain", 3.55e-6, 0.242}, 57, 0.443},
+                                                 {{"cotton-twill", 5.565e-6, 0.25336}, 126, 0.549}};
+  return drapes;
 }
 
 Scene ring_of_cloth(const DrapeTest& test) {
   const Rings rings = rings_of(test.rows);
   Scene scene = scene_at_rest(ring_mesh(rings), test.fabric.density);
   add_flat_hinges(scene, test.fabric.rigidity / rigidity_ratio(), 0);
-  scene.stretch = StretchMaterial{test.stretch * test.fabric.density * g * ring_width, 0, 1};
-  scene.gravity = Vector3(0, 0, -g);
+  scene.stretch = StretchMaterial{test.stretch * test.fabric.density * gravity * ring_width, 0, 1};
+  scene.gravity = Vector3(0, 0, -gravity);
   const double rim = rings.radius(rings.first + 1);
   for (int i = 0; i < scene.mesh.particles(); ++i) {
     const Vector3 at = scene.mesh.rest.col(i);

@@ -11,6 +11,7 @@ namespace foldproof {
 
 // ISO 9073-9, BS 5058: the specimen's radius and that of the plates [m]
 constexpr double specimen_radius = 0.15, plate_radius = 0.09;
+constexpr double gravity = 9.80665;  // m/s^2
 constexpr oracles::DrapeRadii drape_radii{specimen_radius, plate_radius};
 
 /// A fabric, as the test needs it.
@@ -25,11 +26,18 @@ struct DrapeFabric {
 /// Those of cases/fabrics.toml, with the mean of their two rigidities.
 const std::vector<DrapeFabric>& drape_fabrics();
 
+/// A fabric whose drape was measured, too.
+struct MeasuredDrape {
+  DrapeFabric fabric;
+  double shear;        // rigidity in shear [N/m]
+  double coefficient;  // of the drape test [1]
+};
+
+/// Those of cases/fabrics.toml.
+const std::vector<MeasuredDrape>& measured_drapes();
+
 /// (B/(density g))^(1/3) [m]: with the radii, it decides the shape of cloth that does not stretch.
 double bending_length(const DrapeFabric& fabric);
-
-/// The density with which a rigidity [N m] has this bending length [m]; kg/m^2.
-double weight_for(double rigidity, double bending_length);
 
 /// How a test is run. The ring of cloth around the plates has `rows` and a half rows of nearly
 /// equilateral triangles. It starts level, but for waves around it that rise outward.

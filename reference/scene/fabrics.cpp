@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <numbers>
 
 #include "reference/mesh/pattern.h"
@@ -15,7 +14,6 @@ namespace foldproof {
 
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double of_a_hinge = 0.25;  // D/ke where the database's ke is a rigidity [1]
 
 std::string text_of(const KeyTable& keys, const std::string& key) {
@@ -30,6 +28,10 @@ std::array<double, 2> pair_of(const KeyTable& keys, const std::string& key) {
   return {positive(*pair, "first"), positive(*pair, "second")};
 }
 
+double positive_if_there(const KeyTable& keys, const char* key) {
+  return keys.has(key) ? positive(keys, key) : none_measured;
+}
+
 Fabric fabric_of(const KeyTable& keys) {
   Fabric fabric{text_of(keys, "name"),
                 text_of(keys, "words"),
@@ -38,8 +40,11 @@ Fabric fabric_of(const KeyTable& keys) {
                 text_of(keys, "method"),
                 positive(keys, "density"),
                 {},
-                keys.has("scatter") ? positive(keys, "scatter") : none,
-                keys.texts("missing")};
+                positive_if_there(keys, "scatter"),
+                keys.texts("missing"),
+                positive_if_there(keys, "thickness"),
+                positive_if_there(keys, "shear"),
+                positive_if_there(keys, "drape")};
   if (keys.has("rigidity") == keys.has("hinge_stiffness"))
     throw InputError(keys.where("rigidity") +
                      ": a fabric has one of 'rigidity' and 'hinge_stiffness'");
@@ -65,7 +70,7 @@ LocalRigidity local_rigidity(const TriangleMesh& mesh) {
     means.push_back((at.least + at.greatest) / 2);
     anisotropy = std::max(anisotropy, at.anisotropy());
   }
-  if (means.empty()) return {none, none};
+  if (means.empty()) return {none_measured, none_measured};
   std::nth_element(means.begin(), means.begin() + long(means.size() / 2), means.end());
   return {means[means.size() / 2], anisotropy};
 }
@@ -124,7 +129,7 @@ const Fabric& fabric_named(const std::vector<Fabric>& fabrics, const std::string
 
 FabricOnMesh fabric_on_mesh(const Fabric& fabric, const TriangleMesh& cloth) {
   const TriangleMesh mesh = flat_panels(cloth);
-  FabricOnMesh on{none, none, none, none, ""};
+  FabricOnMesh on{none_measured, none_measured, none_measured, none_measured, ""};
   RestPlane plane;
   if (is_flat(mesh, plane)) {
     const Rigidity rigidity = rigidity_of(mesh, plane);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -9,13 +10,17 @@
 
 namespace foldproof {
 
+constexpr double none_measured = std::numeric_limits<double>::quiet_NaN();
+
 /// A fabric as it was measured.
 struct Fabric {
   std::string name, words, source, place, method;
   double density;                  // kg/m^2
   std::array<double, 2> rigidity;  // B along the first and the second direction [N m]
-  double scatter;                  // relative, of B; NaN if the source gives none [1]
+  double scatter;                  // relative, of B [1]; NaN if the source gives none, as the next
   std::vector<std::string> missing;
+  double thickness = none_measured, shear = none_measured;  // [m]; rigidity in shear [N/m]
+  double drape = none_measured;                             // coefficient of the drape test [1]
 };
 
 /// All fabrics of a file. Throws InputError "file:line: ..." for an unknown key, a missing

@@ -116,8 +116,13 @@ class SimulateTest(ProgramCase):
                 simulate_case(name),
                 f"{name}: there is no such case file, and no shipped case of that name")
 
-    def test_settle_hangs_a_fabric_s_strip_as_the_elastica(self) -> None:
-        told = self.told("settle", "cantilever", "--set", "cloth.fabric=wool", "--out", self.out)
+    def test_settle_hangs_one_s_own_fabric_as_the_elastica(self) -> None:
+        typed = ("fabric", "mine", "--weight", "180", "--bending-length", "19,16")
+        mine = self.write("mine.toml", run(*typed).stdout)
+        (read,) = self.told("fabric", "--fabrics", mine)
+        self.assertAlmostEqual(read["rigidity"][1], 0.18 * 9.80665 * 0.016**3, 9)
+        told = self.told("settle", "cantilever", "--set", f'cloth.fabrics="{mine}"', "--set",
+                         "cloth.fabric=mine", "--out", self.out)
         self.assertEqual({row["outcome"] for row in told["findings"]}, {"holds"})
         strip = told["cantilever"]
         self.assertAlmostEqual(strip["drop"] / strip["elastica_drop"], 1, 2)
