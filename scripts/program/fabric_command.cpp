@@ -152,7 +152,8 @@ void add_fabric_command(CLI::App& app, Program& program) {
       ->delimiter(',');
   add_value(fabric, "--kes B", options.kes, "Warp,weft by KES-F [gf cm^2/cm]", positive_number())
       ->delimiter(',');
-  add_value(fabric, "--drape D", options.drape, "Measured drape coefficient [%]", positive_number());
+  add_value(fabric, "--drape D", options.drape, "Measured drape coefficient [%]",
+            positive_number());
   add_json(fabric, options);
 }
 
