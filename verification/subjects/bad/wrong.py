@@ -25,6 +25,8 @@ import numpy as np  # noqa: E402
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "adapters"))
 import contact  # noqa: E402
+import hinges  # noqa: E402, F401
+import limits  # noqa: E402, F401
 import moving  # noqa: E402, F401
 import processes  # noqa: E402
 import scaled  # noqa: E402

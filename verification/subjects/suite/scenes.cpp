@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <random>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -83,6 +84,13 @@ std::vector<PortableScene> sheets_at_rest() {
     all.back().dt = step / 2;
   }
   return all;
+}
+
+PortableScene soft_sheet(std::string name) {
+  PortableScene scene = sheet_of_cells(4);
+  scene.name = std::move(name);
+  scene.material.young = 1e-4;
+  return scene;
 }
 
 PortableScene small_sheet() {
@@ -244,6 +252,11 @@ double squared_phase(const PortableScene& scene, long steps) {
   }
   const double time = double(steps) * scene.dt;
   return time * time * (rows.array() / scene.mass.array()).maxCoeff();
+}
+
+void require_softness(const PortableScene& scene, long steps) {
+  if (!(squared_phase(scene, steps) < 0.02))  // twice: it bounds the frequencies from above
+    throw std::logic_error("a sheet that is not soft: " + scene.name);
 }
 
 double rounding_error(const PortableScene& scene, long steps, const Declaration& declared) {

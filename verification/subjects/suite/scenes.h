@@ -28,6 +28,12 @@ PortableScene sheet_at_rest();
 /// Sheets in their rest shape of every pattern, and one whose rest shape is curved.
 std::vector<PortableScene> sheets_at_rest();
 
+/// Of 4 x 4 cells at rest, without gravity, of Y = 1e-4 N/m: omega is 1.5/s at most.
+PortableScene soft_sheet(std::string name);
+
+/// Throws std::logic_error unless (omega t)^2 of the motion is below 0.01.
+void require_softness(const PortableScene& scene, long steps);
+
 /// The same as sheet_at_rest, of 2 x 2 cells.
 PortableScene small_sheet();
 

@@ -1,0 +1,193 @@
+"""Limits, clocks and sizes of the solver's own, which the small, slow scenes of other laws do not
+reach; and held particles that are not, or that others notice."""
+from __future__ import annotations
+
+import numpy as np
+from foldproof_solver import Scene
+from materials import Bends, Damped
+from toy import Toy
+
+
+class Speed(Toy):
+    """No particle is faster than 10 m/s."""
+
+    def step(self, dt: float) -> None:
+        speed = np.linalg.norm(self.v, axis=1, keepdims=True)
+        self.v = self.v * np.minimum(1, 10 / np.maximum(speed, 10))
+        super().step(dt)
+
+
+class EdgesAreSlow(Toy):
+    """Ends of an edge part by 4 m/s at most."""
+
+    def step(self, dt: float) -> None:
+        a, b = self.edges.T
+        direction, _ = self.springs()
+        for _ in range(30):
+            parting = np.sum((self.v[b] - self.v[a]) * direction, axis=1)
+            excess = (parting - np.clip(parting, -4, 4))[:, None] * direction / 6
+            if not excess.any():
+                break
+            np.add.at(self.v, a, excess / 2)
+            np.add.at(self.v, b, -excess / 2)
+        super().step(dt)
+
+
+class StrainIsLimited(Toy):
+    """No edge is longer than 1.3 times at rest: its ends do not part then."""
+
+    def step(self, dt: float) -> None:
+        super().step(dt)
+        a, b = self.edges.T
+        for _ in range(10):
+            direction, elongation = self.springs()
+            pull = (np.maximum(0, elongation - 0.3 * self.length) / 6)[:, None] * direction
+            np.add.at(self.x, a, pull / 2)
+            np.add.at(self.x, b, -pull / 2)
+
+
+class StiffensBeyondATenth(Toy):
+    """Springs ten times as stiff beyond a strain of 10 %."""
+
+    def springs(self) -> tuple[np.ndarray, np.ndarray]:
+        direction, elongation = super().springs()
+        return direction, elongation + 9 * np.maximum(0, elongation - 0.1 * self.length)
+
+
+class ScalesVelocityEachStep(Toy):
+    """By 0.9998, whatever the step, as solvers that dissipate for stability."""
+
+    def step(self, dt: float) -> None:
+        super().step(dt)
+        self.v *= 0.9998
+
+
+class KnowsGravity(Toy):
+    """Its size is that of the earth, as soon as there is any."""
+
+    def alter(self, scene: Scene) -> None:
+        super().alter(scene)
+        size = np.linalg.norm(self.gravity)
+        self.gravity = self.gravity * (9.81 / size if size else 0)
+
+
+class StepsAreShort(Toy):
+    """Beyond 1/60 s, the rest of a step is dropped."""
+
+    def step(self, dt: float) -> None:
+        super().step(min(dt, 1 / 60))
+
+
+class StepOfPrepare(Toy):
+    def prepare(self, scene: Scene) -> dict[str, str]:
+        self.dt = scene.header["scene"]["dt"]
+        return super().prepare(scene)
+
+    def step(self, dt: float) -> None:
+        super().step(self.dt)
+
+
+class ManyStandStill(Toy):
+    """Beyond 800 particles it gives its input back."""
+
+    def step(self, dt: float) -> None:
+        if len(self.x) <= 800:
+            super().step(dt)
+
+
+class ManyBendFreely(Bends):
+    def alter(self, scene: Scene) -> None:
+        super().alter(scene)
+        self.over_area *= len(self.x) <= 2000
+
+
+class ManyAreNotDamped(Damped):
+    def alter(self, scene: Scene) -> None:
+        super().alter(scene)
+        self.c = self.c * (len(self.x) <= 2000)
+
+
+class HoldsInOrderAlone(Toy):
+    """A binary search among held particles, which needs their order."""
+
+    def alter(self, scene: Scene) -> None:
+        super().alter(scene)
+        at = np.searchsorted(self.held, np.arange(len(self.x)))
+        found = np.append(self.held, -1)[np.minimum(at, len(self.held))]
+        self.held = np.flatnonzero(found == np.arange(len(self.x)))
+
+
+class ReleasesAfterASecond(Toy):
+    def alter(self, scene: Scene) -> None:
+        super().alter(scene)
+        self.time = 0.0
+
+    def step(self, dt: float) -> None:
+        self.time += dt
+        if self.time > 1:
+            self.held = np.array([], int)
+        super().step(dt)
+
+
+class WeighsHalfBesideHeld(Toy):
+    def alter(self, scene: Scene) -> None:
+        super().alter(scene)
+        a, b = self.edges.T
+        beside = np.zeros(len(self.x), bool)
+        beside[b[np.isin(a, self.held)]] = beside[a[np.isin(b, self.held)]] = True
+        self.lift = -0.5 * np.where(beside, self.mass, 0)[:, None] * self.gravity
+
+    def forces(self) -> np.ndarray:
+        return super().forces() + self.lift
+
+
+class DampersSpareHeld(Damped):
+    """An edge with a held end has no damper."""
+
+    def alter(self, scene: Scene) -> None:
+        super().alter(scene)
+        self.c = self.c * ~np.isin(self.edges, self.held).any(axis=1)
+
+
+class DampsAlongRest(Damped):
+    """Dampers along the edges of the rest shape: they brake a sheet that has turned from it."""
+
+    def alter(self, scene: Scene) -> None:
+        super().alter(scene)
+        a, b = self.edges.T
+        self.along = (scene.rest[b] - scene.rest[a]) / np.linalg.norm(
+            scene.rest[b] - scene.rest[a], axis=1, keepdims=True)
+
+    def damping(self) -> np.ndarray:
+        now, self.springs = (self.along, 0), lambda: now
+        f = super().damping()
+        del self.springs
+        return f
+
+
+class RestIsNeverScaled(Toy):
+    """Lengths of the rest shape, whatever `rest_length_scale` says."""
+
+    def alter(self, scene: Scene) -> None:
+        super().alter(scene)
+        a, b = self.edges.T
+        self.length = np.linalg.norm(scene.rest[b] - scene.rest[a], axis=1)
+
+
+class Creeps(Toy):
+    """Rest lengths follow strains beyond 8 %, at 5 times a second."""
+
+    def step(self, dt: float) -> None:
+        super().step(dt)
+        _, elongation = self.springs()
+        beyond = np.abs(elongation) > 0.08 * self.length
+        self.length = self.length + 5 * dt * elongation * beyond
+
+
+class SoftHypotenuses(Toy):
+    """The longest edge of right-angled triangles has two thirds of its stiffness."""
+
+    def alter(self, scene: Scene) -> None:
+        super().alter(scene)
+        slanted = np.isclose(self.length / self.length.min(), np.sqrt(2))
+        self.k = self.k * np.where(slanted, 2 / 3, 1)

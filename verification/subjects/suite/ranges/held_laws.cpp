@@ -1,0 +1,91 @@
+// Held particles: which they are, that they stay for seconds, and what is beside them.
+
+#include "verification/subjects/suite/laws.h"
+
+namespace foldproof {
+
+namespace {
+
+using namespace suite;
+
+/// A third of its particles is held, in no order.
+PortableScene sheet_held_all_over() {
+  PortableScene scene = falling_sheet();
+  scene.name = "sheet held all over";
+  for (int i = int(scene.x.cols()) - 1; i > 0; i -= 3) scene.held.push_back(i);
+  std::swap(scene.held.front(), scene.held.back());
+  return scene;
+}
+
+bool is_held(const PortableScene& scene, int i) {
+  return std::ranges::find(scene.held, i) != scene.held.end();
+}
+
+/// At rest in its rest shape all but the weight begins at zero. (omega t)^2 is 0.03. Inertia that
+/// neighbours share, as of linear elements, makes those beside held ones faster, by less than half.
+Finding neighbours_fall_at_once(Trial& trial) {
+  constexpr long steps = 4;
+  PortableScene scene = sheet_held_all_over();
+  scene.dt = 2e-4;
+  if (trial.declaration().offers("masses")) {
+    scene.own_masses = true;
+    for (Eigen::Index i = 0; i < scene.mass.size(); ++i)
+      scene.mass[i] *= 1 + 0.3 * std::sin(2.3 * double(i));
+  }
+  const PerParticle3 v = trial.after(scene, steps).v;
+  const double gained = scene.gravity.norm() * double(steps) * scene.dt;
+  Worst slowest, fastest, held;
+  for (int i = 0; i < int(v.cols()); ++i) {
+    const double speed = -v(2, i) / gained;
+    if (is_held(scene, i))
+      held.observe(v.col(i).norm() / gained);
+    else
+      slowest.observe(1 - speed), fastest.observe(speed - 1);
+  }
+  Table measured = table_of("particles | farthest from g t [g t] | allowed [g t] | over it [1]");
+  measured.row("slowest free", slowest.value(), 0.2, slowest.value() / 0.2);
+  measured.row("fastest free", fastest.value(), 0.5, fastest.value() / 0.5);
+  measured.row("held", held.value(), 1e-3, held.value() / 1e-3);
+  return judge_worst(measured, 1,
+                     "in the rest shape no force but weight begins; (omega t)^2 is 0.03; where "
+                     "neighbours share inertia, those beside held ones fall up to 1.3 times as "
+                     "fast, and the next ones slower by a tenth");
+}
+
+/// Soft, so that steps may be long, with more weight than its springs bear at small strains.
+Finding stay_for_seconds(Trial& trial) {
+  PortableScene scene = sheet_of_cells(3);
+  scene.name = "sheet held for seconds";
+  scene.material.young = 0.6;
+  scene.gravity = Vector3(0.3, -0.2, -1.6);
+  scene.held = {13, 0, 3, 8};
+  scene.dt = drawn("long held", 0.005, 0.006);
+  const std::vector<long> at = multiples(std::lround(0.62 / scene.dt), 4);
+  Table measured = table_of("time [s] | the others moved by [m] | held ones [roundings]");
+  for (const Snapshot& now : trial.motion(scene, at)) {
+    double most = 0;
+    for (const int i : scene.held) update_worst(most, (now.x.col(i) - scene.x.col(i)).norm());
+    const double moved = largest(now.x - scene.x);
+    if (!(moved > 0.01))
+      throw FailedWithoutNumber("the sheet stands still", "a sheet that hangs from what is held");
+    measured.row(double(at[size_t(measured.rows())]) * scene.dt, moved,
+                 most / largest(scene.x) / trial.declaration().rounding());
+  }
+  return judge_worst(measured, 8, "a few roundings of a position");
+}
+
+}  // namespace
+
+std::vector<Law> held_laws() {
+  return {
+      {"held.many-in-any-order-and-no-other",
+       "A third of the particles, named in any order, is held; all others begin to fall with g.",
+       "protocol: array 'held'; Newton's second law", neighbours_fall_at_once, "held",
+       "particles | farthest from g t"},
+      {"held.particles-stay-for-seconds",
+       "Held particles stay for 2.5 s: none drifts or comes off.", "protocol: array 'held'",
+       stay_for_seconds, "held", "time | held ones"},
+  };
+}
+
+}  // namespace foldproof

@@ -1,0 +1,99 @@
+// The number of particles: a sheet moves as it does in a scene with many others, far apart.
+
+#include "verification/subjects/suite/laws.h"
+
+namespace foldproof {
+
+namespace {
+
+using namespace suite;
+
+constexpr long steps = 5;
+constexpr int aside = 5;  // copies along each side of a floor of them
+
+PortableScene moving_sheet_that_is_held() {
+  PortableScene scene = moving_sheet();
+  scene.gravity = Vector3(1.2, -0.7, -9.4);
+  scene.held = {3, 0, 24};
+  for (const int i : scene.held) scene.v.col(i).setZero();
+  return scene;
+}
+
+PortableScene moving_sheet_that_bends() {
+  PortableScene scene = moving_sheet();
+  scene.material.bending_rigidity = drawn("rigidity in many sheets", 0.002, 0.005);
+  return scene;
+}
+
+/// From its first place to that of copy k [m].
+Vector3 place_of(int k) {
+  return {0.8 * (k % aside), 0.75 * (k / aside % aside), 0.3 * (k / (aside * aside))};
+}
+
+PortableScene copies_of(const PortableScene& one, int count) {
+  PortableScene all = one;
+  const int particles = int(one.x.cols());
+  PerParticle3 rest(3, particles * count);
+  all.x.resize(3, particles * count), all.v.resize(3, particles * count);
+  all.mass.resize(particles * count);
+  all.held.clear();
+  std::vector<Triangle> triangles;
+  for (int k = 0; k < count; ++k) {
+    const int first = k * particles;
+    rest.middleCols(first, particles) = one.mesh.rest.colwise() + place_of(k);
+    all.x.middleCols(first, particles) = one.x.colwise() + place_of(k);
+    all.v.middleCols(first, particles) = one.v;
+    all.mass.segment(first, particles) = one.mass;
+    for (const Triangle& t : one.mesh.triangles)
+      triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    for (const int i : one.held) all.held.push_back(i + first);
+  }
+  all.mesh = make_triangle_mesh(rest, triangles);
+  all.name = fmt::format("{} {}s", count, one.name);
+  return all;
+}
+
+Finding many_move_as_one(Trial& trial, const PortableScene& one) {
+  const Eigen::Index particles = one.x.cols();
+  const PerParticle3 alone = trial.after(one, steps).x;
+  Table measured = table_of(
+      "sheets [1] | particles [1] | largest difference from one sheet [m] | over rounding [1]");
+  for (const double thousands : {drawn("fewer particles", 0.9, 1.1), drawn("more", 3, 3.4)}) {
+    const int count = int(std::lround(1000 * thousands / double(particles)));
+    const PortableScene all = copies_of(one, count);
+    const PerParticle3 x = trial.after(all, steps).x;
+    double most = 0;
+    for (int k = 0; k < count; ++k)
+      update_worst(
+          most, largest((x.middleCols(k * particles, particles) - alone).colwise() - place_of(k)));
+    const double rounding = largest(all.x) * rounding_error(all, steps, trial.declaration());
+    measured.row(count, all.x.cols(), most,
+                 most / (2 * largest(alone - one.x) *
+                         narrow(rounding / largest(alone - one.x), trial.declaration())));
+  }
+  return judge_worst(measured, 1, "sheets that do not touch; both runs round differently");
+}
+
+}  // namespace
+
+std::vector<Law> size_laws() {
+  const std::string among =
+      " moves as it does among many others in one scene: work and accuracy "
+      "for a sheet do not depend on the number of particles.";
+  return {
+      {"size.sheet-moves-alike-among-many", "A sheet" + among, "locality of forces",
+       in_scene(many_move_as_one, moving_sheet), "",
+       "particles | largest difference from one sheet"},
+      {"size.bent-sheet-moves-alike-among-many", "A sheet that resists bending" + among,
+       "locality of forces", in_scene(many_move_as_one, moving_sheet_that_bends), "bending",
+       "particles | largest difference from one sheet"},
+      {"size.damped-sheet-moves-alike-among-many", "A sheet with damped edges" + among,
+       "locality of forces", in_scene(many_move_as_one, damped_moving_sheet), "damping",
+       "particles | largest difference from one sheet"},
+      {"size.held-sheet-moves-alike-among-many", "A sheet that is held" + among,
+       "locality of forces", in_scene(many_move_as_one, moving_sheet_that_is_held), "held",
+       "particles | largest difference from one sheet"},
+  };
+}
+
+}  // namespace foldproof
