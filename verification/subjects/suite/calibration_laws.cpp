@@ -162,6 +162,43 @@ Finding tension_grows_with_strain(Trial& trial) {
                      "its width, by 0.57 of it from 20 to 30 %: its tension is Y (l - l^-3)/3");
 }
 
+/// Twice as much as St. Venant and Kirchhoff's law adds at 30 %; springs add none.
+Finding tension_does_not_jump(Trial& trial) {
+  const Specimen specimen{SheetPattern::equilateral, usual_columns};
+  Table measured = table_of(
+      "along | strain [1] | tension [N/m] | growth since the smaller strain [that up to the "
+      "first]");
+  for (const auto& [name, axis] : {std::pair("x", 0), {"y", 1}}) {
+    double last = 0, before = 0, first_slope = 0;
+    for (const double stretch : {0.03, 0.08, drawn("strain beyond 10 %", 0.11, 0.14), 0.33}) {
+      const double now = tension(trial, specimen, axis, stretch);
+      const double slope = (now - before) / (stretch - last);
+      if (last == 0) first_slope = slope;
+      measured.row(name, stretch, now, slope / first_slope);
+      last = stretch, before = now;
+    }
+  }
+  return judge_worst(measured, 3,
+                     "of a sheet held at its width, springs grow by as much, and St. Venant and "
+                     "Kirchhoff's law, Y (l^3 - l)/2, by 1.9 times as much at 33 %");
+}
+
+/// Cells of criss-cross are those of two diagonals, turned by 45 degrees. Springs of the protocol's
+/// stiffness make them 3/4 of Y along their hypotenuses, what is isotropic makes them Y.
+Finding modulus_along_hypotenuses(Trial& trial) {
+  const Specimen specimen{SheetPattern::criss_cross, usual_columns};
+  const double young = sheet_of(specimen).material.young;
+  const Moduli found = moduli_of(trial, specimen);
+  Table measured = table_of(
+      "along | Young's modulus [N/m] | at least [N/m] | at most [N/m] | beyond them [of Y]");
+  for (const auto& [axis, modulus] : {std::pair("x", found.along_x), {"y", found.along_y}})
+    measured.row(axis, modulus, 0.75 * young, young,
+                 std::max({0.0, 0.75 - modulus / young, modulus / young - 1}));
+  return judge_worst(measured, 0.05,
+                     "3/4 by springs of Y A/L^2, 1 of an isotropic sheet; the free "
+                     "sides relax, and waves and steps add the rest, as in the law of the modulus");
+}
+
 PortableScene bent(const Specimen& specimen, int axis, double by) {
   PortableScene scene = sheet_of(specimen);
   scene.material.bending_rigidity = 1e-3;
@@ -237,6 +274,15 @@ std::vector<Law> calibration_laws() {
       {"calibration.tension-grows-with-strain",
        "Up to a strain of 30 %, a sheet's tension goes on growing.",
        "Newton's second law of half a strained sheet", tension_grows_with_strain},
+      {"calibration.tension-does-not-jump-with-strain",
+       "Up to a strain of 33 %, a sheet stiffens by no more than the elastic laws in use.",
+       "Newton's second law of half a strained sheet", tension_does_not_jump, "",
+       "along | strain | growth since the smaller strain"},
+      {"calibration.modulus-along-hypotenuses",
+       "Along the hypotenuses of right-angled triangles, Young's modulus is that of the protocol's "
+       "springs, of an isotropic sheet, or between them.",
+       "Newton's second law of half a strained sheet", modulus_along_hypotenuses, "",
+       "along | Young's modulus"},
       {"calibration.bending-rigidity-is-the-scene-s",
        "On equilateral meshes the effective bending rigidity is the scene's.",
        "Newton's second law of half a bent sheet", rigidity_is_the_scene_s, "bending",

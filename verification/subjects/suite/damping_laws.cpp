@@ -44,10 +44,19 @@ struct Impulse {
   double rounding;  // of the force, over its norm [1]
 };
 
+/// Particles 0, 8, 16, ... of it are held.
+PortableScene rattled_sheet_with_held_particles() {
+  PortableScene scene = rattled_sheet();
+  for (int i = 0; i < int(scene.x.cols()); i += 8) {
+    scene.held.push_back(i);
+    scene.v.col(i).setZero();
+  }
+  return scene;
+}
+
 /// The motion with dampers against the one without. Their rounding is measured some metres away,
 /// where it is at least four times as coarse. Throws NotOffered where it could explain a failure.
-Impulse impulse_of_dampers(Trial& trial) {
-  const PortableScene damped = rattled_sheet();
+Impulse impulse_of_dampers(Trial& trial, const PortableScene& damped) {
   PortableScene free = damped;
   free.material.stretch_damping = 0;
   const Vector3 here = Vector3::Zero(), away(2.3, -2.9, 2.7);
@@ -64,8 +73,7 @@ Impulse impulse_of_dampers(Trial& trial) {
 }
 
 /// The force of springs on each particle, by the motion of a sheet at rest, displaced so far [N].
-PerParticle3 force_of_springs(Trial& trial, const PerParticle3& displacement) {
-  PortableScene scene = rattled_sheet();
+PerParticle3 force_of_springs(Trial& trial, PortableScene scene, const PerParticle3& displacement) {
   scene.material.stretch_damping = 0;
   scene.x += displacement;
   scene.v.setZero();
@@ -77,9 +85,9 @@ constexpr const char* reason =
     "10 steps, 1.1 %; the mean velocity by 0.4 %; the shape that velocities have changed, by 1.8 "
     "%; springs are linear to 1 %; and rounding";
 
-Finding edges_damp_as_stiff_as_they_are(Trial& trial) {
-  const Impulse found = impulse_of_dampers(trial);
-  const PerParticle3 expected = force_of_springs(trial, tau_of(rattled_sheet()) * found.v);
+Finding edges_damp_as_stiff_as_they_are(Trial& trial, const PortableScene& scene) {
+  const Impulse found = impulse_of_dampers(trial, scene);
+  const PerParticle3 expected = force_of_springs(trial, scene, tau_of(scene) * found.v);
   Table measured = table_of(
       "force of dampers [N] | of springs, displaced by tau v [N] | "
       "difference [of the force of springs]");
@@ -107,7 +115,7 @@ Finding stated_forces_are_inner_ones(Trial& trial) {
 }
 
 Finding stated_forces_are_those_of_the_motion(Trial& trial) {
-  const Impulse found = impulse_of_dampers(trial);
+  const Impulse found = impulse_of_dampers(trial, rattled_sheet());
   const PerParticle3 f = stated_forces(trial, rattled_sheet(), found.v);
   const auto power = [&](const PerParticle3& force) {
     return (force.array() * found.v.array()).sum();
@@ -125,7 +133,13 @@ std::vector<Law> damping_laws() {
   return {
       {"damping.edges-damp-in-proportion-to-their-stiffness",
        "Dampers act on velocities as the springs on displacements: each edge has its share.",
-       "protocol: 'stretch_damping'", edges_damp_as_stiff_as_they_are, "damping"},
+       "protocol: 'stretch_damping'", in_scene(edges_damp_as_stiff_as_they_are, rattled_sheet),
+       "damping"},
+      {"damping.edges-of-held-particles-damp-as-the-others",
+       "Dampers between held particles and free ones act on velocities as the springs there.",
+       "protocol: 'stretch_damping', 'held'",
+       in_scene(edges_damp_as_stiff_as_they_are, rattled_sheet_with_held_particles),
+       "damping held"},
       {"damping.stated-forces-sum-to-zero",
        "Damping forces of a free sheet sum to zero and exert no torque.", "Newton's third law",
        stated_forces_are_inner_ones, "L2 damping set_state"},

@@ -47,6 +47,20 @@ Finding stays_on_every_pattern(Trial& trial) {
   return judge_worst(measured, 1, "rounding of rest lengths, enlarged by elastic forces");
 }
 
+/// In the plane, at the lengths that the scene's scale gives.
+Finding scaled_lengths_are_at_rest(Trial& trial) {
+  Table measured("rest_length_scale [1]; largest displacement [m]; over rounding [1]");
+  for (const double scale : {drawn("shorter", 0.8, 0.93), 1.15}) {
+    PortableScene scene = sheet_at_rest();
+    scene.name = "sheet of scaled rest lengths";
+    scene.material.rest_length_scale = scale;
+    scene.x *= scale;
+    const double moved = largest(trial.after(scene, few).x - scene.x);
+    measured.row(scale, moved, moved / largest(scene.x) / (2 * narrow_rounding(trial, scene, few)));
+  }
+  return judge_worst(measured, 1, "rounding of rest lengths, enlarged by elastic forces");
+}
+
 /// The angle of a hinge as the protocol defines it [rad].
 double angle(const PerParticle3& x, const std::array<int, 4>& hinge) {
   const Vector3 x1 = x.col(hinge[0]), x2 = x.col(hinge[1]), x3 = x.col(hinge[2]),
@@ -172,8 +186,31 @@ Vector3 angular_momentum_of(const PortableScene& scene, const Snapshot& state) {
   return sum;
 }
 
-double angular_drift(Trial& trial, long steps) {
+/// The damped sheet turned by a radian from its rest shape, spinning by 9 rad/s more.
+PortableScene damped_sheet_turned_from_rest() {
+  PortableScene scene = damped_moving_sheet();
+  scene.name = "damped sheet turned from its rest shape";
+  scene.dt /= 2;
+  const double c = std::cos(1.0), s = std::sin(1.0);
+  const Eigen::Matrix3d turn{{c, -s, 0}, {s, c, 0}, {0, 0, 1}};
+  scene.x = turn * scene.x, scene.v = turn * scene.v;
+  for (Eigen::Index i = 0; i < scene.x.cols(); ++i)
+    scene.v.col(i) += Vector3(2, -3, 8).cross(Vector3(scene.x.col(i)));
+  return scene;
+}
+
+/// Bent at all hinges, which are damped for 2 ms of their stiffness.
+PortableScene sheet_of_damped_hinges() {
   PortableScene scene = moving_sheet();
+  scene.name = "moving sheet of damped hinges";
+  scene.material.bending_rigidity = 0.005;
+  scene.material.bending_damping = drawn("damping of hinges", 1e-4, 2e-4);
+  for (Eigen::Index i = 0; i < scene.x.cols(); ++i)
+    scene.x(2, i) += 0.02 * std::sin(2.1 * double(i));
+  return scene;
+}
+
+double angular_drift(Trial& trial, PortableScene scene, long steps) {
   const double time = few * scene.dt;
   scene.dt = time / double(steps);
   const Snapshot end = trial.after(scene, steps);
@@ -181,12 +218,13 @@ double angular_drift(Trial& trial, long steps) {
   return (angular_momentum_of(scene, end) - start).norm() / start.norm();
 }
 
-Finding angular_momentum_converges(Trial& trial) {
+Finding angular_momentum_converges(Trial& trial, const PortableScene& scene) {
   const Declaration declared = trial.declaration();
-  PortableScene finest = moving_sheet();
+  PortableScene finest = scene;
   finest.dt /= 4;
   const double floor = narrow(10 * rounding_error(finest, 4 * few, declared), declared);
-  const double coarse = angular_drift(trial, 2 * few), fine = angular_drift(trial, 4 * few);
+  const double coarse = angular_drift(trial, scene, 2 * few),
+               fine = angular_drift(trial, scene, 4 * few);
   Table measured("drift at dt/2 [L]; drift at dt/4 [L]; fine over coarse [1]");
   measured.row(coarse, fine, fine <= floor ? 0 : fine / coarse);
   const double expected = std::pow(0.5, std::max(1, declared.order));
@@ -217,6 +255,9 @@ std::vector<Law> motion_laws() {
       {"rest.no-force-no-motion-on-any-pattern",
        "Sheets of seven meshes, one of them curved, stay in their rest shape.", "equilibrium",
        stays_on_every_pattern, "", "pattern | largest displacement"},
+      {"rest.scaled-lengths-are-at-rest", "A sheet scaled as its `rest_length_scale` says stays.",
+       "protocol: 'rest_length_scale'", scaled_lengths_are_at_rest, "",
+       "rest_length_scale | largest displacement"},
       {"rest.curved-sheet-keeps-its-rest-angles",
        "A curved sheet that resists bending stays in its rest shape.", "equilibrium", stays_curved,
        "bending", "largest displacement"},
@@ -238,7 +279,21 @@ std::vector<Law> motion_laws() {
        in_scene(keeps_momentum, damped_moving_sheet), "damping"},
       {"momentum.angular-drift-falls-with-the-step",
        "The change of a free sheet's angular momentum falls as the order claims.",
-       "Newton's third law along the line of force", angular_momentum_converges, "",
+       "Newton's third law along the line of force",
+       in_scene(angular_momentum_converges, moving_sheet), "", "drift at dt/2 | drift at dt/4"},
+      {"momentum.angular-under-damping-drifts-less-in-shorter-steps",
+       "Damped edges, turned from their rest shape, change the angular momentum by the step's "
+       "error alone: dampers act along the edges.",
+       "Newton's third law along the line of force",
+       in_scene(angular_momentum_converges, damped_sheet_turned_from_rest), "damping",
+       "drift at dt/2 | drift at dt/4"},
+      {"momentum.linear-under-damping-of-hinges-is-conserved",
+       "A free sheet with damped hinges keeps its linear momentum.", "Newton's third law",
+       in_scene(keeps_momentum, sheet_of_damped_hinges), "damping bending"},
+      {"momentum.angular-under-damping-of-hinges-drifts-less-in-shorter-steps",
+       "Damped hinges change the angular momentum by the step's error alone.",
+       "Newton's third law for moments",
+       in_scene(angular_momentum_converges, sheet_of_damped_hinges), "damping bending",
        "drift at dt/2 | drift at dt/4"},
       {"held.particles-stay", "Held particles stay where they are.", "protocol: array 'held'",
        held_particles_stay, "held"},

@@ -205,6 +205,44 @@ Finding halved_steps_approach_a_limit(Trial& trial) {
 
 bool is_float(double number) { return double(float(number)) == number; }
 
+/// A sheet of large strains and folds, whose elastic law has no memory.
+PortableScene crumpled_sheet() {
+  PortableScene scene = moving_sheet();
+  scene.name = "crumpled sheet";
+  for (Eigen::Index i = 0; i < scene.x.cols(); ++i) {
+    scene.x(0, i) *= 1.25;
+    scene.x(2, i) += 0.04 * std::sin(2.6 * double(i));
+  }
+  scene.dt = 0.001;
+  return scene;
+}
+
+PortableScene crumpled_sheet_that_bends() {
+  PortableScene scene = crumpled_sheet();
+  scene.material.bending_rigidity = 0.002;
+  return scene;
+}
+
+/// Goes on from a state, against a scene that starts with it. Schemes that look back on several
+/// states, or that do not finish their solves, begin anew there: they err by their step at most.
+Finding continues_from_its_state(Trial& trial, const PortableScene& scene) {
+  constexpr long before = 30, after = 20;
+  const std::vector<Snapshot> on = trial.motion(scene, {before, before + after});
+  PortableScene anew = scene;
+  anew.x = on[0].x, anew.v = on[0].v;
+  const double off = largest(trial.after(anew, after).x - on[1].x),
+               rounding = largest(scene.x) * narrow_rounding(trial, scene, before + after),
+               error =
+                   off <= rounding
+                       ? 0
+                       : largest(trial.after(in_steps(scene, 2 * steps), 2 * (before + after)).x -
+                                 on[1].x);
+  Table measured = table_of(
+      "difference of positions [m] | rounding [m] | error of the step [m] | beyond both [1]");
+  measured.row(off, rounding, error, off / (error + 2 * rounding));
+  return judge_worst(measured, 1, "positions and velocities are the whole state of elastic cloth");
+}
+
 Finding results_need_their_digits(Trial& trial) {
   const Snapshot end = trial.after(moving_sheet(), steps);
   Table measured("of; numbers [1]; share that single precision holds [1]");
@@ -225,6 +263,13 @@ std::vector<Law> repeat_laws() {
        "determinism", second_scene_starts_afresh},
       {"repeat.step-depends-on-its-state-alone", "A state that is set again gives the same step.",
        "determinism", step_depends_on_its_state_alone, "L1 set_state"},
+      {"repeat.motion-goes-on-from-its-state",
+       "A scene that starts from a state on the way goes on as the first did: nothing creeps.",
+       "elastic cloth has no memory", in_scene(continues_from_its_state, crumpled_sheet)},
+      {"repeat.motion-with-bending-goes-on-from-its-state",
+       "A bent scene that starts from a state on the way goes on as the first did: no fold stays.",
+       "elastic cloth has no memory", in_scene(continues_from_its_state, crumpled_sheet_that_bends),
+       "bending"},
       {"order.observed-is-as-claimed", "Halving the step reduces the error as claimed.",
        "Richardson", in_scene(order_is_as_claimed, moving_sheet), "order", "observed | claimed"},
       {"order.with-damping-is-as-claimed",

@@ -20,6 +20,14 @@ constexpr long samples = 126;          // one a coarsest step: two periods
 constexpr long stride = 8;             // samples, 0.8 radians
 constexpr double damping_ratio = 0.1;  // rate over omega [1]
 
+/// One mode of a scene: its frequency by the scene's numbers, its start, and what is followed.
+struct Oscillator {
+  PortableScene scene;
+  double omega;                                                     // 1/s
+  PerParticle3 (*displaced)(const PortableScene&, double by);       // positions [m]
+  double (*followed)(const PortableScene&, const PerParticle3& x);  // strain or angle
+};
+
 PortableScene triangle() {
   PerParticle3 corners(3, 3);
   for (int i = 0; i < 3; ++i) {
@@ -38,13 +46,60 @@ double strain_of(const PortableScene& scene, const PerParticle3& x) {
   return (from_centre.array() * scene.mesh.rest.array()).sum() / scene.mesh.rest.squaredNorm() - 1;
 }
 
+PerParticle3 enlarged(const PortableScene& scene, double by) { return (1 + by) * scene.mesh.rest; }
+
+Oscillator breathing() {
+  const PortableScene scene = triangle();
+  return {scene, omega_of(scene), enlarged, strain_of};
+}
+
+//      1        Two equilateral triangles of height h and mass rho A swing about their shared edge
+//     / \       by the angle theta = (z0 + z1 - z2 - z3)/h. The hinge of weight w = 1/sqrt(3), and
+//    2---3      its damper of moment kd L theta', make it
+//     \ /         theta'' + 9/(h^2 rho A) (kd L theta' + 2 B w theta) = 0
+//      0        Springs, four times as fast or more, keep the lengths.
+constexpr double height = side * 0.8660254037844386;  // m
+const double hinge_weight = 1 / std::sqrt(3.0);
+
+PortableScene two_triangles() {
+  PerParticle3 corners(3, 4);
+  corners << 0, 0, -side / 2, side / 2, -height, height, 0, 0, 0, 0, 0, 0;
+  PortableScene scene =
+      resting("swinging hinge", make_triangle_mesh(corners, {{2, 0, 3}, {3, 1, 2}}),
+              {.young = 5, .bending_rigidity = 1.8e-3});
+  return scene;
+}
+
+/// Each triangle turned by half of the angle [rad].
+PerParticle3 folded(const PortableScene& scene, double by) {
+  PerParticle3 x = scene.mesh.rest;
+  x.row(1) *= std::cos(by / 2);
+  x.row(2) = (scene.mesh.rest.row(1).array().abs() * std::sin(by / 2)).matrix();
+  return x;
+}
+
+double angle_of(const PortableScene&, const PerParticle3& x) {
+  return (x(2, 0) + x(2, 1) - x(2, 2) - x(2, 3)) / height;
+}
+
+Oscillator swinging() {
+  const PortableScene scene = two_triangles();
+  const double inertia = height * height * scene.mass.sum() / 2 / 9;  // kg m^2
+  return {scene, std::sqrt(2 * scene.material.bending_rigidity * hinge_weight / inertia), folded,
+          angle_of};
+}
+
 /// After these numbers of steps.
-std::vector<double> strains(Trial& trial, PortableScene scene, const std::vector<long>& steps) {
+std::vector<double> displacements(Trial& trial, const Oscillator& oscillator, double dt,
+                                  const std::vector<long>& steps) {
+  PortableScene scene = oscillator.scene;
+  scene.dt = dt;
   std::vector<double> all(steps.size(), 0);
   for (const double sign : {1.0, -1.0}) {
-    scene.x = (1 + sign * amplitude) * scene.mesh.rest;
+    scene.x = oscillator.displaced(scene, sign * amplitude);
     const std::vector<Snapshot> states = trial.motion(scene, steps);
-    for (size_t k = 0; k < states.size(); ++k) all[k] += sign / 2 * strain_of(scene, states[k].x);
+    for (size_t k = 0; k < states.size(); ++k)
+      all[k] += sign / 2 * oscillator.followed(scene, states[k].x);
   }
   return all;
 }
@@ -69,9 +124,9 @@ Oscillation fit(const std::vector<double>& s) {
 }
 
 /// At the coarsest step over `parts`.
-Oscillation oscillation(Trial& trial, PortableScene scene, long parts) {
-  scene.dt = coarsest / omega_of(scene) / double(parts);
-  return fit(strains(trial, scene, multiples(parts, samples)));
+Oscillation oscillation(Trial& trial, const Oscillator& oscillator, long parts) {
+  const double dt = coarsest / oscillator.omega / double(parts);
+  return fit(displacements(trial, oscillator, dt, multiples(parts, samples)));
 }
 
 /// The limit of a number at two steps, the second half of the first, by the claimed order.
@@ -79,19 +134,19 @@ double extrapolated(double coarse, double fine, const Declaration& declared) {
   return fine + (fine - coarse) / (std::pow(2.0, std::max(1, declared.order)) - 1);
 }
 
-/// omega by the way that the released triangle has gone after 1.6 radians, a cosine, over that of
-/// the scene [1]: the stiffness as it is at the start, where few steps have rounded yet.
-double released_frequency(Trial& trial) {
+/// omega by the way that the released scene, without damping, has gone after 1.6 radians, a cosine,
+/// over that of the scene [1]: the stiffness as it is at the start, where few steps have rounded.
+double released_frequency(Trial& trial, Oscillator oscillator) {
+  oscillator.scene.material.stretch_damping = oscillator.scene.material.bending_damping = 0;
   constexpr double angle = 16 * coarsest;
   const auto frequency = [&](long steps) {
-    PortableScene scene = triangle();
-    scene.dt = angle / omega_of(scene) / double(steps);
-    return std::acos(strains(trial, scene, {steps}).front() / amplitude) / angle;
+    const double dt = angle / oscillator.omega / double(steps);
+    return std::acos(displacements(trial, oscillator, dt, {steps}).front() / amplitude) / angle;
   };
   const double coarse = frequency(16), fine = frequency(32);
   if (!(coarse > 0 && fine > 0))
-    throw FailedWithoutNumber("a strained triangle does not swing back when it is let go",
-                              "a frequency: lengths beyond those of the rest shape must pull");
+    throw FailedWithoutNumber("strained or bent triangles do not swing back when they are let go",
+                              "a frequency: lengths and angles other than at rest must pull");
   return extrapolated(coarse, fine, trial.declaration());
 }
 
@@ -113,14 +168,16 @@ double allowed(const Declaration& declared) {
          2 * amplitude * amplitude;
 }
 
-/// With dampers of `ratio`, c = 2 ratio k/omega, the rate is ratio omega of the scene's omega, and
-/// as much as the solver's own stiffness differs: its calibration is another law's.
-Finding vibrates_with(Trial& trial, const PortableScene& scene, double ratio) {
+/// With dampers of `ratio`, 2 ratio/omega times the stiffness, the rate is ratio omega of the
+/// scene's omega, and as much as the solver's own stiffness differs: its calibration is another
+/// law's.
+Finding vibrates_with(Trial& trial, const Oscillator& oscillator, double ratio) {
   const double bound = narrow(allowed(trial.declaration()), trial.declaration());
-  const double released = released_frequency(trial), decay = ratio * released * released;
+  const double released = released_frequency(trial, oscillator),
+               decay = ratio * released * released;
   const double frequency = std::sqrt(released * released - decay * decay);
   std::vector<Oscillation> at;
-  for (const long parts : {1, 2, 4}) at.push_back(oscillation(trial, scene, parts));
+  for (const long parts : {1, 2, 4}) at.push_back(oscillation(trial, oscillator, parts));
   const auto row = [&](Table& table, const char* of, auto member, double expected) {
     const double limit = extrapolated(at[1].*member, at[2].*member, trial.declaration());
     table.row(of, at[0].*member, at[1].*member, at[2].*member, limit, expected,
@@ -136,13 +193,24 @@ Finding vibrates_with(Trial& trial, const PortableScene& scene, double ratio) {
                      "of the series is left, rounding, and the squared strain twice");
 }
 
-Finding undamped_goes_on(Trial& trial) { return vibrates_with(trial, triangle(), 0); }
+Finding undamped_goes_on(Trial& trial) { return vibrates_with(trial, breathing(), 0); }
+
+Finding undamped_hinge_goes_on(Trial& trial) { return vibrates_with(trial, swinging(), 0); }
 
 Finding damped_decays(Trial& trial) {
-  PortableScene scene = triangle();
-  scene.name += ", damped";
-  scene.material.stretch_damping = 2 * damping_ratio * scene.material.young / omega_of(scene);
-  return vibrates_with(trial, scene, damping_ratio);
+  Oscillator damped = breathing();
+  damped.scene.name += ", damped";
+  damped.scene.material.stretch_damping =
+      2 * damping_ratio * damped.scene.material.young / damped.omega;
+  return vibrates_with(trial, damped, damping_ratio);
+}
+
+Finding damped_hinge_decays(Trial& trial) {
+  Oscillator damped = swinging();
+  damped.scene.name += ", damped";
+  const double stiffness = 2 * damped.scene.material.bending_rigidity * hinge_weight;  // N m
+  damped.scene.material.bending_damping = 2 * damping_ratio / damped.omega * stiffness / side;
+  return vibrates_with(trial, damped, damping_ratio);
 }
 
 }  // namespace
@@ -156,6 +224,13 @@ std::vector<Law> vibration_laws() {
       {"vibration.damped-decays-as-its-damping-says",
        "A damped free vibration has the period and the decay of the damped oscillator.",
        "damped harmonic oscillator", damped_decays, "damping", "of | extrapolated | expected"},
+      {"vibration.undamped-hinge-goes-on",
+       "Without damping, a hinge swings on: bending has none hidden.", "harmonic oscillator",
+       undamped_hinge_goes_on, "bending", "of | extrapolated | expected"},
+      {"vibration.damped-hinge-decays-as-its-damping-says",
+       "A hinge with `bending_damping` has the period and the decay of the damped oscillator.",
+       "damped harmonic oscillator", damped_hinge_decays, "damping bending",
+       "of | extrapolated | expected"},
   };
 }
 
