@@ -28,6 +28,7 @@ import contact  # noqa: E402
 import hinges  # noqa: E402, F401
 import limits  # noqa: E402, F401
 import moving  # noqa: E402, F401
+import obstacles  # noqa: E402
 import processes  # noqa: E402
 import scaled  # noqa: E402
 import stated  # noqa: E402

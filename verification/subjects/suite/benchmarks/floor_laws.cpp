@@ -129,15 +129,16 @@ Finding slips_as_the_elastica(Trial& trial) {
   const double rigidity = measured_rigidity(trial, flat_strip(), shape);
   require_resistance("bending", rigidity, given);
   Table measured = table_of(
-      "compression [L] | measured rigidity [N m] | mu that just holds [1] | at least [1] | "
+      "compression [L] | measured rigidity [N m] | mu that just holds | at least [1] | "
       "at most [1] | last move [L] | outside of both [mu]");
   for (const double compression : {0.1, 0.2}) {
     const Pressed strip = strip_at_rest(trial, compression, rigidity);
     const double least = strip.least(), most = strip.most();
-    const double found = middle(bisected({0.7 * least, 1.3 * most}, 0.01 * least,
-                                         [&](double mu) { return !slips(trial, strip, mu); }));
-    measured.row(compression, rigidity, found, least, most, strip.last_move / length,
-                 std::max({0.0, 1 - found / least, found / most - 1}));
+    const Interval tried{0.7 * least, 1.3 * most},
+        last = bisected(tried, 0.01 * least, [&](double mu) { return !slips(trial, strip, mu); });
+    const double found = middle(last);
+    measured.row(compression, rigidity, found_text(last, tried), least, most,
+                 strip.last_move / length, std::max({0.0, 1 - found / least, found / most - 1}));
   }
   return judge_worst(
       measured, 0.02,

@@ -18,10 +18,12 @@ Finding rests_on_the_plane(Trial& trial) {
   const double edge = rest_lengths(scene.mesh).mean();
   Table measured =
       table_of("steps [1] | deepest [m] | highest [m] | largest distance over what is allowed [1]");
-  for (const long count : {steps, 2 * steps}) {
-    const Eigen::RowVectorXd z = seen_from_the_plane(trial.after(scene, count).x).row(2);
+  const std::vector<long> counts = multiples(2, steps);
+  const std::vector<Snapshot> states = trial.motion(scene, counts);
+  for (size_t k = 0; k < states.size(); ++k) {
+    const Eigen::RowVectorXd z = seen_from_the_plane(states[k].x).row(2);
     const double deepest = std::max(0.0, -z.minCoeff()), highest = std::max(0.0, z.maxCoeff());
-    measured.row(count, deepest, highest,
+    measured.row(counts[k], deepest, highest,
                  std::max(deepest / (0.01 * edge), highest / (0.1 * edge)));
   }
   return judge_worst(measured, 1,
