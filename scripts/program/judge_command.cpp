@@ -1,20 +1,24 @@
 // foldproof judge, subject, serve: another solver on trial, its adapter, and the reference as one.
 
 #include <chrono>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "scripts/program/command_line/options_of_commands.h"
 #include "scripts/program/command_line/out_folder.h"
-#include "scripts/program/command_line/suggestions.h"
+#include "scripts/program/data_folder.h"
 #include "scripts/program/judge_frames.h"
-#include "scripts/program/progress.h"
+#include "scripts/program/look_first.h"
 #include "scripts/program/provenance.h"
 #include "scripts/program/run_all.h"
 #include "scripts/program/typed_solver.h"
 #include "scripts/program/trial_output.h"
+#include "scripts/program/trial_progress.h"
 #include "verification/files/baseline_file.h"
+#include "verification/seeds.h"
 #include "verification/subjects/served/reference_server.h"
 #include "verification/subjects/suite/conformance.h"
 #include "verification/subjects/suite/laws.h"
@@ -26,28 +30,6 @@ namespace {
 
 constexpr std::string_view law_of_cost = "order.halved-steps-approach-a-limit";
 
-/// The laws of these names or groups, all if there is none. Throws InputError for a name that
-/// chooses nothing, with the nearest known ones.
-std::vector<Law> chosen_laws(const std::vector<std::string>& names) {
-  std::vector<Law> laws = portable_laws();
-  for (const std::string& name : names) {
-    std::vector<std::string> known;
-    for (const Law& law : laws)
-      known.insert(known.end(), {law.name, law.name.substr(0, law.name.find('.'))});
-    const auto is_chosen = [&](const Law& law) { return chooses(name, law.name); };
-    if (std::ranges::any_of(laws, is_chosen)) continue;
-    const std::string meant = did_you_mean(nearest_names(name, known));
-    throw InputError(fmt::format("there is no law '{}' (`foldproof list laws` shows all){}", name,
-                                 meant.empty() ? "; is CMD in quotes?" : meant));
-  }
-  std::erase_if(laws, [&](const Law& law) {
-    return !names.empty() && std::ranges::none_of(names, [&](const std::string& name) {
-      return chooses(name, law.name);
-    });
-  });
-  return laws;
-}
-
 /// The kept verdicts of these laws alone, so that those that are not asked are not missed. Throws
 /// InputError if the baseline has none for a name that was typed: that could only pass.
 std::optional<Baseline> baseline_of(const Options& options, const std::vector<Law>& laws) {
@@ -55,7 +37,7 @@ std::optional<Baseline> baseline_of(const Options& options, const std::vector<La
   if (!baseline) return {};
   for (const std::string& name : options.names)
     if (std::ranges::none_of(baseline->verdicts,
-                             [&](const KeptVerdict& kept) { return chooses(name, kept.name); }))
+                             [&](const KeptVerdict& kept) { return chooses_law(name, kept.name); }))
       throw InputError(fmt::format("{}: has no verdict on '{}'", options.baseline, name));
   if (!options.names.empty())
     std::erase_if(baseline->verdicts, [&](const KeptVerdict& kept) {
@@ -72,8 +54,14 @@ std::string heading(const Judgement& judgement, const SolverCommand& command) {
                                  d.is_single ? "f4" : "f8", d.scheme, d.order);
   for (const auto& [key, value] : command.settings)
     text += fmt::format("  setting {} = {}\n", key, value);
-  for (const auto& [key, value] : judgement.mapping)
-    text += fmt::format("  mapping of {}: {}\n", key, value);
+  std::map<std::string, long> said;
+  for (const auto& [key, value] : judgement.mapping) ++said[key];
+  for (const auto& [key, value] : judgement.mapping) {
+    const long others = std::exchange(said[key], 0) - 1;
+    if (others < 0) continue;  // said of another scene
+    text += fmt::format("  mapping of {}: {}{}\n", key, value,
+                        others > 0 ? fmt::format(" ({} more in solver.json)", others) : "");
+  }
   return text;
 }
 
@@ -101,6 +89,11 @@ std::vector<std::string> options_that_matter(const Options& options) {
     words.insert(words.end(), {"--seconds", fmt::format("{}", options.patience)});
   if (options.total_seconds > 0)
     words.insert(words.end(), {"--total-seconds", fmt::format("{}", options.total_seconds)});
+  if (options.law_seconds > 0)
+    words.insert(words.end(), {"--law-seconds", fmt::format("{}", options.law_seconds)});
+  if (options.seed_shift > 0)
+    words.insert(words.end(), {"--seed", fmt::format("{}", options.seed_shift)});
+  for (const std::string& name : options.skipped) words.insert(words.end(), {"--skip", name});
   return words;
 }
 
@@ -122,6 +115,21 @@ nlohmann::json portrait_json(const SolverCommand& command, const Options& option
           {"radius", ball.radius}};
 }
 
+/// What each law asked of the solver.
+nlohmann::json asked_json(const Judgement& judgement) {
+  nlohmann::json all = nlohmann::json::object();
+  for (size_t k = 0; k < judgement.asked.size(); ++k) {
+    const Observed& asked = judgement.asked[k];
+    if (asked.scenes > 0)
+      all[judgement.records[k].name] = {{"scenes", asked.scenes},
+                                        {"advances", asked.advances},
+                                        {"steps", asked.steps},
+                                        {"particle_steps", asked.particle_steps},
+                                        {"particles", asked.most_particles}};
+  }
+  return all;
+}
+
 /// What the solver says of itself, and how it was asked; empty texts if it did not start.
 std::string solver_json(const Judgement& judgement, const SolverCommand& command,
                         const Options& options) {
@@ -139,6 +147,11 @@ std::string solver_json(const Judgement& judgement, const SolverCommand& command
                {"order", d.order},
                {"capabilities", d.capabilities},
                {"solve_tolerance", d.solve_tolerance},
+               {"mass_matrix", d.has_consistent_mass ? "consistent" : "lumped"},
+               {"substep", d.substep},
+               {"deterministic", d.is_deterministic},
+               {"contact_offset", d.contact_offset},
+               {"asked", asked_json(judgement)},
                {"command", command.command},
                {"options", options_that_matter(options)},
                {"settings", json::object()},
@@ -184,6 +197,7 @@ RunRecord run_of(const Judgement& judgement, double seconds, const Options& opti
   run.provenance = provenance(options.command);
   run.seconds = seconds;
   run.tier = options.tier;
+  run.seed = options.seed_shift;
   run.subject = options.name.empty() ? judgement.declaration.name : options.name;
   if (run.subject.empty()) run.subject = options.solver;
   run.subject_version = judgement.declaration.version;
@@ -201,25 +215,31 @@ int judge_another_solver(const Options& options) {
   if (!options.frames.empty()) return judge_frames_of_a_case(options);
   if (options.solver.empty())
     throw InputError("judge needs --solver CMD, or --frames DIR with --case CASE");
-  const std::vector<Law> laws = chosen_laws(options.names);
+  if (options.out.empty() && (options.resumes || options.restarts))
+    throw InputError("--resume and --restart need --out, the folder of the interrupted trial");
+  seed_shift = options.seed_shift;
+  const std::vector<Law> laws = chosen_laws(options.names, options.skipped);
   const auto baseline = baseline_of(options, laws);
+  const auto bugs = read_planted_bugs(data_folder() + "/verification/subjects/planted_bugs.jsonl");
   const OutFolder folder(options.out);
   SolverCommand command = solver_command(options);
   const auto start = std::chrono::steady_clock::now();
   if (options.total_seconds > 0)
     command.limits.end = start + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
                                      std::chrono::duration<double>(options.total_seconds));
-  const Judgement judgement = judge_solver(command, laws, [](const Record& record) {
-    if (record.outcome == Outcome::fails || record.outcome == Outcome::inconclusive)
-      log_line(fmt::format("{} {}", outcome_text(record), record.name));
-  });
+  TrialProgress progress(options, laws);
+  const Judgement judgement = judge_solver(command, laws, progress.watch());
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const std::string below = judgement.smoke_holds ? "" : smoke_failed;
-  return finish_trial(
-      {run_of(judgement, seconds, options), solver_json(judgement, command, options),
-       heading(judgement, command), below},
-      baseline, options);
+  const std::string below = (judgement.smoke_holds ? "" : smoke_failed) +
+                            look_first_text(likely_causes(bugs, judgement.records)) +
+                            progress.asked_text();
+  const int code =
+      finish_trial({run_of(judgement, seconds, options), solver_json(judgement, command, options),
+                    heading(judgement, command), below},
+                   baseline, options);
+  if (std::ranges::none_of(judgement.records, did_not_run)) drop_kept_results(options.out);
+  return code;
 }
 
 int check_subject(const Options& options) {
@@ -301,6 +321,26 @@ Exit codes:
   0    asked to stop
   2    bad input, or no other program has started it)";
 
+void add_trial_options(CLI::App* judge, CLI::Option* solver, Options& options) {
+  add_value(judge, "--law-seconds S", options.law_seconds,
+            "Longest time of a law [s], looked at between calls (default: no limit); it then did "
+            "not run, and the next one goes on",
+            positive_number())
+      ->needs(solver);
+  add_value(judge, "--skip LAW", options.skipped, "Leave these laws out; may be given again",
+            some_text("a law"))
+      ->needs(solver)
+      ->allow_extra_args(false);
+  add_value(judge, "--dump DIR", options.dump,
+            "Write each scene with the last answer, as DIR/LAW/NUMBER.json", some_text("a folder"))
+      ->needs(solver);
+  add_value(judge, "--seed N", options.seed_shift,
+            "Draw other numbers of scenes, 0 to 1000000000; official results use 0",
+            whole_number(0, 1'000'000'000))
+      ->needs(solver);
+  add_resuming(judge, options);
+}
+
 void add_subject(CLI::App& app, Program& program) {
   auto [subject, options] =
       add_command(app, program,
@@ -338,7 +378,8 @@ void add_judge_command(CLI::App& app, Program& program) {
   solver->type_name("CMD")->check(some_text("a command"));
   judge
       ->add_option("LAW", options.names,
-                   "Laws or groups to judge, as `foldproof list laws` shows them")
+                   "Laws to judge, by name, group or how the name begins, as `foldproof list laws` "
+                   "shows them")
       ->needs(solver);
   add_judged_frames(judge, solver, options);
   add_value(judge, "--name NAME", options.name, "Name in the report (default: the solver's own)",
@@ -353,6 +394,7 @@ void add_judge_command(CLI::App& app, Program& program) {
             "not reach did not run",
             positive_number())
       ->needs(solver);
+  add_trial_options(judge, solver, options);
   add_out_if_typed(judge, options,
                    "Also write run.h5, verdicts.json, junit.xml and solver.json into this folder");
   add_json(judge, options);

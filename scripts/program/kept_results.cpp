@@ -61,18 +61,24 @@ std::vector<Job> KeptResults::wrapped(const std::vector<Job>& jobs) {
 }
 
 RunRecord KeptResults::found_or_run(const Job& job, const Progress& progress) {
-  const std::string file = file_of(folder_, job.name);
-  const PartOf of{job.name, program_, tier_, seed_};
-  if (resumes_)
-    if (std::optional<RunRecord> part = read_part(file, of);
-        part && has_its_files(*part, folder_)) {
-      count(part->origins.front(), true);
-      return *std::move(part);
-    }
+  if (std::optional<RunRecord> part = found(job.name)) return *std::move(part);
   RunRecord part = job.run(progress);
-  write_part(file, of, now_, part);
-  count(now_, false);
+  keep(job.name, part);
   return part;
+}
+
+std::optional<RunRecord> KeptResults::found(const std::string& job) {
+  if (folder_.empty() || !resumes_) return {};
+  std::optional<RunRecord> part = read_part(file_of(folder_, job), {job, program_, tier_, seed_});
+  if (!part || !has_its_files(*part, folder_)) return {};
+  count(part->origins.front(), true);
+  return part;
+}
+
+void KeptResults::keep(const std::string& job, const RunRecord& part) {
+  if (folder_.empty()) return;
+  write_part(file_of(folder_, job), {job, program_, tier_, seed_}, now_, part);
+  count(now_, false);
 }
 
 void KeptResults::count(const RunOrigin& origin, bool is_kept) {

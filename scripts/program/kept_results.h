@@ -2,6 +2,7 @@
 #pragma once
 
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,10 @@ class KeptResults {
 
   /// The jobs; each looks first for its own kept result. This object must outlive them.
   std::vector<Job> wrapped(const std::vector<Job>& jobs);
+
+  /// The kept result of a job, if there is one and the settings resume.
+  std::optional<RunRecord> found(const std::string& job);
+  void keep(const std::string& job, const RunRecord& part);
 
   /// Adds to the run where its results come from, if some were kept by an earlier process.
   void name_origins(RunRecord& run) const;

@@ -40,6 +40,9 @@ struct Options {
   std::string baseline;               // of judge: a kept verdicts.json, or empty
   double patience = 60;               // of judge, subject: limit of silence [s]
   double total_seconds = 0;           // of judge: of the clock; 0: no limit
+  double law_seconds = 0;             // of judge: of a law; 0: no limit
+  std::vector<std::string> skipped;   // of judge: laws, groups or beginnings of names
+  std::string dump;                   // of judge: folder for scenes and answers; none if empty
   std::string engine = "local", engine_options, scratch;  // of campaign
   int slice = 0;  // of campaign: jobs a slice, 0: as the engine likes; of work: number of the slice
   bool json = false, resumes = false, restarts = false;

@@ -39,6 +39,15 @@ nlohmann::json to_json(const Record& record) {
   return row;
 }
 
+nlohmann::json to_json(const Table& table) {
+  nlohmann::json columns = nlohmann::json::array();
+  for (const Column& column : table.columns()) {
+    columns.push_back({{"name", column.name}, {"unit", column.unit}});
+    std::visit([&](const auto& values) { columns.back()["values"] = values; }, column.values);
+  }
+  return columns;
+}
+
 nlohmann::json to_json(const Declared& d) {
   return {{"level", d.level},
           {"precision", d.precision},
@@ -169,7 +178,10 @@ std::string verdicts_json(const RunRecord& run) {
                          {"findings", nlohmann::json::array()}};
   if (run.declared) json["declaration"] = to_json(*run.declared);
   if (!run.origins.empty()) json["program"]["parts"] = origins_text(run);
-  for (const Record& record : run.records) json["findings"].push_back(to_json(record));
+  for (const Record& record : run.records) {
+    json["findings"].push_back(to_json(record));
+    if (run.declared) json["findings"].back()["evidence"] = to_json(record.finding.evidence);
+  }
   for (const ClaimRecord& claim : run.claims) json["findings"].push_back(to_json(claim));
   return json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }

@@ -77,6 +77,10 @@ void add_running(CLI::App* command, Options& options) {
   add_value(command, "--order N", options.running.order,
             "Shuffle the jobs, with N as the seed (default: the longest first)",
             whole_number(0, 1'000'000'000));
+  add_resuming(command, options);
+}
+
+void add_resuming(CLI::App* command, Options& options) {
   CLI::Option* resume = add_switch(
       command, "--resume", options.resumes,
       "Go on with an interrupted run in the same folder; what it finished is not run again");

@@ -98,6 +98,9 @@ void add_threads(CLI::App* command, Options& options, const std::string& what = 
 /// How checks, studies and cases are run, and on which samples.
 void add_running(CLI::App* command, Options& options);
 
+/// --resume and --restart.
+void add_resuming(CLI::App* command, Options& options);
+
 /// --out that has no value where it was not typed.
 void add_out_if_typed(CLI::App* command, Options& options, const std::string& what);
 

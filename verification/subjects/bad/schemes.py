@@ -12,6 +12,7 @@ class BackwardEuler(Toy):
     """One nonlinear solve a step: theta 1 is backward Euler, 1/2 the trapezoidal rule."""
 
     theta, level, scheme = 1.0, "L1", "backward Euler"
+    tolerance = 1e-3  # of a linear solve, over its right-hand side
 
     def alter(self, scene: Scene) -> None:
         super().alter(scene)
@@ -37,10 +38,10 @@ class BackwardEuler(Toy):
         return product * self.is_free[:, None]
 
     def solve(self, blocks: np.ndarray, square: float, b: np.ndarray) -> np.ndarray:
-        """Conjugate gradients, to a thousandth of b."""
+        """Conjugate gradients."""
         x, r = np.zeros_like(b), b.copy()
         p, rr = r, np.sum(r * r)
-        enough = 1e-6 * rr
+        enough = self.tolerance**2 * rr
         for _ in range(3 * len(b)):
             if not rr > enough:
                 break

@@ -26,6 +26,7 @@ import numpy as np  # noqa: E402
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "adapters"))
 import contact  # noqa: E402
 import hinges  # noqa: E402, F401
+import idle  # noqa: E402, F401
 import limits  # noqa: E402, F401
 import moving  # noqa: E402, F401
 import obstacles  # noqa: E402

@@ -40,6 +40,18 @@ bool declares_single(const std::string& precision) {
   throw SolverFailure("header", "declared a precision that is neither f4 nor f8");
 }
 
+bool declares_consistent(const json& mass_matrix) {
+  if (mass_matrix == "lumped" || mass_matrix == "consistent") return mass_matrix == "consistent";
+  throw SolverFailure("header", "declared a mass_matrix that is neither lumped nor consistent");
+}
+
+/// Of a field that may be missing: not negative.
+double length_of(const json& header, const char* key) {
+  const double length = number_of(header, key, 0);
+  if (length >= 0) return length;
+  throw SolverFailure("header", fmt::format("declared a negative {}", key));
+}
+
 std::vector<std::string> texts_of(const json& header, const char* key) {
   std::vector<std::string> texts;
   const json list = header.value(key, json::array());
@@ -114,6 +126,13 @@ Declaration read_declaration(const json& header) {
   declared.solve_tolerance = number_of(header, "solve_tolerance", 0);
   if (!(declared.solve_tolerance >= 0 && declared.solve_tolerance < 1))
     throw SolverFailure("header", "declared a solve_tolerance outside [0, 1)");
+  declared.has_consistent_mass = declares_consistent(header.value("mass_matrix", json("lumped")));
+  declared.substep = length_of(header, "substep");
+  declared.contact_offset = length_of(header, "contact_offset");
+  const json deterministic = header.value("deterministic", json(true));
+  if (!deterministic.is_boolean())
+    throw SolverFailure("header", "declared neither true nor false as 'deterministic'");
+  declared.is_deterministic = deterministic;
   return declared;
 }
 

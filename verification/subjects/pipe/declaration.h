@@ -22,7 +22,11 @@ struct Declaration {
   std::string scheme;      // its integrator, in its own words
   int order = 0;           // claimed, of the global error
   std::vector<std::string> capabilities;
-  double solve_tolerance = 0;  // relative residual of its linear systems; 0: solves none
+  double solve_tolerance = 0;        // relative residual of its linear systems; 0: solves none
+  bool has_consistent_mass = false;  // "mass_matrix": "consistent"
+  double substep = 0;                // its longest internal step [s]; 0: that of the call
+  bool is_deterministic = true;      // the same input gives the same bits
+  double contact_offset = 0;         // at which it keeps cloth from obstacles [m]
 
   /// Throws std::logic_error for a word that no solver can offer.
   bool offers(const std::string& capability) const;

@@ -45,7 +45,9 @@ long steps_of(const Specimen& specimen) { return specimen.columns / 2; }
 
 Snapshot let_go(Trial& trial, PortableScene scene, const Specimen& specimen) {
   scene.dt = time / double(steps_of(specimen));
-  return trial.after(scene, steps_of(specimen));
+  Snapshot end = trial.after(scene, steps_of(specimen));
+  end.v = momentum_velocities(scene, end.v, trial.declaration());
+  return end;
 }
 
 /// Extent along an axis [m].

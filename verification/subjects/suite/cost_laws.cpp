@@ -37,7 +37,7 @@ struct Rung {
   std::vector<double> clock, processor, waiting;  // waiting: for the processor, others being at it
 };
 
-void take_reading(PipedSolver& solver, double dt, Rung& rung) {
+void take_reading(WatchedSolver& solver, double dt, Rung& rung) {
   using Clock = std::chrono::steady_clock;
   const double steps = double(rung.steps);
   const ProcessorTime before = solver.processor_time();
@@ -52,7 +52,7 @@ void take_reading(PipedSolver& solver, double dt, Rung& rung) {
 Rung climb(Trial& trial, int cells) {
   const PortableScene scene = sheet_of(cells);
   trial.prepare(scene);
-  PipedSolver& solver = trial.solver();
+  WatchedSolver& solver = trial.solver();
   solver.advance(scene.dt, 1);  // it may set up its solver
   Rung rung{scene.x.cols(), 1, {}, {}, {}};
   take_reading(solver, scene.dt, rung);

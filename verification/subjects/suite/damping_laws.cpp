@@ -68,7 +68,8 @@ Impulse impulse_of_dampers(Trial& trial, const PortableScene& damped) {
   if (!(rounding <= explained))
     throw NotOffered{
         fmt::format("enough digits: rounding may move what dampers do by {:.2g} of it", rounding)};
-  return {change * damped.mass.asDiagonal() / (double(steps) * damped.dt), (damped.v + with) / 2,
+  const PerParticle3 gained = momentum_velocities(damped, change, trial.declaration());
+  return {gained * damped.mass.asDiagonal() / (double(steps) * damped.dt), (damped.v + with) / 2,
           rounding};
 }
 
@@ -77,7 +78,9 @@ PerParticle3 force_of_springs(Trial& trial, PortableScene scene, const PerPartic
   scene.material.stretch_damping = 0;
   scene.x += displacement;
   scene.v.setZero();
-  return trial.after(scene, steps).v * scene.mass.asDiagonal() / (double(steps) * scene.dt);
+  const PerParticle3 gained =
+      momentum_velocities(scene, trial.after(scene, steps).v, trial.declaration());
+  return gained * scene.mass.asDiagonal() / (double(steps) * scene.dt);
 }
 
 constexpr const char* reason =

@@ -135,7 +135,7 @@ std::vector<Law> force_laws() {
       {"forces.weight-is-mass-times-g", "The net force on a free sheet is its weight.",
        "Newton's second law", weight_is_mass_times_g, "L2", "net force | weight"},
       {"forces.rest-is-force-free", "The rest shape is free of forces.", "equilibrium",
-       rest_is_force_free, "L2"},
+       rest_is_force_free, "L2 still"},
       {"forces.are-minus-the-energy-gradient",
        "Forces, weight among them, are minus the energy's gradient.", "conservative forces",
        in_scene(are_the_energy_gradient, moving_sheet), "L2 set_state"},

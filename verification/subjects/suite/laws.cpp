@@ -17,7 +17,7 @@ Record unjudged(const Law& law) {
 
 /// Throws NotOffered if the solver lacks this word of Law::needs.
 void require(Trial& trial, const std::string& need) {
-  if (need == "bending") return;
+  if (need == "bending" || need == "touches" || need == "still") return;
   if (need == "L1" || need == "L2") return trial.require_level(need[1] - '0');
   if (need != "order" && need != "f8") return trial.require(need);
   if (need == "order" && trial.declaration().order == 0) throw NotOffered{"a claimed order"};
@@ -61,15 +61,35 @@ Record not_asked(const Law& law, const std::string& last_law, const Trial& trial
   return record;
 }
 
+/// Runs the law. What holds though nothing happened is `vacuous`, and its note says why.
+Finding run_law(const Law& law, Trial& trial, bool& is_vacuous) {
+  const std::vector<std::string> needs = suite::split(law.needs, " ");
+  const auto has = [&](const char* word) { return std::ranges::find(needs, word) != needs.end(); };
+  for (const std::string& need : needs) require(trial, need);
+  Finding finding = law.run(trial);
+  if (outcome_of(finding.verdict) != Outcome::holds) return finding;
+  std::string why =
+      trial.observed().nothing_happened(has("touches"), trial.declaration().rounding());
+  if (has("still") && (!why.empty() || !trial.observed().sent_motion))
+    why = trial.deforms_when_stretched() ? ""
+                                         : "nothing happened: its scene does not deform when "
+                                           "it is stretched by 1 %";
+  is_vacuous = !why.empty();
+  if (is_vacuous) finding.note = why + (finding.note.empty() ? "" : "; ") + finding.note;
+  return finding;
+}
+
 Record judge_law(const Law& law, Trial& trial) {
-  bool is_undecided = false;
+  bool is_undecided = false, was_cut = false;
   Record record = judge(unjudged(law), [&] {
     try {
-      for (const std::string& need : suite::split(law.needs, " ")) require(trial, need);
-      return law.run(trial);
+      return run_law(law, trial, is_undecided);
     } catch (const CannotTell& too_wide) {
       is_undecided = true;
       return without_number("", too_wide.what());
+    } catch (const LawTimeIsUp& late) {
+      was_cut = true;
+      return without_number("", late.what());
     } catch (const TimeIsUp&) {
       trial.run_out_of_time();
       return without_number("", "");
@@ -82,6 +102,7 @@ Record judge_law(const Law& law, Trial& trial) {
   });
   if (trial.is_out_of_time()) return not_asked(law, law.name, trial);
   if (is_undecided) record.outcome = Outcome::inconclusive;
+  if (was_cut) record.outcome.reset();
   record.finding.headline = headline_of(law, record.finding.evidence);
   return record;
 }
@@ -107,15 +128,34 @@ std::function<Finding(Trial&)> in_scene(Finding (*measured)(Trial&, const Portab
 
 Judgement judge_solver(const SolverCommand& command, const std::vector<Law>& laws,
                        const std::function<void(const Record&)>& done) {
-  Trial trial(command);
+  TrialWatch watch;
+  watch.done = [&](const Record& record, const Observed&) { done(record); };
+  return judge_solver(command, laws, watch);
+}
+
+Judgement judge_solver(const SolverCommand& command, const std::vector<Law>& laws,
+                       const TrialWatch& watch) {
+  const Law* asked = nullptr;
+  WatchedSolver::Heard heard;
+  if (watch.heard)
+    heard = [&](const PortableScene& scene, long steps, const Snapshot& now) {
+      watch.heard(*asked, scene, steps, now);
+    };
+  Trial trial(command, heard);
   require_program(trial);
   Judgement judgement;
-  std::string last_law;
   for (const Law& law : laws) {
-    const bool is_asked = last_law.empty() || !trial.has_ended();  // the first tells a failed start
-    if (is_asked) last_law = law.name;
-    judgement.records.push_back(is_asked ? judge_law(law, trial) : not_asked(law, last_law, trial));
-    done(judgement.records.back());
+    std::optional<Record> record = watch.kept ? watch.kept(law) : std::nullopt;
+    trial.begin_law(watch.law_seconds);
+    if (!record && asked && trial.has_ended()) record = not_asked(law, asked->name, trial);
+    if (!record) {  // the first tells a failed start
+      asked = &law;
+      if (watch.before) watch.before(law);
+      record = judge_law(law, trial);
+    }
+    judgement.records.push_back(*record);
+    judgement.asked.push_back(trial.observed());
+    if (watch.done) watch.done(*record, trial.observed());
   }
   judgement.smoke_holds = std::ranges::all_of(judgement.records, [](const Record& record) {
     return !is_smoke(record) || record.outcome == Outcome::holds || did_not_run(record);

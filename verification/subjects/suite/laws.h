@@ -8,6 +8,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,9 @@ struct Law {
 
   /// Words: "L1" or "L2"; capabilities; "order", a claimed one; "f8". Who lacks one is not asked.
   /// "bending" tells that scenes have a bending rigidity, which a solver may decline.
+  /// A law that holds though nothing happened in its scenes is inconclusive (Observed). "touches":
+  /// a free sheet must meet an obstacle, too. "still": the law holds because nothing moves; its
+  /// last scene must then deform when it is stretched.
   std::string needs = "";
 
   /// Columns of its evidence that say what it measured, "mu | slope", in the row where the last
@@ -40,12 +44,22 @@ std::function<Finding(Trial&)> in_scene(Finding (*measured)(Trial&, const Portab
 /// CMake lists them.
 std::vector<Law> portable_laws();
 
-/// The outcome of a trial.
+/// The outcome of a trial. Laws that were kept from an earlier one count nothing as asked.
 struct Judgement {
   Declaration declaration;  // unset if the solver never started
   std::vector<std::pair<std::string, std::string>> mapping;
   std::vector<Record> records;  // one a law
+  std::vector<Observed> asked;  // likewise
   bool smoke_holds = false;
+};
+
+/// What goes along with a trial; each function may be empty.
+struct TrialWatch {
+  std::function<void(const Law&)> before;                          // each law that is asked
+  std::function<std::optional<Record>(const Law&)> kept;           // by an earlier trial
+  std::function<void(const Record&, const Observed& asked)> done;  // after each law
+  std::function<void(const Law&, const PortableScene&, long steps, const Snapshot&)> heard;
+  double law_seconds = 0;  // longest time of a law, between calls [s]; 0: no limit
 };
 
 /// Asks the laws; a failure of the solver is the finding of its law, and the next one goes on.
@@ -54,5 +68,7 @@ struct Judgement {
 ///   done   is called after each law
 Judgement judge_solver(const SolverCommand& command, const std::vector<Law>& laws,
                        const std::function<void(const Record&)>& done);
+Judgement judge_solver(const SolverCommand& command, const std::vector<Law>& laws,
+                       const TrialWatch& watch);
 
 }  // namespace foldproof

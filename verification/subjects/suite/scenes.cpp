@@ -202,6 +202,23 @@ std::vector<long> multiples(long stride, long count) {
   return all;
 }
 
+PerParticle3 momentum_velocities(const PortableScene& scene, const PerParticle3& v,
+                                 const Declaration& declared) {
+  if (!declared.has_consistent_mass) return v;
+  PerParticle3 sum = PerParticle3::Zero(3, v.cols());
+  for (const Triangle& t : scene.mesh.triangles) {
+    const auto rest = [&](int k) { return Vector3(scene.mesh.rest.col(t[size_t(k)])); };
+    const double area = (rest(1) - rest(0)).cross(rest(2) - rest(0)).norm() / 2;
+    const Vector3 all = v.col(t[0]) + v.col(t[1]) + v.col(t[2]);
+    for (const int i : t) sum.col(i) += scene.material.density * area / 12 * (all + v.col(i));
+  }
+  return sum * scene.mass.cwiseInverse().asDiagonal();
+}
+
+long parts_of_step(double dt, const Declaration& declared) {
+  return declared.substep > 0 ? long(std::ceil(dt / declared.substep * (1 - 1e-9))) : 1;
+}
+
 double kinetic_energy(const PortableScene& scene, const PerParticle3& v) {
   return (v.colwise().squaredNorm() * scene.mass)[0] / 2;
 }

@@ -85,6 +85,16 @@ Vector3 middle_of(const PerParticle3& x);
 /// stride, 2 stride, ..., count stride
 std::vector<long> multiples(long stride, long count);
 
+/// Velocities with which the scene's masses have the momenta that the solver's mass matrix gives
+/// each particle [m/s]: v, or M v over the masses. A consistent M, of linear triangles of the
+/// scene's density, has density area/12 for each triangle of i and j, twice that for i = j.
+PerParticle3 momentum_velocities(const PortableScene& scene, const PerParticle3& v,
+                                 const Declaration& declared);
+
+/// The least number of parts of a step [s] that are not longer than the longest internal step that
+/// the solver declares: from there on, halving the step changes something.
+long parts_of_step(double dt, const Declaration& declared);
+
 double kinetic_energy(const PortableScene& scene, const PerParticle3& v);  // J
 
 /// The kinetic energy beyond what gravity has done since the positions `from` [J].

@@ -124,7 +124,8 @@ double rigidity_at(Trial& trial, const PortableScene& strip, const StripShape& s
     PortableScene scene = strip;
     bend(scene, 1, sign * curvature);
     scene.x.colwise() += away;
-    const PerParticle3 v = trial.after(scene, steps).v;
+    const PerParticle3 v =
+        momentum_velocities(scene, trial.after(scene, steps).v, trial.declaration());
     const double momentum = angular_momentum(scene, v, 1, shape.row_height() / 4, away);
     moment += sign * momentum / (2 * double(steps) * scene.dt * shape.width());
   }
@@ -143,7 +144,8 @@ double twisting_at(Trial& trial, const PortableScene& strip, const StripShape& s
       scene.x(2, i) = across * std::sin(turn);
     }
     scene.x.colwise() += away;
-    const PerParticle3 v = trial.after(scene, steps).v;
+    const PerParticle3 v =
+        momentum_velocities(scene, trial.after(scene, steps).v, trial.declaration());
     double momentum = 0;
     for (Eigen::Index i = 0; i < v.cols(); ++i)
       if (scene.mesh.rest(1, i) > shape.row_height() / 4)

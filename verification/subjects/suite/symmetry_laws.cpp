@@ -115,8 +115,10 @@ Finding same_in_the_mirror(Trial& trial, const PortableScene& first) {
 }
 
 /// The scene in other units of length, mass and time: the same numbers of steps and particles.
-Finding same_in_other_units(Trial& trial, const PortableScene& first) {
+Finding same_in_other_units(Trial& trial, const PortableScene& given) {
   constexpr double length = 1.7, mass = 2.3, time = 0.6;  // new units in an old one
+  PortableScene first = given;
+  first.dt /= double(parts_of_step(first.dt, trial.declaration()));  // divided alike in both
   PortableScene scene = first;
   scene.mesh.rest *= length, scene.x *= length;
   scene.v *= length / time, scene.gravity *= length / (time * time);

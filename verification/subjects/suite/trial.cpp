@@ -26,11 +26,11 @@ class Stopwatch {
 
 }  // namespace
 
-PipedSolver& Trial::solver() {
+WatchedSolver& Trial::solver() {
   if (gave_up_) throw *gave_up_;
   if (running_) return *running_;
   try {
-    running_.emplace(command_);
+    running_.emplace(command_, observed_, heard_);
   } catch (const SolverFailure& failure) {
     gave_up_.emplace(failure);
     throw;
@@ -92,6 +92,31 @@ std::vector<Snapshot> Trial::advance(double dt, const std::vector<long>& steps) 
     done = count;
   }
   return states;
+}
+
+void Trial::begin_law(double seconds) {
+  observed_ = {};
+  if (seconds > 0)
+    observed_.end =
+        std::chrono::steady_clock::now() + std::chrono::duration_cast<std::chrono::nanoseconds>(
+                                               std::chrono::duration<double>(seconds));
+}
+
+bool Trial::deforms_when_stretched() {
+  constexpr long steps = 20;
+  const Observed before = observed_;
+  PortableScene scene = solver().scene();
+  if (scene.x.cols() == 0) return false;
+  const Vector3 middle = scene.x.rowwise().mean();
+  scene.name += ", stretched";
+  scene.x = (1.01 * (scene.x.colwise() - middle)).colwise() + middle;
+  scene.held.clear(), scene.moving_held = {}, scene.bodies.clear();
+  scene.planes.clear(), scene.boxes.clear(), scene.spheres.clear(), scene.capsules.clear();
+  observed_ = {};
+  after(scene, steps);
+  const bool deforms = observed_.nothing_happened(false, declared_.rounding()).empty();
+  observed_ = before;
+  return deforms;
 }
 
 void Trial::note(const SolverFailure& failure) {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "verification/subjects/pipe/piped_solver.h"
+#include "verification/subjects/suite/watched_solver.h"
 
 namespace foldproof {
 
@@ -25,11 +25,23 @@ struct CannotTell : std::runtime_error {
 
 class Trial {
  public:
-  explicit Trial(SolverCommand command) : command_(std::move(command)) {}
+  explicit Trial(SolverCommand command, WatchedSolver::Heard heard = {})
+      : command_(std::move(command)), heard_(std::move(heard)) {}
+
+  Trial(const Trial&) = delete;  // the running solver reports to it
 
   /// The running solver. Throws SolverFailure if it cannot be started; a start that failed, or a
   /// third hang, is not tried again: the same failure is thrown.
-  PipedSolver& solver();
+  WatchedSolver& solver();
+
+  /// Forgets what was observed under the law before.
+  ///   seconds   of the clock, for the law; 0: no limit
+  void begin_law(double seconds = 0);
+  const Observed& observed() const { return observed_; }
+
+  /// Whether the latest scene deforms if it is stretched by 1 % and without its obstacles: the
+  /// companion of a law that holds because nothing moves. Does not count as asked by the law.
+  bool deforms_when_stretched();
 
   /// Starts another process in place of the running one.
   void restart();
@@ -75,7 +87,9 @@ class Trial {
   std::vector<Snapshot> advance(double dt, const std::vector<long>& steps);
 
   SolverCommand command_;
-  std::optional<PipedSolver> running_;
+  WatchedSolver::Heard heard_;
+  Observed observed_;
+  std::optional<WatchedSolver> running_;
   std::optional<SolverFailure> gave_up_;
   Declaration declared_;
   std::vector<std::pair<std::string, std::string>> mapping_;

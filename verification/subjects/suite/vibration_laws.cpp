@@ -89,6 +89,13 @@ Oscillator swinging() {
           angle_of};
 }
 
+/// In both modes a consistent mass matrix makes g^T M^-1 g, g the gradient of what is followed,
+/// four times as large.
+Oscillator as_declared(Oscillator oscillator, Trial& trial) {
+  if (trial.declaration().has_consistent_mass) oscillator.omega *= 2;
+  return oscillator;
+}
+
 /// After these numbers of steps.
 std::vector<double> displacements(Trial& trial, const Oscillator& oscillator, double dt,
                                   const std::vector<long>& steps) {
@@ -193,12 +200,16 @@ Finding vibrates_with(Trial& trial, const Oscillator& oscillator, double ratio) 
                      "of the series is left, rounding, and the squared strain twice");
 }
 
-Finding undamped_goes_on(Trial& trial) { return vibrates_with(trial, breathing(), 0); }
+Finding undamped_goes_on(Trial& trial) {
+  return vibrates_with(trial, as_declared(breathing(), trial), 0);
+}
 
-Finding undamped_hinge_goes_on(Trial& trial) { return vibrates_with(trial, swinging(), 0); }
+Finding undamped_hinge_goes_on(Trial& trial) {
+  return vibrates_with(trial, as_declared(swinging(), trial), 0);
+}
 
 Finding damped_decays(Trial& trial) {
-  Oscillator damped = breathing();
+  Oscillator damped = as_declared(breathing(), trial);
   damped.scene.name += ", damped";
   damped.scene.material.stretch_damping =
       2 * damping_ratio * damped.scene.material.young / damped.omega;
@@ -206,7 +217,7 @@ Finding damped_decays(Trial& trial) {
 }
 
 Finding damped_hinge_decays(Trial& trial) {
-  Oscillator damped = swinging();
+  Oscillator damped = as_declared(swinging(), trial);
   damped.scene.name += ", damped";
   const double stiffness = 2 * damped.scene.material.bending_rigidity * hinge_weight;  // N m
   damped.scene.material.bending_damping = 2 * damping_ratio / damped.omega * stiffness / side;

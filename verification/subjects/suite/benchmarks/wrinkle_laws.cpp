@@ -111,7 +111,8 @@ Plate plate_of(Trial& trial) {
     return beyond_rounding(trial, "a sheet's tension [N/m]", 0.02, [&](const Vector3& away) {
       PortableScene strained = strained_sheet();
       strained.x.colwise() += away;
-      return tension(strained, trial.after(strained, steps_of_stress).v, axis, strain);
+      const PerParticle3 v = trial.after(strained, steps_of_stress).v;
+      return tension(strained, momentum_velocities(strained, v, trial.declaration()), axis, strain);
     });
   };
   return {rigidity, measured(1, strain_y), measured(0, strain_x)};

@@ -139,9 +139,9 @@ Finding slips_at_coulomb_s_slope(Trial& trial) {
 std::vector<Law> contact_laws() {
   return {
       {"contact.sheet-rests-on-a-plane", "A sheet on a plane neither sinks in nor lifts off.",
-       "impenetrability", rests_on_the_plane, "planes", "deepest | highest"},
+       "impenetrability", rests_on_the_plane, "planes still", "deepest | highest"},
       {"contact.resting-sheet-is-still", "A sheet at rest on a plane does not jitter.",
-       "equilibrium", resting_sheet_is_still, "planes"},
+       "equilibrium", resting_sheet_is_still, "planes still"},
       {"contact.slides-as-coulomb-says",
        "On slopes that face all ways, a sheet sticks, or slides straight down, as Coulomb's law "
        "says.",

@@ -83,7 +83,8 @@ Law law_of(const std::string& group, const std::string& obstacle, const char* ca
            Drop (*over)(double height)) {
   return {group + ".fall-gains-no-energy",
           "A sheet that falls on a " + obstacle + ", at 2 or at 5 m/s, gains no energy from it.",
-          "energy", [over](Trial& trial) { return gains_no_energy(trial, over); }, capability};
+          "energy", [over](Trial& trial) { return gains_no_energy(trial, over); },
+          std::string(capability) + " touches"};
 }
 
 }  // namespace
