@@ -128,7 +128,6 @@ Finding layer_lies_on_layer(Trial& trial) {
 }
 
 Finding thickness_does_not_lift(Trial& trial) {
-  trial.require("planes");
   PortableScene scene = limp_sheet(3, 0.02);
   scene.name = "thick sheet on a plane";
   scene.thickness = 0.008;
@@ -165,7 +164,7 @@ std::vector<Law> layer_laws() {
        "action and reaction", meeting_keeps_momentum, self, "momentum | gained"},
       {"self-collision.layers-beyond-the-thickness-are-left-alone",
        "Layers at rest that are farther apart than the thickness stay where they are.",
-       "PROTOCOL.md", apart_are_left_alone, self},
+       "PROTOCOL.md", apart_are_left_alone, "self_collision still"},
       {"self-collision.layers-part-freely", "Nothing holds layers that part.", "inertia",
        part_freely, self, "parted by | free way"},
       {"self-collision.layer-lies-on-a-layer-on-a-plane",
@@ -174,10 +173,10 @@ std::vector<Law> layer_laws() {
        "crossings | mean height of the upper layer | deepest particle"},
       {"self-collision.thickness-is-not-kept-from-planes",
        "A sheet that has a thickness against itself lies on a plane.", "PROTOCOL.md",
-       thickness_does_not_lift, self, "highest particle"},
+       thickness_does_not_lift, "self_collision planes still", "highest particle"},
       {"self-collision.fine-mesh-stays-at-rest",
        "A flat sheet whose edges are shorter than its thickness stays at rest.", "PROTOCOL.md",
-       fine_mesh_stays, self},
+       fine_mesh_stays, "self_collision still"},
   };
 }
 

@@ -246,7 +246,7 @@ void add_laws(std::vector<Law>& all, const ObstacleKind& kind) {
   const std::string a = "a " + kind.name;
   add("surface-is-where-the-scene-says",
       "A sheet that is pressed on " + a + ", on each of its sides, stays on its surface.",
-      "impenetrability", is_where_the_scene_says, "side | deepest | highest");
+      "impenetrability", is_where_the_scene_says, "side | deepest | highest", " still");
   add("each-side-has-its-friction",
       "On each side of " + a + " a sheet sticks, or slides, as Coulomb's law says.", "Coulomb",
       each_side_has_its_friction, slides_headline);
@@ -258,10 +258,10 @@ void add_laws(std::vector<Law>& all, const ObstacleKind& kind) {
       "Coulomb", takes_coulomb_s_impulse, "side | lost of it | by Coulomb's law");
   add("lets-go", "A sheet leaves " + a + " freely.", "inertia", lets_go, "side | way | free way");
   add("stuck-sheet-does-not-creep", "A sheet that sticks to " + a + " stays where it is.",
-      "Coulomb", stuck_sheet_does_not_creep, "slope over mu | creep");
+      "Coulomb", stuck_sheet_does_not_creep, "slope over mu | creep", " still");
   add("friction-holds-beside-held-particles",
       "A sheet with held corners sticks to " + a + " all over.", "Coulomb", holds_beside_held,
-      "side | largest displacement", " held");
+      "side | largest displacement", " held still");
   add("large-sheet-slides-as-coulomb-says",
       "A sheet of 961 particles sticks to " + a + ", or slides, as Coulomb's law says.", "Coulomb",
       large_sheet_slides, slides_headline);

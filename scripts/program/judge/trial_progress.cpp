@@ -1,4 +1,4 @@
-#include "scripts/program/trial_progress.h"
+#include "scripts/program/judge/trial_progress.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "scripts/program/command_line/suggestions.h"
-#include "scripts/program/law_sizes.h"
+#include "scripts/program/judge/law_sizes.h"
 #include "scripts/program/progress.h"
 #include "scripts/program/provenance.h"
 #include "verification/files/atomic_file.h"

@@ -6,10 +6,10 @@
 #include "scripts/program/command_line/input_files.h"
 #include "scripts/program/command_line/out_folder.h"
 #include "scripts/program/frame_files.h"
-#include "scripts/program/judge_frames.h"
+#include "scripts/program/judge/judge_frames.h"
 #include "scripts/program/provenance.h"
 #include "scripts/program/run_case.h"
-#include "scripts/program/trial_output.h"
+#include "scripts/program/judge/trial_output.h"
 #include "verification/cases/frames_of_case.h"
 #include "verification/cases/judged_frames.h"
 

@@ -1,4 +1,4 @@
-#include "scripts/program/look_first.h"
+#include "scripts/program/judge/look_first.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "scripts/program/trial_output.h"
+#include "scripts/program/judge/trial_output.h"
 
 #include <fmt/format.h>
 
