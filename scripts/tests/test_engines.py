@@ -17,7 +17,9 @@ RECORDED = "3.24"  # the version whose findings adapters/bullet/README.md record
 MODULUS = "calibration.young-s-modulus-is-the-scene-s"
 MODULI = {MODULUS, "calibration.modulus-survives-refinement"}
 ADAPTERS = ROOT / "verification/subjects/adapters"
-JOLT, MUJOCO = (f"exec node build/engines/{name}/{name}.mjs" for name in ("jolt", "mujoco"))
+JOLT = "exec node build/engines/jolt/jolt.mjs"
+MUJOCO_3 = ("--version", "3.14.0", "mujoco")
+MUJOCO = "exec node build/engines/mujoco-3.14.0/mujoco.mjs"
 BLENDER = f"exec blender -b --factory-startup --python {ADAPTERS}/blender/cloth.py"
 SMOKE = {"smoke.sheet-at-rest-stays", "smoke.free-fall-within-5-percent"}
 
@@ -26,11 +28,11 @@ def run(*words: str | Path) -> subprocess.CompletedProcess[str]:
     return subprocess.run(words, cwd=ROOT, capture_output=True, text=True, check=False)
 
 
-def require_engine(name: str) -> None:
+def require_engine(*words: str) -> None:
     """Builds the engine's adapters; skips the tests where it is not installed."""
-    built = run("scripts/engines", "--no-install", name)
+    built = run("scripts/engines", "--no-install", *words)
     if built.returncode == 3:
-        print(f"{name}: skipped: not installed")
+        print(f"{' '.join(words)}: skipped: not installed")
         raise unittest.SkipTest(built.stderr.strip())
     if built.returncode:
         raise AssertionError(built.stderr)
@@ -49,12 +51,12 @@ def those(outcomes: dict[str, str], wanted: str) -> set[str]:
 class Engine(unittest.TestCase):
     """An engine of which a page records by command and setting which laws fail."""
 
-    engine, version = "", ""  # a version that scripts/engines pins
+    engine, version = (), ""  # words for scripts/engines; the version that it pins
     recorded: dict[tuple[str, str], set[str]] = {}
 
     @classmethod
     def setUpClass(cls) -> None:
-        require_engine(cls.engine)
+        require_engine(*cls.engine)
 
     def is_recorded_version(self) -> bool:
         return True
@@ -74,7 +76,7 @@ class Engine(unittest.TestCase):
 
 
 class Bullet(Engine):
-    engine = "bullet"
+    engine = ("bullet", )
     DEFORMABLE = MODULI | {"capstan.slips-at-euler-s-ratio"}
     recorded = {
         ("build/engines/bullet_deformable", "implicit=1"): DEFORMABLE,
@@ -167,7 +169,7 @@ class Page(unittest.TestCase):
         self.compare_rigidities("Jolt, `iterations=1`", JOLT, "--settings", "iterations=1")
 
     def test_mujoco(self) -> None:
-        require_engine("mujoco")
+        require_engine(*MUJOCO_3)
         self.compare_prices("MuJoCo, `RK4`", MUJOCO, "--settings", "integrator=RK4")
 
     def test_blender(self) -> None:
@@ -179,7 +181,7 @@ class Page(unittest.TestCase):
 
 
 class Jolt(Engine):
-    engine, version = "jolt", "1.1.0"
+    engine, version = ("jolt", ), "1.1.0"
     recorded = {
         (JOLT, ""): {"contact.slips-at-coulomb-s-slope", "ball.slides-as-coulomb-says",
                      "capstan.slips-at-euler-s-ratio"},
@@ -189,7 +191,7 @@ class Jolt(Engine):
 
 
 class MuJoCo(Engine):
-    engine, version = "mujoco", "3.14.0"
+    engine, version = MUJOCO_3, "3.14.0"
     recorded = {
         (MUJOCO, ""): {MODULUS, "capstan.slips-at-euler-s-ratio"},
         (MUJOCO, "integrator=RK4"): {MODULUS, "tunnelling.thin-box-stops-a-slow-sheet"},
@@ -205,7 +207,7 @@ class MuJoCo(Engine):
 
     def lines_without_the_adapter(self, name: str) -> list[str]:
         """What a script of MuJoCo alone prints, below its heading."""
-        copy = ROOT / "build" / "engines" / "mujoco" / f"{name}.mjs"
+        copy = ROOT / "build" / "engines" / "mujoco-3.14.0" / f"{name}.mjs"
         copy.write_bytes((self.ADAPTER / "repro" / copy.name).read_bytes())
         return run("node", copy).stdout.splitlines()[1:]
 

@@ -1,4 +1,4 @@
-// Adapter of MuJoCo's flexible bodies; `scripts/engines mujoco` installs them.
+// Adapter of the flexible bodies of MuJoCo 3; `scripts/engines --version 3.14.0 mujoco` installs it.
 // Settings: integrator = Euler, RK4 or discrete; poisson = ratio (1/3); thickness [m] (1e-3);
 // solref, solimp = of contacts ("1e-4 1", which MuJoCo raises to two steps; "0.5 0.5 0.001").
 import load from '@mujoco/mujoco';

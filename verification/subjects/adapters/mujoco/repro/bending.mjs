@@ -1,7 +1,7 @@
 // Bending of a flex of MuJoCo, without foldproof: its rigidity, and whether a flat sheet rests.
 //
-// scripts/engines mujoco && cp verification/subjects/adapters/mujoco/repro/bending.mjs \
-//   build/engines/mujoco/ && node build/engines/mujoco/bending.mjs
+// scripts/engines --version 3.14.0 mujoco && cp verification/subjects/adapters/mujoco/repro/bending.mjs \
+//   build/engines/mujoco-3.14.0/ && node build/engines/mujoco-3.14.0/bending.mjs
 import load from '@mujoco/mujoco';
 
 const mujoco = await load();

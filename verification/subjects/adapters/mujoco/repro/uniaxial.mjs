@@ -1,8 +1,8 @@
 // Stretches a square flex of MuJoCo along x, without foldproof, and compares its forces with plane
 // stress: E t/(1 - nu^2) along x, nu times that across, for a strain of 1e-4.
 //
-// scripts/engines mujoco && cp verification/subjects/adapters/mujoco/repro/uniaxial.mjs \
-//   build/engines/mujoco/ && node build/engines/mujoco/uniaxial.mjs
+// scripts/engines --version 3.14.0 mujoco && cp verification/subjects/adapters/mujoco/repro/uniaxial.mjs \
+//   build/engines/mujoco-3.14.0/ && node build/engines/mujoco-3.14.0/uniaxial.mjs
 import load from '@mujoco/mujoco';
 
 const mujoco = await load();
