@@ -170,7 +170,7 @@ class Page(unittest.TestCase):
 
     def test_mujoco(self) -> None:
         require_engine(*MUJOCO_3)
-        self.compare_prices("MuJoCo, `RK4`", MUJOCO, "--settings", "integrator=RK4")
+        self.compare_prices("MuJoCo 3.14, `RK4`", MUJOCO, "--settings", "integrator=RK4")
 
     def test_blender(self) -> None:
         require_engine("blender")
@@ -215,7 +215,7 @@ class MuJoCo(Engine):
         """The script of its page, and the numbers there."""
         rows = [line.split() for line in self.lines_without_the_adapter("uniaxial")[1:]]
         self.assertEqual(len(rows), 6)
-        page = (self.ADAPTER / "README.md").read_text(encoding="utf-8")
+        page = (self.ADAPTER / "FINDINGS.md").read_text(encoding="utf-8")
         told = [[float(cell) for cell in line.strip("|").split("|")]
                 for line in page.splitlines() if line.startswith("| 0")]
         for row, expected in zip(rows, 2 * told, strict=True):

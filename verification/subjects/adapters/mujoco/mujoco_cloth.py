@@ -1,6 +1,6 @@
-"""Adapter of MuJoCo 4: cloth as a flex, or as one tendon per edge; `scripts/engines mujoco` installs it.
+"""Adapter of MuJoCo 4: cloth as a flex or as tendons; `scripts/engines mujoco` installs it.
 
-build/engines/mujoco/bin/python verification/subjects/adapters/mujoco/mujoco_cloth.py tendons --integrator RK4
+    build/engines/mujoco/bin/python THIS_FILE tendons --integrator RK4
 """
 from __future__ import annotations
 

@@ -317,7 +317,7 @@ def require_constants(make: Any, options: argparse.Namespace) -> Iterator[str]:
                  ("triangle in shear [N]", sheared, 0.24 * young / (2 * (1 + nu)) * STRAIN / h)]
     for name, found, assumed in rows:
         if not abs(found - assumed) <= 0.03 * abs(assumed):
-            raise SystemExit(f"newton_cloth: {options.solver} of Newton {newton.__version__}: {name}: "
+            raise SystemExit(f"newton_cloth: {options.solver} of {newton.__version__}: {name}: "
                              f"measured {found:.4g}, the mapping assumes {assumed:.4g}; derive the "
                              "mapping anew")
         yield f"{options.solver:14}{name:34}{found:10.5g}{assumed:10.5g}"

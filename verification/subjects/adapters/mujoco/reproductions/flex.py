@@ -1,4 +1,4 @@
-"""A flex of MuJoCo without foldproof: what its modulus and its rigidity are, and whether a flat sheet
+"""A flex of MuJoCo without foldproof: its modulus, its rigidity, and whether a flat sheet
 rests. Each line: measured, right.
 
 scripts/engines mujoco && build/engines/mujoco/bin/python THIS_FILE
@@ -50,3 +50,7 @@ kite = np.array([[0, 0, 0], [0, HEIGHT, 0], [0.5, HEIGHT, 0], [0, 2 * HEIGHT, 0]
 for order, triangles in (("lower", [[0, 2, 1], [1, 2, 3]]), ("upper", [[1, 2, 3], [0, 2, 1]])):
     largest = np.abs(forces(kite, triangles, np.zeros((4, 3)), "bend")).max() / PLATE
     print(f"force on a flat kite at rest, {order} triangle first, over B/L: {largest:.4f} 0.0000")
+
+curved = pair + [[0, 0, 0], [0, 0, 0], [0, 0, 0.2], [0, 0, 0]]
+largest = np.abs(forces(curved, [[0, 1, 2], [1, 0, 3]], np.zeros((4, 3)), "bend")).max() / PLATE
+print(f"force on a hinge that is curved at rest, over B/L: {largest:.4f} 0.0000")

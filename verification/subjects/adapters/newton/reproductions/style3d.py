@@ -1,5 +1,5 @@
-"""Newton's Style3D without foldproof: a damper that no parameter asks for, and forces of one triangle,
-which must exert no torque. Each line: measured, right.
+"""Style3D of Newton without foldproof: a damper that no parameter asks for, and forces of one
+triangle, which must exert no torque. Each line: measured, right.
 
 scripts/engines newton && build/engines/newton/bin/python THIS_FILE
 """
