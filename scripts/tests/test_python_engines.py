@@ -76,9 +76,10 @@ class PythonEngine:
         for settings in self.settings:
             recorded = next(row["laws"] for row in kept if row["settings"] == settings)
             found = judge(self.command(settings), *LAWS, "--seconds", "300")
-            self.assertGreater(len(found), 8)
-            for law, outcome in found.items():
-                self.assertEqual(outcome, recorded[law][0], (settings, law))
+            asked = recorded.keys() & found.keys()  # laws may be newer than the record
+            self.assertGreater(len(asked), 8)
+            for law in asked:
+                self.assertEqual(found[law], recorded[law][0], (settings, law))
 
     def lines(self, name: str) -> dict[str, tuple[float, float]]:
         """What a reproduction prints: measured, and right."""
