@@ -17,7 +17,7 @@ namespace foldproof {
 
 namespace {
 
-constexpr double longest_quick = 30;  // s of a numpy solver
+constexpr double longest_quick = 25;  // s of a numpy solver; all of them: less than 5 minutes
 
 const LawSize* size_of(const Law& law) {
   const auto* const found = std::ranges::find(law_sizes, law.name, &LawSize::name);
@@ -118,6 +118,8 @@ void TrialProgress::tell_size(const Law& law) const {
 }
 
 void TrialProgress::end_law(const Record& record, const Observed& asked) {
+  end_dump();
+  dumped_ = {};
   if (asked.steps > 0) {
     seconds_ += record.seconds, steps_ += asked.steps, particle_steps_ += asked.particle_steps;
     asked_[record.name] = asked;
@@ -147,27 +149,37 @@ std::string TrialProgress::asked_text() const {
       laws, sum.advances, sum.steps, sum.particle_steps, seconds_of_a_numpy_solver(sum));
 }
 
-/// The scene as it was sent, with its latest answer.
+/// Keeps the scene as it was sent, with its latest answer, until another one comes.
 void TrialProgress::dump(const Law& law, const PortableScene& scene, long steps,
                          const Snapshot& now) {
-  if (law.name != dumped_law_) dumped_law_ = law.name, scenes_ = 0, dumped_steps_ = 0;
-  if (scenes_ == 0 || steps <= dumped_steps_) ++scenes_;  // another scene, or the same again
-  dumped_steps_ = steps;
-  const std::string folder = options_.dump + "/" + law.name;
-  std::filesystem::create_directories(folder);
+  if (law.name != dumped_.law) end_dump(), dumped_ = {}, dumped_.law = law.name;
+  if (dumped_.number == 0 || steps <= dumped_.steps) {  // another scene, or the same again
+    end_dump();
+    ++dumped_.number, dumped_.scene = scene;
+  }
+  dumped_.steps = steps, dumped_.now = now;
+}
+
+void TrialProgress::end_dump() {
+  if (dumped_.number == 0) return;
+  const PortableScene& scene = dumped_.scene;
   Request request;
   add_scene(scene, {}, request);
-  nlohmann::json file = {
-      {"scene", request.header["scene"]},
-      {"triangles", scene.mesh.triangles},
-      {"rest", rows_of(scene.mesh.rest)},
-      {"x", rows_of(scene.x)},
-      {"v", rows_of(scene.v)},
-      {"mass", std::vector<double>(scene.mass.begin(), scene.mass.end())},
-      {"held", scene.held},
-      {"rest_angles", scene.rest_angles},
-      {"answer", {{"steps", steps}, {"x", rows_of(now.x)}, {"v", rows_of(now.v)}}}};
-  write_text(fmt::format("{}/{:03}.json", folder, scenes_), file.dump() + "\n");
+  const std::vector<double> mass(scene.mass.begin(), scene.mass.end());
+  const nlohmann::json answer = {
+      {"steps", dumped_.steps}, {"x", rows_of(dumped_.now.x)}, {"v", rows_of(dumped_.now.v)}};
+  const nlohmann::json file = {{"scene", request.header["scene"]},
+                               {"triangles", scene.mesh.triangles},
+                               {"rest", rows_of(scene.mesh.rest)},
+                               {"x", rows_of(scene.x)},
+                               {"v", rows_of(scene.v)},
+                               {"mass", mass},
+                               {"held", scene.held},
+                               {"rest_angles", scene.rest_angles},
+                               {"answer", answer}};
+  const std::string folder = options_.dump + "/" + dumped_.law;
+  std::filesystem::create_directories(folder);
+  write_text(fmt::format("{}/{:03}.json", folder, dumped_.number), file.dump() + "\n");
 }
 
 TrialWatch TrialProgress::watch() {

@@ -40,14 +40,20 @@ class TrialProgress {
   void tell_size(const Law& law) const;
   void end_law(const Record& record, const Observed& asked);
   void dump(const Law& law, const PortableScene& scene, long steps, const Snapshot& now);
+  void end_dump();
 
   const Options& options_;
   KeptResults kept_;
   std::string key_;  // of what a kept result depends on, besides the law
   std::map<std::string, Observed> asked_;
   double seconds_ = 0, particle_steps_ = 0, steps_ = 0;  // of the laws so far
-  long scenes_ = 0, dumped_steps_ = 0;                   // dumped of the current law
-  std::string dumped_law_;
+
+  struct {
+    std::string law = {};
+    long number = 0, steps = 0;  // number: of the scene; 0: none
+    PortableScene scene = {};
+    Snapshot now = {};
+  } dumped_;
 };
 
 }  // namespace foldproof
