@@ -89,11 +89,13 @@ TEST_CASE(
     "ones") {
   require_found({"damped"}, {"momentum", "order.with", "vibration"}, {});
   require_found({"damps_all_motion"}, {"momentum", "order.with", "vibration"},
-                {"momentum.linear-under-damping-is-conserved"});
+                {"momentum.linear-under-damping-is-conserved",
+                 "momentum.angular-under-damping-drifts-less-in-shorter-steps"});
   const std::vector<std::string> laws = {"momentum", "repeat", "order", "damping", "vibration"};
   require_found({"damped"}, laws, {});
   require_found({"damped_backward_euler"}, {"damping"}, {});
-  require_found({"mean_dampers"}, laws, {dampers});
+  require_found({"mean_dampers"}, laws,
+                {dampers, "damping.edges-of-held-particles-damp-as-the-others"});
   require_found({"damps_late"}, laws, {state});
 }
 
