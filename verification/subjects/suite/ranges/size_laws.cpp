@@ -8,7 +8,7 @@ namespace {
 
 using namespace suite;
 
-constexpr long steps = 5;
+constexpr long steps = 4;
 constexpr int aside = 5;  // copies along each side of a floor of them
 
 PortableScene moving_sheet_that_is_held() {
