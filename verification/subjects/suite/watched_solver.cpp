@@ -52,7 +52,8 @@ bool was_deflected(const PortableScene& scene, const Snapshot& start, const Snap
 std::string Observed::nothing_happened(bool touches, double rounding) const {
   const double least = 1e-6 + 64 * rounding;
   const char* const begin = "nothing happened: ";
-  if (sent_motion && !(moved > least))
+  constexpr double begun = 0.01;  // however short the motion is
+  if (sent_motion && !(moved > least || sped > begun))
     return fmt::format("{}no particle of its scenes moved by more than {:.1g} of their size", begin,
                        moved);
   if (sent_motion && sent_strain && !(deformed > least))
@@ -111,6 +112,9 @@ void WatchedSolver::observe(const Snapshot& start, const Snapshot& now, double t
   observed_.sent_strain |= is_strained_;
   observed_.moved =
       std::max(observed_.moved, (now.x - start.x).colwise().norm().maxCoeff() / size_);
+  if (const double gained = time * scene_.gravity.norm(); gained > 0)
+    observed_.sped =
+        std::max(observed_.sped, (now.v - start.v).colwise().norm().maxCoeff() / gained);
   const Eigen::VectorXd change = lengths_of(scene_, now.x) - lengths_of(scene_, start.x);
   observed_.deformed = std::max(observed_.deformed, change.cwiseAbs().maxCoeff() / size_);
   if (has_obstacles(scene_) && scene_.held.empty())

@@ -26,6 +26,7 @@ struct Observed {
   bool sent_motion = false;              // some scene was to be moved
   bool sent_strain = false;              // some scene to be moved starts with strained edges
   double moved = 0, deformed = 0;        // largest displacement; change of an edge's length
+  double sped = 0;                       // largest change of a velocity, of what gravity gives [1]
   bool met_obstacle = false;             // obstacles changed the mean velocity of a free sheet
   bool asked_inner_force = false;        // of strained edges or of dampers
   double inner_force = 0;                // the largest, without weight; of the scale of springs
