@@ -18,7 +18,7 @@ std::vector<Grip> grips_on(const std::string& side) {
   const double middle = drawn("friction on " + side, 0.45, 0.65);
   return {{0.5, drawn("little friction on " + side, 0.12, 0.25)},
           {1.3 * middle, middle},
-          {1.05, drawn("rough " + side, 1.3, 1.5)}};
+          {1.2, drawn("rough " + side, 1.5, 1.7)}};
 }
 
 Finding each_side_has_its_friction(Trial& trial, const ObstacleKind& kind) {
