@@ -31,7 +31,8 @@ const std::vector<std::string> on_a_plane{rests, slides, slips, "contact.resting
 TEST_CASE("subject: parameters that mean something else are found", "[long]") {
   const std::string refined = "calibration.modulus-survives-refinement";
   CHECK(failing_laws("springs_of_one_stiffness", {"calibration"}).contains(young));
-  require_found({"springs_per_length"}, {"calibration"}, {young, refined});
+  require_found({"springs_per_length"}, {"calibration"},
+                {young, refined, "calibration.modulus-along-hypotenuses"});
   require_found({"weft_per_length"}, {"calibration"}, {refined});
   require_found({"bends_upright_only"}, {"calibration", "cantilever"}, {elastica});
   require_found({"bends_fourfold"}, {"calibration"}, {rigidity});
