@@ -301,6 +301,9 @@ TEST_CASE("subject: slips in obstacles are found by the law of their kind, and n
                 {"box." + side});
   CHECK(failing_laws("capsules_endless", capsule)
             .contains("capsule.surface-is-where-the-scene-says"));
+  require_found({"walls_are_nothing"}, {"contact.planes"},
+                {"contact.planes-of-all-ways-have-their-friction"});
+  require_found({"points_are_nothing"}, {"capsule.of"}, {"capsule.of-one-point-is-a-ball"});
   require_found({"forgets_others"}, {"box.each", "obstacles"}, {"box." + several});
   require_found({"first_kind_alone"}, box, {kinds});
   require_found({"means_friction"}, {"box"}, {"box.sheet-across-two-has-the-friction-of-both"});
@@ -327,6 +330,7 @@ TEST_CASE("subject: slips in contact of layers are found, each by its law", "[lo
   require_found({"layers_forget_planes"}, layers, {lies});
   require_found({"thick_on_planes"}, {"contact", "self-collision.t"},
                 {"self-collision.thickness-is-not-kept-from-planes"});
+  require_law_fails("particles_repel_alone", "self-collision.vertices-and-edges-stop");
   require_found({"neighbours_repel"}, {"self-collision.fine"},
                 {"self-collision.fine-mesh-stays-at-rest"});
 }

@@ -78,6 +78,18 @@ class StepsAreShort(Toy):
         super().step(min(dt, 1 / 60))
 
 
+class FirstStepIsKept(Toy):
+    """The length of a scene's first step is that of all."""
+
+    def alter(self, scene: Scene) -> None:
+        super().alter(scene)
+        self.kept = None
+
+    def advance(self, dt: float, steps: int) -> None:
+        self.kept = self.kept or dt
+        super().advance(self.kept, steps)
+
+
 class StepOfPrepare(Toy):
     def prepare(self, scene: Scene) -> dict[str, str]:
         self.dt = scene.header["scene"]["dt"]

@@ -74,6 +74,24 @@ class CapsulesEndless(OnObstacles):
         return part
 
 
+class WallsAreNothing(OnObstacles):
+    """Planes are floors."""
+
+    def alter(self, scene: Scene) -> None:
+        super().alter(scene)
+        self.bodies = [(kind, body) for kind, body in self.bodies
+                       if kind != "planes" or body["normal"][2] > 0.3]
+
+
+class PointsAreNothing(OnObstacles):
+    """A capsule has an axis."""
+
+    def alter(self, scene: Scene) -> None:
+        super().alter(scene)
+        self.bodies = [(kind, body) for kind, body in self.bodies
+                       if kind != "capsules" or np.ptp([body["a"], body["b"]], axis=0).max() > 1e-6]
+
+
 class ForgetsOthers(OnObstacles):
     """The first obstacle of each kind."""
 

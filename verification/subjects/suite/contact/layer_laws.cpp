@@ -142,6 +142,44 @@ Finding thickness_does_not_lift(Trial& trial) {
 }
 
 /// Edges shorter than the thickness: neighbours in a sheet are no layers.
+/// Two pieces of cloth, the second one thrown down at the first, which is held.
+PortableScene thrown_triangle(const char* name, const PerParticle3& held,
+                              const PerParticle3& thrown) {
+  PerParticle3 rest(3, 6);
+  rest << held, thrown;
+  PortableScene scene =
+      resting(name, make_triangle_mesh(rest, {{0, 1, 2}, {3, 4, 5}}), {.young = 0.1});
+  scene.held = {0, 1, 2};
+  scene.dt = 0.002;
+  scene.thickness = 0.004;
+  scene.v.rightCols(3).row(2).setConstant(-1);
+  return scene;
+}
+
+/// A small triangle over the middle of a large one; edges of two that lie crosswise.
+Finding pairs_that_meet_stop(Trial& trial) {
+  PerParticle3 large(3, 3), small(3, 3), one(3, 3), other(3, 3);
+  large << -0.1, 0.1, 0, -0.1, -0.1, 0.2, 0, 0, 0;
+  small << -0.01, 0.01, 0, -0.01, -0.01, 0.02, 0.011, 0.013, 0.012;
+  one << -0.1, 0.1, 0, 0, 0, 0.2, 0, 0, 0;
+  other << 0.01, 0.01, -0.2, -0.3, 0.5, 0.1, 0.011, 0.011, 0.3;
+  Table measured = table_of("pieces | time [s] | edges in triangles [1]");
+  for (const auto& [name, held, thrown] :
+       {std::tuple("vertices over a triangle", large, small), {"edges crosswise", one, other}}) {
+    const PortableScene scene = thrown_triangle(name, held, thrown);
+    for (const long count : multiples(2, 5)) {
+      const PerParticle3 x = trial.after(scene, count).x;
+      const double lowest = x.rightCols(3).row(2).minCoeff();
+      // wholly through: only the small one can be
+      const bool is_through = held == large && lowest < -0.002;
+      measured.row(
+          name, double(count) * scene.dt,
+          double(oracles::exact_crossings(x, scene.mesh.triangles).size()) + (is_through ? 1 : 0));
+    }
+  }
+  return judge_worst(measured, 0, "pairs that meet are counted without rounding");
+}
+
 Finding fine_mesh_stays(Trial& trial) {
   PortableScene scene = limp_sheet(6, 0.01);
   scene.name = "sheet finer than its thickness";
@@ -174,6 +212,9 @@ std::vector<Law> layer_laws() {
       {"self-collision.thickness-is-not-kept-from-planes",
        "A sheet that has a thickness against itself lies on a plane.", "PROTOCOL.md",
        thickness_does_not_lift, "self_collision planes still", "highest particle"},
+      {"self-collision.vertices-and-edges-stop",
+       "Held cloth stops a vertex inside of a triangle, and an edge that crosses an edge.",
+       "impenetrability", pairs_that_meet_stop, "self_collision held"},
       {"self-collision.fine-mesh-stays-at-rest",
        "A flat sheet whose edges are shorter than its thickness stays at rest.", "PROTOCOL.md",
        fine_mesh_stays, "self_collision still"},

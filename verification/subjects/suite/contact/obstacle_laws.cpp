@@ -13,10 +13,11 @@ struct Grip {
   double slope, friction;  // a tangent; mu [1]
 };
 
-/// Little friction, a slope where friction half as large again would hold, and rough ground.
+/// None, little friction, a slope where friction half as large again would hold, and rough ground.
 std::vector<Grip> grips_on(const std::string& side) {
   const double middle = drawn("friction on " + side, 0.45, 0.65);
-  return {{0.5, drawn("little friction on " + side, 0.12, 0.25)},
+  return {{0.4, 0},
+          {0.5, drawn("little friction on " + side, 0.12, 0.25)},
           {1.3 * middle, middle},
           {1.2, drawn("rough " + side, 1.5, 1.7)}};
 }
@@ -220,16 +221,17 @@ Finding holds_beside_held(Trial& trial, const ObstacleKind& kind) {
 
 Finding each_of_several_counts(Trial& trial, const ObstacleKind& kind) {
   Slides slides;
-  for (int which = 0; which < 3; ++which) {
+  const int count = kind.group == "contact" ? 3 : 6;
+  for (const int which : {0, count / 2, count - 1}) {
     PortableScene scene = limp_sheet(2, 0.03);
-    scene.name = fmt::format("sheet on {} {} of 3", kind.name, which + 1);
+    scene.name = fmt::format("sheet on {} {} of {}", kind.name, which + 1, count);
     const auto friction = [](int k) {
-      return drawn(fmt::format("friction {} of 3", k), 0.15, 0.2) + 0.25 * k;
+      return drawn(fmt::format("friction {} of several", k), 0.1, 0.13) + 0.13 * k;
     };
-    for (int k = 0; k < 3; ++k) kind.add(scene, k, friction(k));
+    for (int k = 0; k < count; ++k) kind.add(scene, k, friction(k));
     Side side = kind.sides(which)[0];
     lay(scene, side, 0.9);
-    side.name = fmt::format("{} {} of 3", kind.name, which + 1);
+    side.name = fmt::format("{} {} of {}", kind.name, which + 1, count);
     slides.measure(trial, scene, side, friction(which));
   }
   return slides.judged();
@@ -266,7 +268,7 @@ void add_laws(std::vector<Law>& all, const ObstacleKind& kind) {
       "A sheet of 961 particles sticks to " + a + ", or slides, as Coulomb's law says.", "Coulomb",
       large_sheet_slides, slides_headline);
   add("each-of-several-has-its-friction",
-      "Of three obstacles, each " + kind.name + " has its own place and friction.", "Coulomb",
+      "Of several obstacles, each " + kind.name + " has its own place and friction.", "Coulomb",
       each_of_several_counts, slides_headline);
 }
 

@@ -6,10 +6,15 @@ namespace foldproof::suite {
 
 namespace {
 
-constexpr double radius = 1.1;  // m, of balls and capsules: small sheets on them are nearly flat
-constexpr double axis = 0.8;    // m, half of a capsule's
+/// Of balls and capsules [m]: small sheets on them are nearly flat.
+double radius_of(int which) { return 1.1 + 0.1 * which; }
 
-const Vector3 half_extents{0.34, 0.29, 0.25};  // m, of boxes
+constexpr double axis = 0.8;  // m, half of a capsule's
+
+/// Of boxes [m]; no two are alike.
+Vector3 half_extents_of(int which) {
+  return Vector3(0.34, 0.29, 0.25) + which * Vector3(0.03, 0.05, 0.08);
+}
 
 /// The middle of the obstacle of this number [m].
 Vector3 place_of(int which) { return Vector3(0.3, -0.2, 0.4) + which * Vector3(7, -4, 5); }
@@ -45,7 +50,7 @@ std::vector<Side> sides_of_plane(int which) {
 }
 
 void add_box(PortableScene& scene, int which, double friction) {
-  scene.boxes.push_back({place_of(which), half_extents, friction});
+  scene.boxes.push_back({place_of(which), half_extents_of(which), friction});
 }
 
 std::vector<Side> sides_of_box(int which) {
@@ -55,7 +60,7 @@ std::vector<Side> sides_of_box(int which) {
       Side side;
       side.name = fmt::format("face {}{}", sign > 0 ? '+' : '-', "xyz"[axis_of_face]);
       side.normal = sign * Vector3::Unit(axis_of_face);
-      side.point = place_of(which) + half_extents[axis_of_face] * side.normal;
+      side.point = place_of(which) + half_extents_of(which)[axis_of_face] * side.normal;
       side.down = along(side.normal, angle_of(side.name));
       sides.push_back(side);
     }
@@ -63,14 +68,15 @@ std::vector<Side> sides_of_box(int which) {
 }
 
 void add_ball(PortableScene& scene, int which, double friction) {
-  scene.spheres.push_back({place_of(which), radius, friction});
+  scene.spheres.push_back({place_of(which), radius_of(which), friction});
 }
 
 std::vector<Side> sides_of_ball(int which) {
   std::vector<Side> sides;
   for (const auto& [name, out] :
        {std::pair("above", Vector3(0.48, -0.36, 0.8)), {"below", Vector3(-0.6, 0.64, -0.48)}})
-    sides.push_back({name, place_of(which) + radius * out, out, along(out, angle_of(name))});
+    sides.push_back(
+        {name, place_of(which) + radius_of(which) * out, out, along(out, angle_of(name))});
   return sides;
 }
 
@@ -78,11 +84,12 @@ const Vector3 capsule_axis{0.64, 0.6, 0.48};
 
 void add_capsule(PortableScene& scene, int which, double friction) {
   const Vector3 half = axis * capsule_axis, middle = place_of(which);
-  scene.capsules.push_back({middle - half, middle + half, radius, friction});
+  scene.capsules.push_back({middle - half, middle + half, radius_of(which), friction});
 }
 
 std::vector<Side> sides_of_capsule(int which) {
   const Vector3 middle = place_of(which), half = axis * capsule_axis;
+  const double radius = radius_of(which);
   const Vector3 out = along(capsule_axis, angle_of("the flank"));
   const Vector3 round = capsule_axis.cross(out);
   std::vector<Side> sides{{"flank, along", middle + 0.4 * half + radius * out, out, capsule_axis},

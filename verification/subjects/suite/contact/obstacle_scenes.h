@@ -25,7 +25,8 @@ struct Side {
   Vector3 normal, down;  // of length 1, outward and along the surface
 };
 
-/// A kind of obstacle: three of them, each with its sides, so that none reaches another's.
+/// A kind of obstacle: many of them, three planes, each with its sides and, but for planes, its
+/// size, so that none reaches another's.
 struct ObstacleKind {
   std::string group, capability;
   std::string name;  // "the face of a box"

@@ -158,6 +158,26 @@ Finding dt_of_advance_counts(Trial& trial) {
   return judge_worst(measured, 1, "steps of the same length; both runs round differently");
 }
 
+/// Steps of one length, then of another, and none.
+Finding each_call_has_its_step(Trial& trial) {
+  PortableScene scene = soft_sheet("sheet thrown sideways, in steps of two lengths");
+  scene.v.colwise() = Vector3(2.7, -1.3, 0.8);
+  Table measured = table_of("step before [s] | step [s] | steps [1] | error of the way [1]");
+  for (const auto& [first, second, count] :
+       {std::tuple(0.002, drawn("second step", 0.007, 0.012), 3L),
+        {0.01, 0.0015, 20L},
+        {0.004, 0.004, 0L}}) {
+    scene.dt = first;
+    trial.prepare(scene);
+    const PerParticle3 from = trial.solver().advance(first, 4).x,
+                       to = trial.solver().advance(second, count).x;
+    const Vector3 way = (to - from).rowwise().mean(), due = double(count) * second * scene.v.col(0);
+    measured.row(first, second, count,
+                 (way - due).norm() / (std::max(count, 1L) * second) / scene.v.col(0).norm());
+  }
+  return judge_worst(measured, free_enough, "no force of note acts: the way is v t");
+}
+
 }  // namespace
 
 std::vector<Law> limit_laws() {
@@ -184,6 +204,9 @@ std::vector<Law> limit_laws() {
       {"time.dt-of-advance-counts",
        "The step is that of `advance`, where `prepare` had another one.", "protocol: 'advance'",
        dt_of_advance_counts, "L1"},
+      {"time.each-call-has-its-step",
+       "After steps of one length, `advance` by another, or by none, goes as far as it says.",
+       "protocol: 'advance'", each_call_has_its_step, "L1"},
   };
 }
 
