@@ -128,10 +128,8 @@ With --weight: your own numbers as a fabric; append the text to a copy of fabric
 case. One number of --bending-length or --kes stands for both directions.
 
 Examples:
-  foldproof fabric
   foldproof fabric denim cotton-twill
   foldproof fabric mine --weight 180 --bending-length 19,16 --drape 61 >> fabrics.toml
-  foldproof settle cantilever --set cloth.fabric=denim --out mine
 
 Exit codes:
   0    shown

@@ -9,7 +9,7 @@ import unittest
 from typing import Any
 
 from judge_case import SPRINGS, bad
-from program_case import PROGRAM, SHEET, SPINNING_PLANE, ProgramCase, run
+from program_case import PROGRAM, SHEET, ProgramCase, run
 
 SERVED = f"'{PROGRAM}' serve --integrator"
 
@@ -76,9 +76,7 @@ class PrecisionSolverTest(ProgramCase):
 
     def test_what_the_solver_cannot_run_is_refused(self) -> None:
         sheet, toy = self.write("sheet.toml", SHEET), bad("wrong", "none")
-        spins = self.write("spins.toml", SHEET + SPINNING_PLANE)
         for words, why in (
-            ([spins, "--solver", toy], "which moves or deforms"),
             ([sheet, "--solver", toy], "capability 'damping'"),
             ([sheet, "--solver", toy, "--set", "stretch.damping=0", "--method", "A,C"],
              "declines: bending"),

@@ -377,11 +377,12 @@ TEST_CASE("subject: laws that the time of the trial does not reach did not run")
 }
 
 TEST_CASE("subject: nothing follows from bounds that a declared tolerance makes too wide") {
-  const auto records = records_of(
-      "stands_still_to_half",
-      {"rest.no", "inertia", "gravity", "momentum.linear-is", "symmetry", "vibration.undamped"});
+  const auto records =
+      records_of("stands_still_to_half", {"rest.no", "inertia", "gravity.speed",
+                                          "momentum.linear-is", "symmetry", "vibration.undamped"});
   CHECK(!records.empty());
   for (const Record& record : records) {
+    if (record.outcome == Outcome::not_applicable) continue;  // of bending or dampers
     INFO(record.name);
     CHECK(record.outcome == Outcome::inconclusive);
     CHECK_THAT(record.finding.note, Contains("solve_tolerance 0.5"));
