@@ -241,7 +241,7 @@ class Judge(JudgeCase):
         for solver, kept, code, mentions in (
             (WRONG, WRONG, 0, ["4 fail", ": 0 worse, 0 better\n"]),
             (TOY, WRONG, 0, [f"better: {WRONG_FAILS[0]}: holds; was: fails",
-                             ": 0 worse, 3 better\n"]),
+                             ": 0 worse, 4 better\n"]),
             (WRONG, TOY, 1, [f"worse: {WRONG_FAILS[0]}: fails, measured/bound",
                              ": 4 worse, 0 better\n"])
         ):
