@@ -125,7 +125,7 @@ class Judge(JudgeCase):
         self.assertTrue(done.stderr.endswith("against the baseline: 0 worse, 0 better\n"))
         for typed, told in {
             "contcat": "did you mean contact?", "adapter.py": "is CMD in quotes?",
-            "order.observed-is-as-claimd": f"did you mean {ORDER}?", "order.": "there is no law",
+            "order.observed-is-as-claimd": f"did you mean {ORDER}?",
         }.items():
             self.assertIn(told, self.assert_rejected("judge", "--solver", TOY, "held", typed))
         self.assert_rejected("judge", "--frames", ".", "--case", "hanging_sheet", "held")
@@ -209,7 +209,7 @@ class Judge(JudgeCase):
                 self.assertEqual(law["name"], row["name"])
                 for key in ("outcome", "measured", "bound", "unit", "note"):
                     self.assertEqual(law["answers"][number][key], row[key])
-        self.assertIn('Differences from a law <span class="quiet">4</span>', text)
+        self.assertIn('Differences from a law <span class="quiet">5</span>', text)
         rows = told["error_against_cost"]
         self.assertEqual(len(rows), 4 * 4)  # of the four that started
         self.assertTrue(all(row["has_limit"] and row["seconds by the clock"] > 0 for row in rows))

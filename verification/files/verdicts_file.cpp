@@ -179,8 +179,9 @@ std::string verdicts_json(const RunRecord& run) {
   if (run.declared) json["declaration"] = to_json(*run.declared);
   if (!run.origins.empty()) json["program"]["parts"] = origins_text(run);
   for (const Record& record : run.records) {
-    json["findings"].push_back(to_json(record));
-    if (run.declared) json["findings"].back()["evidence"] = to_json(record.finding.evidence);
+    nlohmann::json row = to_json(record);
+    if (run.declared) row["evidence"] = to_json(record.finding.evidence);
+    json["findings"].push_back(std::move(row));
   }
   for (const ClaimRecord& claim : run.claims) json["findings"].push_back(to_json(claim));
   return json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
