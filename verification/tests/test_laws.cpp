@@ -287,54 +287,6 @@ TEST_CASE("subject: wrong contact with round bodies is found, and no other one",
   require_found({"on_round_bodies_backward_euler"}, {"ball.falling", "capstan.strip"}, {});
 }
 
-TEST_CASE("subject: slips in obstacles are found by the law of their kind, and no other one",
-          "[long]") {
-  const std::string side = "each-side-has-its-friction",
-                    several = "each-of-several-has-its-friction",
-                    kinds = "obstacles.of-several-kinds-each-has-its-friction";
-  const std::vector<std::string> box{"box.s", "box.e",        "box.l",
-                                     "box.i", "box.friction", "obstacles"},
-      capsule{"capsule.s", "capsule.e", "capsule.lets"};
-  require_found({"on_obstacles"}, {"contact", "box", "ball", "capsule", "obstacles"}, {});
-  require_found({"boxes_off_centre"}, {"box.surface"}, {"box.surface-is-where-the-scene-says"});
-  require_found({"rough_on_top_alone"}, {"box.surface", "box.each-side", "box.stops", "box.lets"},
-                {"box." + side});
-  CHECK(failing_laws("capsules_endless", capsule)
-            .contains("capsule.surface-is-where-the-scene-says"));
-  require_found({"walls_are_nothing"}, {"contact.planes"},
-                {"contact.planes-of-all-ways-have-their-friction"});
-  require_found({"points_are_nothing"}, {"capsule.of"}, {"capsule.of-one-point-is-a-ball"});
-  require_found({"forgets_others"}, {"box.each", "obstacles"}, {"box." + several});
-  require_found({"first_kind_alone"}, box, {kinds});
-  require_found({"means_friction"}, {"box"}, {"box.sheet-across-two-has-the-friction-of-both"});
-  require_found({"keeps_old_obstacles"}, {"obstacles"}, {"obstacles.go-with-their-scene"});
-  require_found({"far_obstacles_pull"}, box, {"obstacles.far-ones-change-nothing"});
-  require_found({"obstacles_cling"}, box, {"box.lets-go"});
-  require_found({"slow_cloth_creeps"}, box, {"box.stuck-sheet-does-not-creep"});
-  require_found({"fast_cloth_slides"}, box, {"box.impact-has-coulomb-s-friction"});
-  require_found({"obstacles_rebound"}, {"ball.stops"}, {"ball.stops-without-rebound"});
-  require_found({"slides_beside_held"}, box, {"box.friction-holds-beside-held-particles"});
-  require_found({"sixty_four_contacts"}, box, {"box.large-sheet-slides-as-coulomb-says"});
-}
-
-TEST_CASE("subject: slips in contact of layers are found, each by its law", "[long]") {
-  const std::vector<std::string> layers{"self-collision.l", "self-collision.t",
-                                        "self-collision.fine"};
-  const std::string keep = "self-collision.layers-that-meet-keep-momentum",
-                    lies = "self-collision.layer-lies-on-a-layer-on-a-plane";
-  require_found({"layers"}, layers, {});
-  require_found({"layers_push_one_side", "layers_push_corners"}, layers, {keep});
-  require_found({"layers_twice_as_thick"}, layers,
-                {"self-collision.layers-beyond-the-thickness-are-left-alone", lies});
-  require_found({"layers_glue"}, layers, {"self-collision.layers-part-freely", lies});
-  require_found({"layers_forget_planes"}, layers, {lies});
-  require_found({"thick_on_planes"}, {"contact", "self-collision.t"},
-                {"self-collision.thickness-is-not-kept-from-planes"});
-  require_law_fails("particles_repel_alone", "self-collision.vertices-and-edges-stop");
-  require_found({"neighbours_repel"}, {"self-collision.fine"},
-                {"self-collision.fine-mesh-stays-at-rest"});
-}
-
 TEST_CASE("subject: a sheet that stands still has passed no test of collisions") {
   require_law_fails("starts_from_rest", "inertia.free-sheet-keeps-its-velocity");
   for (const char* law : {"tunnelling.thin-box-stops-a-slow-sheet",

@@ -115,7 +115,7 @@ nlohmann::json portrait_json(const SolverCommand& command, const Options& option
           {"radius", ball.radius}};
 }
 
-/// What each law asked of the solver.
+/// For each law: its scenes, steps and particles.
 nlohmann::json asked_json(const Judgement& judgement) {
   nlohmann::json all = nlohmann::json::object();
   for (size_t k = 0; k < judgement.asked.size(); ++k) {

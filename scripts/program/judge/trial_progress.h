@@ -1,4 +1,4 @@
-// A trial of another solver as it goes: which laws are asked, what is told of each, what is kept.
+// Follows the trial of another solver: prints each law as it ends, and keeps its result.
 #pragma once
 
 #include <map>

@@ -96,7 +96,7 @@ class HingesCrease(Hinges):
 
 
 class HingesAreDampedUnasked(Hinges):
-    """A fiftieth of critical damping, whatever the scene says."""
+    """Has a fiftieth of critical damping that no scene asks for."""
 
     def alter(self, scene: Scene) -> None:
         super().alter(scene)

@@ -55,7 +55,7 @@ class StiffensBeyondATenth(Toy):
 
 
 class ScalesVelocityEachStep(Toy):
-    """By 0.9998, whatever the step, as solvers that dissipate for stability."""
+    """By 0.9998 in every step, long or short, as solvers do that dissipate for stability."""
 
     def step(self, dt: float) -> None:
         super().step(dt)
@@ -178,7 +178,7 @@ class DampsAlongRest(Damped):
 
 
 class RestIsNeverScaled(Toy):
-    """Lengths of the rest shape, whatever `rest_length_scale` says."""
+    """Ignores `rest_length_scale`."""
 
     def alter(self, scene: Scene) -> None:
         super().alter(scene)

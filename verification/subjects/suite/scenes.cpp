@@ -47,6 +47,37 @@ PortableScene resting(std::string name, TriangleMesh mesh, const PortableMateria
   return scene;
 }
 
+PortableScene shifted(PortableScene scene, const Vector3& by) {
+  scene.mesh.rest.colwise() += by;
+  scene.x.colwise() += by;
+  return scene;
+}
+
+PortableScene together(std::string name, const std::vector<PortableScene>& sheets) {
+  Eigen::Index particles = 0;
+  for (const PortableScene& sheet : sheets) particles += sheet.x.cols();
+  PortableScene all = sheets.front();
+  all.name = std::move(name);
+  all.held.clear();
+  PerParticle3 rest(3, particles);
+  all.x.resize(3, particles), all.v.resize(3, particles), all.mass.resize(particles);
+  std::vector<Triangle> triangles;
+  int first = 0;
+  for (const PortableScene& sheet : sheets) {
+    const Eigen::Index count = sheet.x.cols();
+    rest.middleCols(first, count) = sheet.mesh.rest;
+    all.x.middleCols(first, count) = sheet.x;
+    all.v.middleCols(first, count) = sheet.v;
+    all.mass.segment(first, count) = sheet.mass;
+    for (const Triangle& t : sheet.mesh.triangles)
+      triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    for (const int i : sheet.held) all.held.push_back(i + first);
+    first += int(count);
+  }
+  all.mesh = make_triangle_mesh(rest, triangles);
+  return all;
+}
+
 PortableScene sheet_of_cells(int cells) {
   PortableScene scene = resting("",
                                 make_sheet({.pattern = SheetPattern::jittered,

@@ -19,6 +19,12 @@ double drawn(std::string_view what, double least, double most);
 /// In its rest shape, at rest and free, with the masses of its density.
 PortableScene resting(std::string name, TriangleMesh mesh, const PortableMaterial& material = {});
 
+/// Its rest shape and its start moved by a vector [m].
+PortableScene shifted(PortableScene scene, const Vector3& by);
+
+/// Sheets in one scene that share no particle; what is no particle's or triangle's is the first's.
+PortableScene together(std::string name, const std::vector<PortableScene>& sheets);
+
 /// A flat jittered sheet of n x n cells of 0.1 m, 0.2 kg/m^2, Y = 5 N/m, in its rest shape, free.
 PortableScene sheet_of_cells(int n);
 

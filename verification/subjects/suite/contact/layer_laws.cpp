@@ -15,15 +15,9 @@ constexpr double cell = 0.05;  // m
 //        ------          upper: 3 x 3 cells
 //     ------------       lower: 4 x 4 cells; gap [m] between them
 PortableScene two_layers(const char* name, double gap) {
-  const PortableScene lower = limp_sheet(lower_cells, cell), upper = limp_sheet(upper_cells, cell);
-  PerParticle3 rest(3, lower.x.cols() + upper.x.cols());
-  rest << lower.x, (upper.x.colwise() + Vector3(0.031, 0.022, gap));
-  std::vector<Triangle> triangles = lower.mesh.triangles;
-  const int first = int(lower.x.cols());
-  for (const Triangle& t : upper.mesh.triangles)
-    triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
-  PortableScene scene = resting(name, make_triangle_mesh(rest, triangles), lower.material);
-  scene.dt = lower.dt;
+  const PortableScene upper = limp_sheet(upper_cells, cell);
+  PortableScene scene =
+      together(name, {limp_sheet(lower_cells, cell), shifted(upper, Vector3(0.031, 0.022, gap))});
   scene.thickness = drawn("thickness of layers", 0.007, 0.009);
   return scene;
 }

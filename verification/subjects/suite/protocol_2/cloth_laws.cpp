@@ -26,29 +26,12 @@ PortableScene patch(const PortableMaterial& material) {
   return scene;
 }
 
-PerParticle3 side_by_side(const PerParticle3& one, const PerParticle3& other) {
-  PerParticle3 both(3, one.cols() + other.cols());
-  both << one, other;
-  return both;
-}
-
 /// Two patches that share no particle, the other one beside the first.
 PortableScene two_patches(const PortableScene& one, const PortableScene& other) {
-  const int first = int(one.x.cols());
-  const PerParticle3 beside = Vector3(1, 0, 0).replicate(1, other.x.cols());
-  std::vector<Triangle> triangles = one.mesh.triangles;
-  for (const Triangle& t : other.mesh.triangles)
-    triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
-  PortableScene both = one;
-  both.name = "two patches";
-  both.mesh = make_triangle_mesh(side_by_side(one.mesh.rest, other.mesh.rest + beside), triangles);
-  both.x = side_by_side(one.x, other.x + beside);
-  both.v = side_by_side(one.v, other.v);
-  both.mass.resize(2 * one.mass.size());
-  both.mass << one.mass, other.mass;
+  PortableScene both = together("two patches", {one, shifted(other, Vector3(1, 0, 0))});
   both.materials = {one.material, other.material};
   both.material_of_triangle.assign(one.mesh.triangles.size(), 0);
-  both.material_of_triangle.resize(triangles.size(), 1);
+  both.material_of_triangle.resize(both.mesh.triangles.size(), 1);
   return both;
 }
 
@@ -79,20 +62,10 @@ Finding materials_are_those_of_triangles(Trial& trial) {
 /// A small sheet lies on a large one that is held; gravity is tilted.
 PortableScene layer_on_layer(double slope, double heading, double friction) {
   PortableScene lower = sheet_at_rest(), upper = small_sheet();
-  const int first = int(lower.x.cols());
+  for (int i = 0; i < int(lower.x.cols()); ++i) lower.held.push_back(i);
   const double thickness = drawn("thickness of layers", 0.004, 0.006);  // m
   const Vector3 onto = middle_of(lower.x) - middle_of(upper.x) + thickness * Vector3::UnitZ();
-  PortableScene both = lower;
-  both.name = "layer on a layer";
-  std::vector<Triangle> triangles = lower.mesh.triangles;
-  for (const Triangle& t : upper.mesh.triangles)
-    triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
-  both.x = side_by_side(lower.x, upper.x.colwise() + onto);
-  both.mesh = make_triangle_mesh(both.x, triangles);
-  both.v = PerParticle3::Zero(3, both.x.cols());
-  both.mass.resize(both.x.cols());
-  both.mass << lower.mass, upper.mass;
-  for (int i = 0; i < first; ++i) both.held.push_back(i);
+  PortableScene both = together("layer on a layer", {lower, shifted(upper, onto)});
   both.thickness = thickness, both.layer_friction = friction;
   const double along = weight * std::sin(slope);
   both.gravity << along * std::cos(heading), along * std::sin(heading), -weight * std::cos(slope);
@@ -101,9 +74,8 @@ PortableScene layer_on_layer(double slope, double heading, double friction) {
 
 Finding layers_rub_as_coulomb_says(Trial& trial) {
   Table measured = table_of(
-      "slope [rad] | mu [1] | way down [m] | by Coulomb's law [m] | difference [of the "
-      "frictionless "
-      "way]");
+      "slope [rad] | mu [1] | way down [m] | by Coulomb's law [m] | "
+      "difference [of the frictionless way]");
   constexpr long steps = 60;
   for (const auto& [slope, mu] : {std::pair(0.2, 0.5), {0.4, 0.15}, {0.5, 0.3}}) {
     const double heading = drawn("heading of layers", 0, 6);

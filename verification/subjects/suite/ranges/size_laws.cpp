@@ -31,26 +31,9 @@ Vector3 place_of(int k) {
 }
 
 PortableScene copies_of(const PortableScene& one, int count) {
-  PortableScene all = one;
-  const int particles = int(one.x.cols());
-  PerParticle3 rest(3, particles * count);
-  all.x.resize(3, particles * count), all.v.resize(3, particles * count);
-  all.mass.resize(particles * count);
-  all.held.clear();
-  std::vector<Triangle> triangles;
-  for (int k = 0; k < count; ++k) {
-    const int first = k * particles;
-    rest.middleCols(first, particles) = one.mesh.rest.colwise() + place_of(k);
-    all.x.middleCols(first, particles) = one.x.colwise() + place_of(k);
-    all.v.middleCols(first, particles) = one.v;
-    all.mass.segment(first, particles) = one.mass;
-    for (const Triangle& t : one.mesh.triangles)
-      triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
-    for (const int i : one.held) all.held.push_back(i + first);
-  }
-  all.mesh = make_triangle_mesh(rest, triangles);
-  all.name = fmt::format("{} {}s", count, one.name);
-  return all;
+  std::vector<PortableScene> copies;
+  for (int k = 0; k < count; ++k) copies.push_back(shifted(one, place_of(k)));
+  return together(fmt::format("{} {}s", count, one.name), copies);
 }
 
 Finding many_move_as_one(Trial& trial, const PortableScene& one) {
