@@ -3,6 +3,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <optional>
 #include <sstream>
@@ -308,11 +309,16 @@ std::shared_ptr<KeyTable> parse_keys(const std::string& text, const std::string&
 
 namespace {
 
+/// A value as in TOML; else a number as people type it (".5", "2."); else text.
 KeyValue parsed_value(const std::string& text, const std::string& where) {
   if (unbearable(text)) return {text, where};
   try {
     return convert(*parse_toml("value = " + text, where).get("value"), Place{"value", where});
   } catch (const toml::parse_error&) {
+    const char* const end = text.data() + text.size();
+    double number = 0;
+    const auto [stop, error] = std::from_chars(text.data(), end, number);
+    if (error == std::errc() && stop == end && std::isfinite(number)) return {number, where};
     return {text, where};
   }
 }

@@ -77,9 +77,10 @@ std::shared_ptr<KeyTable> parse_keys(const std::string& text, const std::string&
 /// Whether a value's place is an override on the command line, not a line of a file.
 bool is_override(const std::string& where);
 
-/// Overrides "a.b.c=value" (value as in TOML, or else a string; a number in the path picks an entry
-/// of a list, and a single entry needs none). Missing tables are created. "a.b.c=" unsets the key.
-/// Throws InputError for an override without '=', a path through a value, or no key to unset.
+/// Overrides "a.b.c=value" (value as in TOML, or a number as in ".5", or else text; a number in the
+/// path picks an entry of a list, and a single entry needs none). Missing tables are created.
+/// "a.b.c=" unsets the key. Throws InputError for an override without '=', a path through a value,
+/// or no key to unset.
 void set_key(KeyTable& root, const std::string& assignment);
 
 /// The whole file. Throws InputError if it cannot be read, is empty, or is longer than

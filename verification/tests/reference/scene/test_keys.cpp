@@ -137,6 +137,16 @@ TEST_CASE("the value from the file is kept, not that of an earlier override", "[
   CHECK(root->replaced.at("title").where == "some.toml:1");
 }
 
+TEST_CASE("an override takes a number without the digits that TOML requires", "[scene]") {
+  const auto width = [](const std::string& typed) {
+    return with("cloth.width=" + typed)->table("cloth")->number("width");
+  };
+  CHECK(width(".25") == 0.25);
+  CHECK(width("-.5e-3") == -0.5e-3);
+  CHECK(width("3.") == 3);
+  CHECK(with("title=1.2.3")->text("title") == "1.2.3");
+}
+
 TEST_CASE("an override without a value unsets a key, which must be there", "[scene]") {
   const auto root = with("cloth.width=");
   CHECK(!root->table("cloth")->has("width"));
