@@ -1,8 +1,10 @@
 #include "reference/mesh/seams.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <map>
 #include <set>
 #include <string>
@@ -105,24 +107,49 @@ void close_seams_in_motion(std::vector<PerParticle3>& frames, std::vector<Triang
   }
 }
 
-std::string open_seams_in_words(const TriangleMesh& mesh, const std::string& table) {
-  const double distance = 1e-6 * bounds_of(mesh.rest).sizes().maxCoeff();
+namespace {
+
+/// Vertices on the border of a mesh that lie near an earlier one there.
+struct OpenSeams {
+  int places = 0;
+  double farthest = 0;  // of a vertex from the one that it is near [m]
+};
+
+OpenSeams open_seams(const TriangleMesh& mesh, double coincident) {
+  constexpr double near = 0.1;  // of the shortest edge of the border
   std::set<int> border;
+  double reach = std::numeric_limits<double>::infinity();
   for (const Edge& edge : mesh.edges)
-    if (edge.triangles[1] < 0) border.insert({edge.a, edge.b});
-  Kept kept(mesh.rest, distance);
-  int coincident = 0;
+    if (edge.triangles[1] < 0) {
+      border.insert({edge.a, edge.b});
+      reach = std::min(reach, near * (mesh.rest.col(edge.a) - mesh.rest.col(edge.b)).norm());
+    }
+  OpenSeams open;
+  Kept kept(mesh.rest, std::max(reach, coincident));
   for (const int v : border)
-    if (kept.near(v) >= 0)
-      ++coincident;
-    else
+    if (const int other = kept.near(v); other >= 0) {
+      ++open.places;
+      open.farthest = std::max(open.farthest, (mesh.rest.col(v) - mesh.rest.col(other)).norm());
+    } else {
       kept.add(v);
-  if (coincident == 0) return "";
-  char words[200];
+    }
+  return open;
+}
+
+}  // namespace
+
+std::string open_seams_in_words(const TriangleMesh& mesh, const std::string& table, double unit) {
+  const double coincident = 1e-6 * bounds_of(mesh.rest).sizes().maxCoeff();
+  const OpenSeams open = open_seams(mesh, coincident);
+  if (open.places == 0) return "";
+  const double distance = std::max(coincident, 1.2 * open.farthest) / unit;
+  char lie[60] = "coincide", words[240];
+  if (open.farthest > coincident)
+    std::snprintf(lie, sizeof lie, "of the border are %.2g or less apart", open.farthest / unit);
   std::snprintf(words, sizeof words,
-                "at %d places vertices coincide, so the %s is cut there; seams = %.1g of %s, "
-                "or --seams %.1g, sews it",
-                coincident, table == "[cloth]" ? "cloth" : "body", distance, table.c_str(),
+                "at %d places vertices %s, so the %s is cut there; seams = %.2g of %s, or "
+                "--seams %.2g, sews it",
+                open.places, lie, table == "[cloth]" ? "cloth" : "body", distance, table.c_str(),
                 distance);
   return words;
 }

@@ -22,10 +22,12 @@ struct UnsewnMesh {
 /// and a triangle with two corners that merge.
 TriangleSoup close_seams(TriangleSoup panels, double distance);
 
-/// How many vertices on the border lie within a millionth of the mesh's extent of an earlier one
-/// there, and with which distance close_seams joins them, in words; "" if none do. table: of a case
-/// file, "[cloth]" or "[[object]]".
-std::string open_seams_in_words(const TriangleMesh& mesh, const std::string& table = "[cloth]");
+/// How many vertices on the border lie near an earlier one there, and with which distance
+/// close_seams joins them, in words; "" if none do. Near: within a millionth of the mesh's extent,
+/// or a tenth of the shortest edge of the border. table: of a case file, "[cloth]" or "[[object]]".
+/// unit: of the mesh's file [m].
+std::string open_seams_in_words(const TriangleMesh& mesh, const std::string& table = "[cloth]",
+                                double unit = 1);
 
 /// Joins the same vertices in every frame (3 x N [m]) of a mesh in motion: the ones that
 /// close_seams joins in the first.

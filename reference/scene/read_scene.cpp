@@ -232,7 +232,7 @@ Scene scene_from(const CaseKeys& of, const SceneLimits& limits) {
     reject_touching_start(*self, scene);
     reject_tangled_start(*self, scene);
   }
-  warn_of_sizes(*cloth, scene);
+  warn_of_sizes(*cloth, placed.scale, scene);
   scene.name = file.stem().string();
   scene.folder = folder;
   scene.text = of.text;

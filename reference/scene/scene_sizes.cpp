@@ -110,7 +110,7 @@ void note_scales(const KeyTable& keys, double of_cloth, Scene& scene) {
   }
 }
 
-void warn_of_sizes(const KeyTable& cloth, Scene& scene) {
+void warn_of_sizes(const KeyTable& cloth, double unit, Scene& scene) {
   const double length = length_of(scene.x);
   const std::string where = cloth.where(cloth.has("mesh") ? "mesh" : "shape");
   if (length > longest_cloth || length < shortest_cloth)
@@ -128,7 +128,9 @@ void warn_of_sizes(const KeyTable& cloth, Scene& scene) {
                                   : ""));
   }
   if (!cloth.has("mesh") || cloth.has("seams")) return;
-  if (const std::string words = open_seams_in_words(scene.mesh); !words.empty())
+  TriangleMesh start = scene.mesh;
+  start.rest = scene.x;
+  if (const std::string words = open_seams_in_words(start, "[cloth]", unit); !words.empty())
     scene.warnings.push_back(where + ": " + words);
 }
 
@@ -146,7 +148,7 @@ std::string warning_of_start(const Scene& scene, const State& s) {
   RestPlane plane;
   const bool lies_flat = is_flat(start, plane);
   // there the exact test finds that neighbours touch
-  if (!lies_flat && !open_seams_in_words(scene.mesh).empty()) return "";
+  if (!lies_flat && !open_seams_in_words(start).empty()) return "";
   const size_t pairs = lies_flat ? overlaps_in_plane(s.x, triangles, plane.first, plane.second,
                                                      1e-6 * length_of(s.x))
                                  : self_intersections(s.x, triangles).size();

@@ -21,9 +21,9 @@ void note_scales(const KeyTable& keys, double of_cloth, Scene& scene);
 
 /// Adds to scene.warnings a line for each: a cloth longer than 20 m or shorter than 5 mm; a cloth
 /// and a mesh body of which one is seven times as long as the other, or more; a density beyond 5 or
-/// below 0.01 kg/m^2; border vertices of a mesh file that lie on others, so that the cloth is cut
-/// there.
-void warn_of_sizes(const KeyTable& cloth, Scene& scene);
+/// below 0.01 kg/m^2; border vertices of a mesh file that lie on or near others, so that the
+/// cloth is cut there. unit: of the mesh file [m].
+void warn_of_sizes(const KeyTable& cloth, double unit, Scene& scene);
 
 /// A start that will not work, in a line: triangles without area, or, without [self_collision] and
 /// open seams, a cloth that crosses itself (not looked for where it is flat); "" if it is none.

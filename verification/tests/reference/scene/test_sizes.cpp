@@ -13,6 +13,8 @@ namespace {
 const std::string square = "v 0 0 0\nv 100 0 0\nv 100 100 0\nv 0 100 0\nf 1 2 3 4\n";
 const std::string halves =
     "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 4 5 6\n";
+const std::string gaping =
+    "v 0 0 0\nv 20 0 0\nv 20 20 0\nv -3e-3 4e-3 0\nv 20 20.005 0\nv 0 20 0\nf 1 2 3\nf 4 5 6\n";
 const std::string body = "v 0 0 5\nv 2 0 5\nv 0 2 5\nv 0 0 7\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
 
 /// All warnings of a cloth with these keys, one behind the other.
@@ -53,6 +55,10 @@ TEST_CASE("vertices of a border that coincide are counted, with the key that sew
   CHECK_THAT(warnings_of(halves, "density = 0.2"),
              Contains("at 2 places vertices coincide") && Contains("seams = 1e-06"));
   CHECK(warnings_of(halves, "density = 0.2\nseams = 1e-6") == "");
+  CHECK_THAT(warnings_of(gaping, "density = 0.2\nscale = 0.01"),
+             Contains("at 2 places vertices of the border are 0.005 or less apart") &&
+                 Contains("seams = 0.006 of [cloth]"));
+  CHECK(warnings_of(gaping, "density = 0.2\nscale = 0.01\nseams = 0.006") == "");
 }
 
 TEST_CASE("sizes are told, and a fixed step beyond the elastic limit") {
