@@ -13,10 +13,6 @@ namespace {
 // them.
 constexpr double least_difference_of_normals = 0.1;
 
-// Normals more than 120 degrees apart: the objects close on the point, and correcting for one after
-// the other cannot free it.
-constexpr double facing = -0.5;
-
 // A point that would reach the surface within this fraction of the step is on it.
 constexpr double touching = 1e-3;
 
@@ -29,9 +25,34 @@ double forecast_distance(const ObjectPoint& at, const Vector3& v_p, double tau) 
   return at.phi + tau * (v_p - at.velocity).dot(at.normal);
 }
 
+//     \  p  /     Between walls that meet, N_a + N_b leads out of both: a point does not move
+//    a \   / b    against it. Between walls that are parallel, it moves as it likes.
+//       \ /
+/// v without what leads deeper into both; `mean`, of the two objects [m/s], is no such motion.
+Vector3 without_sinking(const ObjectPoint& a, const ObjectPoint& b, const Vector3& v,
+                        const Vector3& mean) {
+  const Vector3 out = a.normal + b.normal;
+  if (!(out.norm() > least_difference_of_normals)) return v;
+  const double speed = (v - mean).dot(out.normalized());
+  return speed < 0 ? Vector3(v - speed * out.normalized()) : v;
+}
+
+//   v += u_a N_a + u_b N_b  with  phi_new = 0 of both:   u_a +   c u_b = -phi_new_a / tau
+//                                                      c u_a +     u_b = -phi_new_b / tau
+//   and c = N_a.N_b
+/// Leads a point onto both surfaces, where the way out of one leads back into the other.
+Vector3 velocity_into_corner(const ObjectPoint& a, const ObjectPoint& b, const Vector3& v,
+                             double tau) {
+  const double c = a.normal.dot(b.normal);
+  const double out_of_a = -forecast_distance(a, v, tau) / tau;  // m/s
+  const double out_of_b = -forecast_distance(b, v, tau) / tau;  // m/s
+  return v + ((out_of_a - c * out_of_b) * a.normal + (out_of_b - c * out_of_a) * b.normal) /
+                 (1 - c * c);
+}
+
 /// Treats each object once, deepest forecast first, so that it also treats an object that will be
-/// entered but is not the nearest. If the way out of one leads into another that faces it, the
-/// point is held between them.
+/// entered but is not the nearest. If the way out of one leads into another, the point is led to
+/// both surfaces; if the two face each other, it is held between them.
 Vector3 forecast_against_each(std::span<ObjectPoint> left, const MovingPoint& point) {
   Vector3 v = point.v;
   std::optional<ObjectPoint> before;
@@ -41,9 +62,11 @@ Vector3 forecast_against_each(std::span<ObjectPoint> left, const MovingPoint& po
   while (!left.empty()) {
     const auto deepest = std::min_element(left.begin(), left.end(), deeper);
     if (!(forecast_distance(*deepest, v, point.tau) < 0)) break;
-    if (before && before->normal.dot(deepest->normal) < facing)
+    if (before && face_each_other(*before, *deepest))
       return velocity_between(*before, *deepest, point);
     v = forecast_velocity(*deepest, v, point.tau);
+    if (before && forecast_distance(*before, v, point.tau) < 0)
+      v = velocity_into_corner(*before, *deepest, v, point.tau);
     before = *deepest;
     std::rotate(deepest, deepest + 1, left.end());
     left = left.first(left.size() - 1);
@@ -51,12 +74,12 @@ Vector3 forecast_against_each(std::span<ObjectPoint> left, const MovingPoint& po
   return v;
 }
 
+/// A pinched point is held between its two objects. Held in a corner, it would sink along the
+/// surface between them: there it is led out of each.
 Vector3 forecast(std::span<ObjectPoint> answers, const MovingPoint& point) {
-  const auto inside = [](const ObjectPoint& at) { return at.phi < 0; };
-  if (std::count_if(answers.begin(), answers.end(), inside) < 2)
-    return forecast_against_each(answers, point);
   const Nearest nearest = nearest_of(answers);
-  return velocity_between(nearest.first, nearest.second, point);
+  if (nearest.held_between()) return velocity_between(nearest.first, nearest.second, point);
+  return forecast_against_each(answers, point);
 }
 
 Vector3 forecast_deepest(std::span<ObjectPoint> answers, const MovingPoint& point) {
@@ -118,11 +141,13 @@ Vector3 velocity_between(const ObjectPoint& a, const ObjectPoint& b, const Movin
   const Vector3 n = across.normalized();
   const double psi_new =
       forecast_distance(a, point.v, point.tau) - forecast_distance(b, point.v, point.tau);
-  const Vector3 relative = point.v - (a.velocity + b.velocity) / 2;
+  const Vector3 mean = (a.velocity + b.velocity) / 2;
+  const Vector3 relative = point.v - mean;
   const Vector3 sliding = relative - relative.dot(n) * n;
   const double kept =
       kept_by_friction(1, a.friction * push_a + b.friction * push_b, sliding.norm());
-  return point.v - psi_new / (point.tau * across.norm()) * n - (1 - kept) * sliding;
+  const Vector3 v = point.v - psi_new / (point.tau * across.norm()) * n - (1 - kept) * sliding;
+  return without_sinking(a, b, v, mean);
 }
 
 const std::vector<Response>& responses() {

@@ -54,6 +54,11 @@ ObjectPoint DeformingOverSpan::at(const Vector3& p) const {
   return point;
 }
 
+bool face_each_other(const ObjectPoint& a, const ObjectPoint& b) {
+  constexpr double cosine = -0.5;  // of 120 degrees
+  return a.normal.dot(b.normal) < cosine;
+}
+
 Nearest nearest_of(std::span<const ObjectPoint> points) {
   Nearest nearest;
   for (const ObjectPoint& point : points) record(point, nearest);

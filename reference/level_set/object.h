@@ -79,13 +79,20 @@ struct Object {
   double friction = 0;  // mu, Coulomb's coefficient between it and cloth [1]
 };
 
+/// Whether the way out of one object leads deeper into the other: their normals are more than 120
+/// degrees apart, and the way out of both is twice as long as that out of one, or longer.
+bool face_each_other(const ObjectPoint& a, const ObjectPoint& b);
+
 /// The two objects that a point is deepest in or nearest to, and the number of objects that contain
-/// it: inside two or more it is pinched (BMF03 section 5.1). The union's phi is the first's.
+/// it. The union's phi is the first's.
 struct Nearest {
   ObjectPoint first, second;
   int inside = 0;
 
+  /// Inside two or more (BMF03 section 5.1).
   bool pinched() const { return inside >= 2; }
+  /// Pinched by two that close on it as an armpit does, and not only in a corner.
+  bool held_between() const { return pinched() && face_each_other(first, second); }
 };
 
 /// The two nearest of the objects' answers at one point, given in any order.

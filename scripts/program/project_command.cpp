@@ -73,7 +73,7 @@ double deepest_in(const Source& source) {
     ObjectsOverSpan now(source.objects, {s.time, s.time, 0});
     for (Eigen::Index i = 0; i < s.x.cols(); ++i) {
       const Nearest nearest = nearest_of(now.at(s.x.col(i)));
-      if (!nearest.pinched()) deepest = std::max(deepest, -nearest.first.phi);
+      if (!nearest.held_between()) deepest = std::max(deepest, -nearest.first.phi);
     }
   }
   return deepest;

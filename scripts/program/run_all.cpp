@@ -195,7 +195,7 @@ std::string summary(const RunRecord& run) {
   const auto waiting = std::ranges::count_if(run.claims, waits_for_full_tier);
   const std::string ruled =
       findings +
-      fmt::format("; {} claims ruled as recorded, {} otherwise, {} undecided{}",
+      fmt::format("; {} claims ruled as recorded, {} against the record, {} undecided{}",
                   claims(Outcome::holds), claims(Outcome::fails), claims(Outcome::inconclusive),
                   waiting > 0 ? fmt::format(" ({} until the full tier has run)", waiting) : "");
   if (!has_too_many_empirical_bounds(run)) return ruled;

@@ -23,7 +23,7 @@ ParticleDepths particle_depths(const Scene& scene, std::span<const Object> objec
   for (Eigen::Index i = 0; i < s.x.cols(); ++i) {
     const std::span<const ObjectPoint> points = now.at(s.x.col(i));
     for (std::size_t k = 0; k < points.size(); ++k) all.depths(Eigen::Index(k), i) = -points[k].phi;
-    if (nearest_of(points).pinched()) all.counts[std::size_t(i)] = 0;
+    if (nearest_of(points).held_between()) all.counts[std::size_t(i)] = 0;
   }
   for (const PrescribedParticle& p : scene.prescribed) all.counts[std::size_t(p.particle)] = 0;
   return all;

@@ -84,7 +84,7 @@ double depth_in(const FrameMotion& motion, const TimedMesh& frame) {
   if (!frame.x.allFinite()) return nan;
   Worst worst;
   for (const Nearest& nearest : nearest_of_free_vertices(motion, frame))
-    if (!nearest.pinched()) worst.observe(-nearest.first.phi);
+    if (!nearest.held_between()) worst.observe(-nearest.first.phi);
   return worst.value();
 }
 

@@ -87,14 +87,14 @@ std::vector<Nearest> nearest_at(std::span<const Object> objects, const State& s)
   return nearest;
 }
 
-/// Of free particles. Pinched ones are inside by what pinches them, and not counted.
+/// Of free particles. Those held between two objects are inside by their motion, and not counted.
 double penetration(const Scene& scene, std::span<const Object> objects, const State& s) {
   std::vector<char> free(size_t(s.x.cols()), 1);
   for (const PrescribedParticle& p : scene.prescribed) free[size_t(p.particle)] = 0;
   Worst worst;
   const std::vector<Nearest> nearest = nearest_at(objects, s);
   for (size_t i = 0; i < nearest.size(); ++i)
-    if (free[i] && !nearest[i].pinched()) worst.observe(-nearest[i].first.phi);
+    if (free[i] && !nearest[i].held_between()) worst.observe(-nearest[i].first.phi);
   return worst.value();
 }
 
@@ -106,7 +106,7 @@ double depth_at_end(const RunView& run) {
 double off_centre(const Scene&, std::span<const Object> objects, const State& s) {
   Worst worst;
   for (const Nearest& nearest : nearest_at(objects, s)) {
-    if (!nearest.pinched()) continue;
+    if (!nearest.held_between()) continue;
     const double slope = (nearest.first.normal - nearest.second.normal).norm();
     worst.observe(std::abs(nearest.first.phi - nearest.second.phi) / slope);
   }
@@ -115,7 +115,7 @@ double off_centre(const Scene&, std::span<const Object> objects, const State& s)
 
 double pinched_particles(const Scene&, std::span<const Object> objects, const State& s) {
   double count = 0;
-  for (const Nearest& nearest : nearest_at(objects, s)) count += nearest.pinched() ? 1 : 0;
+  for (const Nearest& nearest : nearest_at(objects, s)) count += nearest.held_between() ? 1 : 0;
   return count;
 }
 
@@ -267,8 +267,8 @@ std::vector<Quantity> quantities_of_shape_and_place() {
       {"makes_contact", "points", "Objects correct the motion of some points in some step.",
        Sense::at_least, Scope::this_shape, nullptr,
        [](const RunView& run) { return double(run.summary.contacts); }, without_objects},
-      {"is_pinched", "particles", "Particles are inside two objects at once.", Sense::at_least,
-       Scope::this_shape, nullptr, nullptr, without_objects, pinched_particles},
+      {"is_pinched", "particles", "Particles are inside two objects that face each other.",
+       Sense::at_least, Scope::this_shape, nullptr, nullptr, without_objects, pinched_particles},
       {"stays_between", "m", "Particles inside two objects stay equally deep in both.",
        Sense::at_most, Scope::any_cloth, nullptr, nullptr, without_objects, off_centre},
       {"never_crosses_itself", "pairs",

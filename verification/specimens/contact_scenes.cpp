@@ -80,6 +80,12 @@ Contact contact_of(const std::string& name, const SceneObject& part, double tau,
   return contact;
 }
 
+/// Inside both balls, whose normals are more than 120 degrees apart.
+bool is_held_between(const Pinch& pinch, const Vector3& p) {
+  const KnownPoint a = pinch.first(p, pinch.span), b = pinch.second(p, pinch.span);
+  return a.phi < -1e-3 && b.phi < -1e-3 && a.normal.dot(b.normal) < -0.5 - 1e-3;
+}
+
 }  // namespace
 
 Vector3 rotate(const Vector3& x, const Vector3& turn) {
@@ -151,8 +157,7 @@ Pinch known_pinch() {
   pinch.state = {0, pinch.scene.x, random.vectors(pinch.scene.x.cols(), 2)};
   for (Eigen::Index i = 0; i < pinch.state.x.cols(); ++i) {
     Vector3 p = Vector3::Constant(9);
-    while (!(pinch.first(p, pinch.span).phi < -1e-3 && pinch.second(p, pinch.span).phi < -1e-3))
-      p = random.vectors(1, 0.4);
+    while (!is_held_between(pinch, p)) p = random.vectors(1, 0.4);
     pinch.state.x.col(i) = p;
   }
   return pinch;

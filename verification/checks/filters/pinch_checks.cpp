@@ -34,8 +34,14 @@ Finding equal_depth_finding(const Subject& subject) {
                      "as many roundings as a forecast against one object takes, twice");
 }
 
+/// A velocity along the surface between two objects, without what leads deeper into both.
+Vector3 without_sinking(const KnownPoint& a, const KnownPoint& b, const Vector3& v) {
+  const Vector3 out = (a.normal + b.normal).normalized();
+  return (a.normal + b.normal).norm() > 0.1 ? Vector3(v + std::max(0.0, -v.dot(out)) * out) : v;
+}
+
 /// The velocity along the surface between both objects is shortened, not turned, by at most the sum
-/// of both Coulomb limits.
+/// of both Coulomb limits, and then loses what leads deeper into both.
 Finding pinch_friction_finding(const Subject& subject) {
   const Pinch pinch = known_pinch();
   const PerParticle3 after = corrected_by_objects(subject, pinch.scene, pinch.span, pinch.state);
@@ -54,7 +60,7 @@ Finding pinch_friction_finding(const Subject& subject) {
     const double most = pinch.friction_first * push(a) + pinch.friction_second * push(b);
     const double wanted = std::max(0.0, sliding.norm() - most);
     (wanted > 0 ? slid : stuck) += 1;
-    worst.observe((still - wanted * sliding.normalized()).norm() /
+    worst.observe((still - without_sinking(a, b, wanted * sliding.normalized())).norm() /
                   (epsilon * (1 / pinch.tau + v.norm() + mean.norm())));
   }
   measured.row("two balls", stuck > 20 && slid > 20 ? worst.value() : nan);
@@ -109,8 +115,7 @@ Scene wedge(double degrees) {
 }
 
 /// Particles outside both half-spaces that would enter both. Normals more than 120 degrees apart:
-/// held equally deep in both. Otherwise: on the surface of the half-space that corrects last, which
-/// lies inside the other.
+/// held equally deep in both. Otherwise: on both surfaces.
 Finding closing_finding(const Subject& subject) {
   const double h = 0.01;
   Random random(37);
@@ -133,16 +138,46 @@ Finding closing_finding(const Subject& subject) {
     for (Eigen::Index i = 0; i < after.cols(); ++i) {
       const Vector3 end = state.x.col(i) + h * after.col(i);
       const double apart = std::abs(end.dot(a) - end.dot(b));
-      const double nearest = std::min(std::abs(end.dot(a)), std::abs(end.dot(b)));
-      const bool held = degrees > 120;
-      const bool told_apart = (held ? nearest : apart) > 1e-3;  // m
+      const double farthest = std::max(std::abs(end.dot(a)), std::abs(end.dot(b)));
       const double size = Vector3(state.x.col(i)).norm() + h * Vector3(state.v.col(i)).norm();
-      worst.observe(told_apart ? (held ? apart : nearest) / (epsilon * size) : nan);
+      worst.observe((degrees > 120 ? apart : farthest) / (epsilon * size));
     }
     measured.row(std::to_string(int(degrees)) + " degrees", worst.value());
   }
   return judge_worst(measured, 40,
                      "as many roundings as a forecast against one object takes, twice");
+}
+
+/// Particles within rounding of the edge where two walls meet, driven into both for a hundred
+/// steps: depth in either, at most.
+double depth_in_corner(const Subject& subject, double degrees) {
+  const double h = 0.01, angle = degrees * pi / 180;
+  const Scene scene = wedge(degrees);
+  const Vector3 a = Vector3::UnitZ(), b(std::sin(angle), 0, std::cos(angle));
+  const Vector3 out = (a + b).normalized(), aside = (a - b).normalized();
+  State state = resting_state(scene.x);
+  Random random(41);
+  for (Eigen::Index i = 0; i < state.x.cols(); ++i)
+    state.x.col(i) = random.uniform(-1, 1) * Vector3::UnitY() +
+                     epsilon * (random.uniform(-1, 1) * out + random.uniform(-1, 1) * aside);
+  Worst deepest;
+  for (int step = 0; step < 100; ++step) {
+    for (Eigen::Index i = 0; i < state.x.cols(); ++i)
+      state.v.col(i) = -random.uniform(1, 3) * out + random.uniform(-0.2, 0.2) * aside;
+    state.v = corrected_by_objects(subject, scene, {0, h, h}, state);
+    state.x += h * state.v;
+    deepest.observe(
+        -std::min((a.transpose() * state.x).minCoeff(), (b.transpose() * state.x).minCoeff()));
+  }
+  return deepest.value();
+}
+
+Finding corner_finding(const Subject& subject) {
+  Table measured{{"normals apart", "degrees"}, {"largest depth", "m"}};
+  for (const double degrees : {25., 70., 90., 118., 124., 152., 168.})
+    measured.row(degrees, depth_in_corner(subject, degrees));
+  return judge_worst(measured, 200 * epsilon,
+                     "a rounding of steps of 30 mm in each of a hundred steps, along 1 m");
 }
 
 /// Midpoints and centres get exactly the velocity of the response, by impulses that decrease with
@@ -288,8 +323,12 @@ std::vector<Check> pinch_checks() {
        "BMF03 section 5.1", pinch_friction_finding},
       {"contact.closing-objects-hold-a-point-between-them",
        "A point that would enter two objects is held between them if their normals are more than "
-       "120 degrees apart, and otherwise moved out of one after the other.",
+       "120 degrees apart, and otherwise led to both surfaces.",
        "BMF03 section 5.2", closing_finding},
+      {"contact.cloth-does-not-sink-into-a-corner",
+       "A point driven into the corner of two walls for a hundred steps stays on their edge, "
+       "whatever their angle.",
+       "BMF03 section 5.2", corner_finding},
       {"contact.objects-beyond-the-nearest-count",
        "A point that is near one object and about to enter another is held out of both.",
        "BMF03 section 5.2", each_object_finding},
