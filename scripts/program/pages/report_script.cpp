@@ -3,6 +3,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cstdlib>
+
 #include "scripts/program/data_folder.h"
 #include "scripts/program/options.h"
 #include "scripts/program/progress.h"
@@ -13,22 +15,26 @@ namespace {
 
 constexpr int not_started = 127;  // as a shell says it
 
-/// Debian's. It is called by its full path: from a bare name it would look for its packages beside
-/// the first python3 on the PATH.
-constexpr const char* python = "/usr/bin/python3";
+/// Debian's, or that of the wheel. It is called by its full path: from a bare name it would look
+/// for its packages beside the first python3 on the PATH.
+std::string python_file() {
+  const char* const of_wheel = std::getenv("FOLDPROOF_PYTHON");
+  return of_wheel ? of_wheel : "/usr/bin/python3";
+}
 
 }  // namespace
 
 int run_report_script(const std::string& makes, const std::string& script,
                       const std::vector<std::string>& arguments, bool compares) {
   const std::string path = data_folder() + "/reports/" + script;
-  std::vector<char*> words = {const_cast<char*>(python), const_cast<char*>(path.c_str())};
+  const std::string python = python_file();
+  std::vector<char*> words = {const_cast<char*>(python.c_str()), const_cast<char*>(path.c_str())};
   for (const std::string& argument : arguments)
     words.push_back(const_cast<char*>(argument.c_str()));
   words.push_back(nullptr);
   const pid_t child = fork();
   if (child == 0) {
-    execv(python, words.data());
+    execv(words[0], words.data());
     _exit(not_started);
   }
   int status = 0;
@@ -38,7 +44,7 @@ int run_report_script(const std::string& makes, const std::string& script,
   if (has_ended && WEXITSTATUS(status) == bad_input) return bad_input;  // it said why
   log_line("the " + makes + " could not be made: " +
            (has_ended && WEXITSTATUS(status) == not_started
-                ? std::string(python) + " is missing; install the Debian package python3"
+                ? python + " is missing; install the Debian package python3"
                 : path + " did not finish"));
   return bad_input;
 }

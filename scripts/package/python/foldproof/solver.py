@@ -1,0 +1,1 @@
+../../../../verification/subjects/adapters/foldproof_solver.py
