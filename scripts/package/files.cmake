@@ -10,6 +10,10 @@ function(install_data prefix)
   install(FILES ${tree}/cases/KEYS.md DESTINATION ${to}/cases)  # the report reads units there
   install(DIRECTORY ${tree}/verification/claims ${tree}/verification/faults
     DESTINATION ${to}/verification FILES_MATCHING PATTERN *.toml PATTERN outcomes.json)
+  install(FILES ${tree}/verification/subjects/planted_bugs.jsonl
+    DESTINATION ${to}/verification/subjects)
+  install(DIRECTORY ${tree}/verification/subjects/law_sets
+    DESTINATION ${to}/verification/subjects)
   install(DIRECTORY ${tree}/reports DESTINATION ${to} FILES_MATCHING
     PATTERN *.py PATTERN *.j2 PATTERN *.css PATTERN *.js PATTERN *.json
     PATTERN tests EXCLUDE PATTERN __pycache__ EXCLUDE)

@@ -1,6 +1,7 @@
 // `foldproof list`: counts of checks, studies, laws, cases, claims; the names of one kind.
 
 #include <nlohmann/json.hpp>
+#include <set>
 #include <utility>
 
 #include "scripts/program/command_line/options_of_commands.h"
@@ -8,6 +9,7 @@
 #include "reference/dynamics/integrator.h"
 #include "scripts/program/data_folder.h"
 #include "scripts/program/json_text.h"
+#include "scripts/program/judge/law_sets.h"
 #include "scripts/program/ledger.h"
 #include "scripts/program/run_case.h"
 #include "verification/cases/frame_laws.h"
@@ -20,7 +22,8 @@ namespace foldproof {
 namespace {
 
 struct ListOptions : Options {
-  std::string kind;  // of names; without it, counts
+  std::string kind;    // of names; without it, counts
+  std::string freeze;  // name of a law set; none if empty
 };
 
 /// A name, and a sentence; empty if the name says enough.
@@ -41,12 +44,17 @@ std::vector<Row> names_and_claims(const std::vector<Named>& all) {
   return rows;
 }
 
-/// Behind the sentence, what the law needs of a solver.
+/// Behind the sentence, what the law needs of a solver; trial: not in the newest law set.
 std::vector<Row> laws_and_needs() {
   std::vector<Row> rows;
-  for (const Law& law : portable_laws())
-    rows.emplace_back(law.name,
-                      law.needs.empty() ? law.claim : fmt::format("{} [{}]", law.claim, law.needs));
+  std::set<std::string> frozen;
+  if (const std::string set = newest_law_set(); !set.empty())
+    for (const FrozenLaw& law : read_law_set(set)) frozen.insert(law.name);
+  for (const Law& law : portable_laws()) {
+    const std::string trial = frozen.contains(law.name) ? "" : " (trial)";
+    rows.emplace_back(
+        law.name, law.claim + trial + (law.needs.empty() ? "" : fmt::format(" [{}]", law.needs)));
+  }
   return rows;
 }
 
@@ -127,6 +135,11 @@ nlohmann::json everything() {
 }
 
 int list(const ListOptions& options) {
+  if (!options.freeze.empty()) {
+    if (options.kind != "laws") throw InputError("--freeze is for `foldproof list laws`");
+    fmt::print("{}", law_set_text(options.freeze));
+    return all_hold;
+  }
   if (options.json) {
     fmt::print("{}\n", json_text(everything()));
     return all_hold;
@@ -156,6 +169,10 @@ void add_list_command(CLI::App& app, Program& program) {
   names->add_option("KIND", options.kind, "The names of one kind; without it, how many there are")
       ->check(CLI::IsMember(
           {"checks", "studies", "laws", "frame-laws", "cases", "claims", "integrators"}));
+  add_value(
+      names, "--freeze NAME", options.freeze,
+      "Of laws: print the law set NAME, for `judge --laws`: a line a law with its scenes' hash",
+      some_text("a name"));
   add_json(names, options);
 }
 

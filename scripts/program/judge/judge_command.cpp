@@ -11,6 +11,7 @@
 #include "scripts/program/command_line/out_folder.h"
 #include "scripts/program/data_folder.h"
 #include "scripts/program/judge/judge_frames.h"
+#include "scripts/program/judge/law_sets.h"
 #include "scripts/program/judge/look_first.h"
 #include "scripts/program/provenance.h"
 #include "scripts/program/run_all.h"
@@ -27,6 +28,10 @@
 namespace foldproof {
 
 namespace {
+
+struct JudgeOptions : Options {
+  std::string law_set;  // none if empty
+};
 
 constexpr std::string_view law_of_cost = "order.halved-steps-approach-a-limit";
 
@@ -132,7 +137,7 @@ nlohmann::json asked_json(const Judgement& judgement) {
 
 /// What the solver says of itself, and how it was asked; empty texts if it did not start.
 std::string solver_json(const Judgement& judgement, const SolverCommand& command,
-                        const Options& options) {
+                        const Options& options, const std::optional<LawSetUse>& set) {
   using nlohmann::json;
   const Declaration& d = judgement.declaration;
   const bool started = !d.name.empty();
@@ -159,6 +164,7 @@ std::string solver_json(const Judgement& judgement, const SolverCommand& command
                {"calibration", evidence_json(judgement.records, "calibration.")},
                {"cost", evidence_json(judgement.records, law_of_cost)},
                {"portrait", portrait_json(command, options, judgement.smoke_holds)}};
+  if (set) said["laws"] = {{"set", set->name}, {"changed", set->changed}, {"gone", set->gone}};
   for (const auto& [key, value] : command.settings) said["settings"][key] = value;
   for (const auto& [key, value] : judgement.mapping) {
     json& words = said["mapping"][key];  // scenes may be mapped otherwise
@@ -211,14 +217,23 @@ RunRecord run_of(const Judgement& judgement, double seconds, const Options& opti
 constexpr const char* smoke_failed =
     "A smoke law fails: suspect the adapter before the engine. Try `foldproof subject --check`.\n";
 
-int judge_another_solver(const Options& options) {
+/// Those that are asked, and how the chosen set differs from them.
+std::vector<Law> asked_laws(const JudgeOptions& options, std::optional<LawSetUse>& set) {
+  std::vector<Law> laws = chosen_laws(options.names, options.skipped);
+  if (!options.law_set.empty()) set = keep_laws_of_set(options.law_set, laws);
+  if (laws.empty()) throw InputError("no law is both named and in law set " + options.law_set);
+  return laws;
+}
+
+int judge_another_solver(const JudgeOptions& options) {
   if (!options.frames.empty()) return judge_frames_of_a_case(options);
   if (options.solver.empty())
     throw InputError("judge needs --solver CMD, or --frames DIR with --case CASE");
   if (options.out.empty() && (options.resumes || options.restarts))
     throw InputError("--resume and --restart need --out, the folder of the interrupted trial");
+  std::optional<LawSetUse> set;
+  const std::vector<Law> laws = asked_laws(options, set);
   seed_shift = options.seed_shift;
-  const std::vector<Law> laws = chosen_laws(options.names, options.skipped);
   const auto baseline = baseline_of(options, laws);
   const auto bugs = read_planted_bugs(data_folder() + "/verification/subjects/planted_bugs.jsonl");
   const OutFolder folder(options.out);
@@ -234,10 +249,10 @@ int judge_another_solver(const Options& options) {
   const std::string below = (judgement.smoke_holds ? "" : smoke_failed) +
                             look_first_text(likely_causes(bugs, judgement.records)) +
                             progress.asked_text();
-  const int code =
-      finish_trial({run_of(judgement, seconds, options), solver_json(judgement, command, options),
-                    heading(judgement, command), below},
-                   baseline, options);
+  const int code = finish_trial(
+      {run_of(judgement, seconds, options), solver_json(judgement, command, options, set),
+       heading(judgement, command) + (set ? text_of(*set, laws.size()) : ""), below},
+      baseline, options);
   if (std::ranges::none_of(judgement.records, did_not_run)) drop_kept_results(options.out);
   return code;
 }
@@ -256,9 +271,11 @@ int check_subject(const Options& options) {
 
 struct ServeOptions : Options {
   std::string integrator = "C", precision = "f8";
+  bool stands_still = false;
 };
 
 int serve(const ServeOptions& options) {
+  if (options.stands_still) return serve_still();
   return serve_reference({options.integrator, options.precision == "f4"});
 }
 
@@ -321,7 +338,11 @@ Exit codes:
   0    asked to stop
   2    bad input, or no other program has started it)";
 
-void add_trial_options(CLI::App* judge, CLI::Option* solver, Options& options) {
+void add_trial_options(CLI::App* judge, CLI::Option* solver, JudgeOptions& options) {
+  add_value(judge, "--laws SET", options.law_set,
+            "Ask the laws of a frozen set alone, such as 2026.1; says which of them changed since",
+            some_text("a law set"))
+      ->needs(solver);
   add_value(judge, "--law-seconds S", options.law_seconds,
             "Longest time of a law [s], looked at between calls (default: no limit); it then did "
             "not run, and the next one goes on",
@@ -365,6 +386,8 @@ void add_serve(CLI::App& app, Program& program) {
   add_value(served, "--precision TYPE", options.precision, "Number format of its answers: f8 or f4",
             one_of({"f8", "f4"}))
       ->capture_default_str();
+  add_switch(served, "--still", options.stands_still,
+             "Never move, and map each scene to its hash: what `list laws --freeze` keeps");
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "reference/dynamics/integrator.h"
 #include "verification/subjects/reference_subject.h"
+#include "verification/files/content_key.h"
 #include "verification/subjects/served/scene_message.h"
 
 namespace foldproof {
@@ -26,6 +27,14 @@ Json counted(const Work& work) {
   return counts;
 }
 
+const std::vector<std::string> every_capability = {
+    "set_state",        "held",        "masses",
+    "history",          "planes",      "boxes",
+    "spheres",          "capsules",    "bodies",
+    "deforming_bodies", "damping",     "self_collision",
+    "layer_friction",   "moving_held", "materials",
+    "strain_limits",    "air",         "moving_obstacles"};
+
 /// The reference keeps the states that its integrator looks back on; a state that is
 /// set forgets them.
 struct ReferenceSolver : foldproof_solver::Solver {
@@ -42,12 +51,7 @@ struct ReferenceSolver : foldproof_solver::Solver {
     declared.name = subject.name, declared.version = subject.version;
     declared.level = "L2", declared.precision = served.is_single ? "f4" : "f8";
     declared.scheme = integrator.title, declared.order = integrator.order;
-    declared.capabilities = {"set_state",        "held",        "masses",
-                             "history",          "planes",      "boxes",
-                             "spheres",          "capsules",    "bodies",
-                             "deforming_bodies", "damping",     "self_collision",
-                             "layer_friction",   "moving_held", "materials",
-                             "strain_limits",    "air",         "moving_obstacles"};
+    declared.capabilities = every_capability;
     declared.solve_tolerance =
         integrator.family == Family::fully_explicit ? 0 : SolverSettings{}.tolerance;
   }
@@ -113,15 +117,62 @@ struct ReferenceSolver : foldproof_solver::Solver {
   double energy() override { return subject.potential_energy(*prepared, past.back()); }
 };
 
-}  // namespace
+/// Numbers of JSON as floats: other machines differ in the last digits.
+void round_numbers(Json& json) {
+  if (json.is_number_float()) json = double(float(json.get<double>()));
+  if (json.is_structured())
+    for (Json& part : json) round_numbers(part);
+}
 
-int serve_reference(const ServedReference& served) {
-  ReferenceSolver solver(served);
+std::string hash_of(const foldproof_solver::Scene& message) {
+  ContentKey key;
+  Json constants = message.header.at("scene");
+  round_numbers(constants);
+  const std::string text = constants.dump();
+  key.add(text.data(), text.size());
+  for (const auto& [name, values] : message.numbers) {
+    key.add(name.data(), name.size());
+    for (const double value : values) key.add(double(float(value)) + 0.0);  // -0 is 0
+  }
+  for (const auto& [name, values] : message.integers) key.add(values);
+  return key.text();
+}
+
+struct StillSolver : foldproof_solver::Solver {
+  StillSolver() {
+    declared.name = "still", declared.version = "1", declared.level = "L2";
+    declared.precision = "f8", declared.scheme = "none", declared.order = 2;
+    declared.capabilities = every_capability;
+  }
+  foldproof_solver::Mapping prepare(const foldproof_solver::Scene& message) override {
+    set_state(message.numbers.at("x"), message.numbers.at("v"), 0);
+    return {{"scene", hash_of(message)}};
+  }
+  void advance(double, long) override {}
+  Numbers forces() override { return Numbers(x.size()); }
+  Numbers damping() override { return Numbers(x.size()); }
+  double energy() override { return 0; }
+};
+
+void require_pipe() {
   for (const char* name : {"FOLDPROOF_IN", "FOLDPROOF_OUT"})
     if (!std::getenv(name))
       throw InputError(
           std::string(name) +
           " is not set: start this command with `foldproof judge --solver \"foldproof serve\"`");
+}
+
+}  // namespace
+
+int serve_still() {
+  StillSolver solver;
+  require_pipe();
+  return foldproof_solver::serve(solver);
+}
+
+int serve_reference(const ServedReference& served) {
+  ReferenceSolver solver(served);
+  require_pipe();
   return foldproof_solver::serve(solver);
 }
 
