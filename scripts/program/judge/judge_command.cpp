@@ -13,6 +13,7 @@
 #include "scripts/program/judge/judge_frames.h"
 #include "scripts/program/judge/law_sets.h"
 #include "scripts/program/judge/look_first.h"
+#include "scripts/program/pages/report_script.h"
 #include "scripts/program/provenance.h"
 #include "scripts/program/run_all.h"
 #include "scripts/program/typed_solver.h"
@@ -31,6 +32,7 @@ namespace {
 
 struct JudgeOptions : Options {
   std::string law_set;  // none if empty
+  std::string bundle;   // file; none if empty
 };
 
 constexpr std::string_view law_of_cost = "order.halved-steps-approach-a-limit";
@@ -254,7 +256,10 @@ int judge_another_solver(const JudgeOptions& options) {
        heading(judgement, command) + (set ? text_of(*set, laws.size()) : ""), below},
       baseline, options);
   if (std::ranges::none_of(judgement.records, did_not_run)) drop_kept_results(options.out);
-  return code;
+  if (options.bundle.empty()) return code;
+  const int bundled = run_report_script("bundle", "make_results.py",
+                                        {"bundle", options.out, options.bundle, program_file()});
+  return bundled == all_hold ? code : bundled;
 }
 
 int check_subject(const Options& options) {
@@ -343,6 +348,11 @@ void add_trial_options(CLI::App* judge, CLI::Option* solver, JudgeOptions& optio
             "Ask the laws of a frozen set alone, such as 2026.1; says which of them changed since",
             some_text("a law set"))
       ->needs(solver);
+  add_value(judge, "--bundle FILE", options.bundle,
+            "With --out and --laws: also write all that the result rests on into one file, with a "
+            "run of the reference, for `foldproof results add`",
+            some_text("a file"))
+      ->needs("--laws");
   add_value(judge, "--law-seconds S", options.law_seconds,
             "Longest time of a law [s], looked at between calls (default: no limit); it then did "
             "not run, and the next one goes on",
@@ -420,6 +430,7 @@ void add_judge_command(CLI::App& app, Program& program) {
   add_trial_options(judge, solver, options);
   add_out_if_typed(judge, options,
                    "Also write run.h5, verdicts.json, junit.xml and solver.json into this folder");
+  judge->get_option("--bundle")->needs("--out");
   add_json(judge, options);
   add_subject(app, program);
   add_serve(app, program);

@@ -1,0 +1,74 @@
+"""A bundle from the folder that `judge --out` wrote, with a run of the reference as yardstick."""
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import shlex
+import subprocess
+import tempfile
+from pathlib import Path
+from typing import Any
+
+from data.bundle import LONGEST, SPREAD, Row, text_of
+from data.unreadable import Unreadable
+
+DECLARED = ("level", "precision", "scheme", "order", "capabilities", "solve_tolerance",
+            "mass_matrix", "substep", "deterministic", "contact_offset")
+PROGRAM = ("version", "commit", "tree", "compiler", "flags")
+MOST_SOURCE = 200_000  # bytes of an adapter that are kept
+
+
+def bundle_text(folder: Path, program: str) -> str:
+    """Judges the reference by the same law set, which takes about 20 s."""
+    facts = json.loads((folder / "solver.json").read_text())
+    with tempfile.TemporaryDirectory(prefix="foldproof yardstick ") as scratch:
+        subprocess.run(
+            [program, "judge", "--solver", f"exec {shlex.quote(program)} serve", "--laws",
+             facts["laws"]["set"], "--out", f"{scratch}/out"], check=False,
+            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        yardstick = rows_of(Path(scratch) / "out")
+    if facts["laws"]["changed"] or facts["laws"]["gone"]:
+        raise Unreadable(f"{folder}: laws changed since {facts['laws']['set']} was frozen: "
+                         "this program cannot make a bundle of it")
+    return text_of({"about": about(folder, facts), "adapter": adapter_of(facts["command"]),
+                    "laws": rows_of(folder), "yardstick": yardstick})
+
+
+def rows_of(folder: Path) -> dict[str, Row]:
+    found = json.loads((folder / "verdicts.json").read_text())["findings"]
+    return {
+        one["name"]: [one["outcome"], one["measured"], one["bound"], one["unit"],
+                      round(one["seconds"], 4), "" if one["outcome"] == "holds" else
+                      one["note"][:LONGEST - len(one["unit"])]]
+        for one in found
+    }
+
+
+def about(folder: Path, facts: dict[str, Any]) -> dict[str, Any]:
+    program = json.loads((folder / "verdicts.json").read_text())["program"]
+    return {
+        "engine": program["subject"], "version": facts["version"] or "0",
+        "settings": facts["settings"], "options": facts["options"],
+        "declared": {name: facts[name] for name in DECLARED},
+        "mapping": {key: value[:LONGEST] for key, value in facts["mapping"].items()},
+        "command": facts["command"][:LONGEST],
+        "machine": {"cpu": program["cpu"], "cores": os.cpu_count()},
+        "program": {name: program[name] for name in PROGRAM},
+        "law_set": facts["laws"]["set"], "seed": program["seed"], "spread": SPREAD,
+        "date": program["date"]
+    }
+
+
+def adapter_of(command: str) -> dict[str, str]:
+    """The last file that the command names, with its source if it is text."""
+    files = [Path(word) for word in shlex.split(command) if Path(word).is_file()]
+    if not files:
+        return {"file": "unknown", "sha256": "", "source": ""}
+    data = files[-1].read_bytes()
+    digest = hashlib.sha256(data).hexdigest()
+    try:
+        source = data.decode() if len(data) <= MOST_SOURCE else ""
+    except UnicodeDecodeError:
+        source = ""
+    return {"file": files[-1].name, "sha256": digest, "source": source}
