@@ -22,6 +22,7 @@ endfunction()
 # An adapter's base in the package is the file that users without Python's package copy.
 function(install_python folder)
   install(FILES ${tree}/scripts/package/python/foldproof/__init__.py
+    ${tree}/scripts/package/python/foldproof/py.typed
     DESTINATION ${folder}/foldproof)
   install(FILES ${tree}/verification/subjects/adapters/foldproof_solver.py
     DESTINATION ${folder}/foldproof RENAME solver.py)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import gzip
 import json
+import os
 import re
 import shutil
 import subprocess
@@ -207,6 +208,38 @@ class Results(unittest.TestCase):
             done = run("results", "site", Path(scratch) / "pages")
             self.assertEqual(done.returncode, 0, done.stderr)
         self.assertGreaterEqual(len(list(shipped.glob("*.json"))), 6)
+
+
+class TheirCi(unittest.TestCase):
+    """verification/subjects/judge.yml, on an adapter of ours."""
+
+    def step(self, name: str, folder: Path) -> int:
+        lines = (ROOT / "verification/subjects/judge.yml").read_text().split(f"- name: {name}\n")[1]
+        block = lines.split("        run: |\n")[1].split("      - ")[0]
+        words = block.replace("--baseline", "gravity --baseline")  # some laws are enough
+        path = f"{PROGRAM.parent}:{os.environ['PATH']}"
+        done = subprocess.run(["bash", "-e", "-c", words], cwd=folder, capture_output=True,
+                              env={**os.environ, "SOLVER": TOY, "PATH": path}, check=False)
+        return done.returncode
+
+    def test_the_job_comments_with_what_changed(self) -> None:
+        with tempfile.TemporaryDirectory() as scratch:
+            folder = Path(scratch)
+            run("judge", "--solver", TOY, "gravity", "--out", folder / "kept")
+            kept = json.loads((folder / "kept/verdicts.json").read_text())
+            baseline = folder / "baseline.json"
+            baseline.write_text(json.dumps(kept))
+            self.assertEqual(self.step("judge", folder), 0)
+            rows = {row["name"]: row for row in kept["findings"]}
+            rows["gravity.speed-grows-by-g-t"] |= {"outcome": "fails", "measured": 9.0}
+            rows["gravity.is-that-of-the-scene"]["name"] = "gravity.of-old"
+            baseline.write_text(json.dumps(kept))
+            self.step("judge", folder)
+            self.assertEqual(self.step("table", folder), 0)
+            table = (folder / "changes.md").read_text()
+            self.assertIn("| better | `gravity.speed-grows-by-g-t` | holds | fails, ", table)
+            self.assertIn("| `gravity.is-that-of-the-scene` | holds | |", table)
+            self.assertIn("\n0 worse, 1 better", table)
 
 
 @unittest.skipUnless(shutil.which("chromium"), "no chromium: the package chromium has it")

@@ -18,6 +18,12 @@ import foldproof, toy_solver
 table = foldproof.judge(toy_solver.ToySolver)
 print(table.outcome.value_counts().to_dict())
 """
+BUNDLE = """
+import foldproof, toy_solver
+foldproof.judge(toy_solver.ToySolver, "2026.1", out="out", bundle="toy.json")
+print(foldproof.run("results", "add", "toy.json", "--in", "standing").stdout)
+print(open("toy.json").read().count("class ToySolver(Solver)"))
+"""
 LIBRARIES = """
 import foldproof
 print(*{line.split()[-1] for line in open("/proc/self/maps") if ".so" in line}, sep="\\n")
@@ -59,6 +65,11 @@ class Wheel(unittest.TestCase):
         self.assertGreater(counts["holds"], 40)
         self.assertNotIn("fails", counts)
         self.assertLess(seconds, MOST_SECONDS)
+
+    def test_a_class_becomes_a_bundle_with_its_source(self) -> None:
+        said = self.python("-c", BUNDLE)
+        self.assertIn("toy springs (Python) 1.0, submitted", said)
+        self.assertEqual(said.split()[-1], "1")
 
     def test_the_command_is_that_of_the_program(self) -> None:
         said = output_of(self.folder / "venv/bin/foldproof", "list", "cases")

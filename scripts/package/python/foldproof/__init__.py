@@ -10,6 +10,7 @@ The program is always a process of its own: this package links none of its libra
 from __future__ import annotations
 
 import contextlib
+import inspect
 import json
 import os
 import shlex
@@ -80,6 +81,7 @@ def judge(
     *,
     settings: Mapping[str, Any] | None = None,
     out: str | Path | None = None,
+    bundle: str | Path | None = None,
     options: Iterable[str | Path] = (),
 ) -> pandas.DataFrame:
     """Puts a solver on trial and returns the verdicts, a row a law, by its name.
@@ -89,7 +91,8 @@ def judge(
     laws      the name of a law set ("2026.1"), or names, groups or beginnings of names; all if none
     settings  given to the solver's `prepare`
     out       folder for run.h5, verdicts.json, junit.xml and solver.json
-    options   further words of `foldproof judge`, as ("--bundle", "mine.zip")
+    bundle    file for `foldproof results add`; needs a law set
+    options   further words of `foldproof judge`, as ("--baseline", "kept/verdicts.json")
 
     Columns: outcome (holds, fails, inconclusive, not applicable, did not run); measured and bound
     [unit]; uncertainty [unit]; seconds [s]; note; claim. `attrs["solver"]` is what the solver
@@ -101,6 +104,7 @@ def judge(
         words += ["--laws", name] if name[:1].isdigit() else []
     for key, value in (settings or {}).items():
         words += ["--settings", f"{key}={value}"]
+    words += ["--bundle", bundle] if bundle else []
     with tempfile.TemporaryDirectory(prefix="foldproof ") as scratch:
         folder = Path(out or scratch) if out else Path(scratch) / "out"
         command = solver if isinstance(solver, str) else _command_of(solver, Path(scratch))
@@ -116,12 +120,16 @@ def judge(
 
 
 def _command_of(solver: type[Solver], folder: Path) -> str:
-    """Starts the class in a Python like this one."""
+    """Starts the class in a Python like this one; its source is named last, for a bundle."""
     import cloudpickle
 
     file = folder / "solver.pickle"
     file.write_bytes(cloudpickle.dumps(solver))
-    return "exec " + shlex.join([sys.executable, "-c", SERVE, str(file)])
+    source = Path(inspect.getsourcefile(solver) or "")
+    if not source.is_file():  # of a notebook
+        source = folder / "solver.py"
+        source.write_text(inspect.getsource(solver))
+    return "exec " + shlex.join([sys.executable, "-c", SERVE, str(file), str(source)])
 
 
 def table(findings: Iterable[Any] | Mapping[str, Any]) -> pandas.DataFrame:
