@@ -24,6 +24,7 @@ TEST_CASE("subject: slips in obstacles are found by the law of their kind, and n
   require_found({"points_are_nothing"}, {"capsule.of"}, {"capsule.of-one-point-is-a-ball"});
   require_found({"forgets_others"}, {"box.each", "obstacles"}, {"box." + several});
   require_found({"first_kind_alone"}, box, {kinds});
+  require_law_fails("meets_one_obstacle", "obstacles.both-act-on-what-touches-both");
   require_found({"means_friction"}, {"box"}, {"box.sheet-across-two-has-the-friction-of-both"});
   require_found({"keeps_old_obstacles"}, {"obstacles"}, {"obstacles.go-with-their-scene"});
   require_found({"far_obstacles_pull"}, box, {"obstacles.far-ones-change-nothing"});

@@ -106,6 +106,18 @@ class FirstKindAlone(OnObstacles):
         self.bodies = [one for one in self.bodies if one[0] == self.bodies[0][0]]
 
 
+class MeetsOneObstacle(OnObstacles):
+    """A particle meets one obstacle a step: the first one."""
+
+    def meet_obstacles(self) -> None:
+        self.is_free = np.full(len(self.x), True)
+        super().meet_obstacles()
+
+    def touch(self, normals: np.ndarray, gap: np.ndarray, friction: float) -> None:
+        super().touch(normals, np.where(self.is_free, gap, 1), friction)
+        self.is_free &= gap >= 0
+
+
 class MeansFriction(OnObstacles):
     """One friction for a sheet: the mean of all obstacles of a kind that touch it."""
 

@@ -1,5 +1,8 @@
 // Several obstacles in one scene, and in scenes that follow each other.
 
+#include <Eigen/Geometry>
+
+#include "reference/mesh/shapes.h"
 #include "verification/subjects/suite/contact/obstacle_scenes.h"
 
 namespace foldproof {
@@ -100,6 +103,128 @@ Finding go_with_their_scene(Trial& trial) {
   return judge_worst(measured, 0.1, "a first order method errs by 5 % of a fall of 20 steps");
 }
 
+//          |
+//   second |  along points out of the page: the sheet's middle row lies on the crease, on both
+//          o------       obstacles; one row lies on each of them alone
+//            first
+struct Crease {
+  std::string name;
+  std::vector<std::string> kinds;  // capabilities
+  Vector3 first, second;           // outward normals at the crease
+  std::function<void(PortableScene& scene, double first, double second)> add;  // frictions
+};
+
+const Vector3 crease_point{0.4, -0.3, 0.7};  // m
+
+std::vector<Crease> creases() {
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(0.9, Vector3(0.5, 0.6, -0.4).normalized()).toRotationMatrix();
+  const Vector3 a = turn.col(0), b = turn.col(1), z = Vector3::UnitZ(), x = Vector3::UnitX();
+  const auto planes = [](const Vector3& one, const Vector3& two) {
+    return [=](PortableScene& scene, double first, double second) {
+      scene.planes = {{crease_point + 0.2 * one.cross(two), one, first},
+                      {crease_point - 0.3 * one.cross(two), two, second}};
+    };
+  };
+  const auto boxes = [=](PortableScene& scene, double first, double second) {
+    scene.boxes = {{crease_point - 0.3 * z, {2, 1.8, 0.3}, first},
+                   {crease_point - 0.4 * x, {0.4, 2, 1}, second}};
+  };
+  const auto ball_on_plane = [=](PortableScene& scene, double first, double second) {
+    constexpr double radius = 8;  // m
+    scene.planes = {{crease_point + a, b, first}};
+    scene.spheres = {{crease_point - radius * a, radius, second}};
+  };
+  const auto capsule_on_box = [=](PortableScene& scene, double first, double second) {
+    constexpr double radius = 1.2;  // m
+    const Vector3 axis = z.cross(x), middle = crease_point - radius * x;
+    scene.capsules = {{middle - 2 * axis, middle + 1.7 * axis, radius, second}};
+    scene.boxes = {{crease_point - 0.2 * z, {1, 1.5, 0.2}, first}};
+  };
+  const auto inclined = [&](double degrees) {  // between the planes
+    const double turned = pi - degrees * pi / 180;
+    return Vector3(std::cos(turned) * a + std::sin(turned) * b);
+  };
+  const Vector3 wide = inclined(drawn("a wide crease", 130, 150)),
+                narrow = inclined(drawn("a narrow crease", 55, 70));
+  return {{"two planes", {"planes"}, a, b, planes(a, b)},
+          {"a floor and a wall of boxes", {"boxes"}, z, x, boxes},
+          {"a ball half in a plane", {"planes", "spheres"}, b, a, ball_on_plane},
+          {"a capsule half in a box", {"boxes", "capsules"}, z, x, capsule_on_box},
+          {"two planes, wide", {"planes"}, a, wide, planes(a, wide)},
+          {"two planes, narrow", {"planes"}, a, narrow, planes(a, narrow)}};
+}
+
+/// Two columns of cells of 3 cm, one on each side of the crease, that slide along it at 1 m/s. Its
+/// weight presses it on each obstacle by that part of it.
+PortableScene sheet_in_a_crease(const Crease& crease, const Vector3& pressed_along) {
+  constexpr double edge = 0.03;  // m
+  PortableScene scene = resting(
+      "sheet in a crease of " + crease.name,
+      make_sheet({.width = 2 * edge, .height = 2 * edge, .columns = 2, .rows = 2}), {.young = 1.6});
+  const Vector3 along = crease.first.cross(crease.second).normalized(),
+                on_first = along.cross(crease.first), on_second = crease.second.cross(along);
+  for (Eigen::Index i = 0; i < scene.x.cols(); ++i) {
+    const double across = scene.mesh.rest(0, i) - edge, out = std::abs(across);
+    scene.x.col(i) = crease_point + (scene.mesh.rest(1, i) - edge) * along +
+                     out * (across < 0 ? on_first : on_second);
+  }
+  scene.mesh.rest = scene.x;
+  scene.v.colwise() = 1.0 * along;
+  scene.dt = 0.002;
+  scene.gravity = weight * (pressed_along[2] * along - pressed_along[0] * crease.first -
+                            pressed_along[1] * crease.second);
+  return scene;
+}
+
+struct Grips {
+  double first, second;  // mu [1]
+};
+
+/// The deceleration along the crease, from places at three times, and the depth in either obstacle.
+void measure_in_crease(Trial& trial, const Crease& crease, const Grips& mu, Table& rows) {
+  const Vector3 pressed(0.8, 0.45, 0.1);
+  PortableScene scene = sheet_in_a_crease(crease, pressed);
+  crease.add(scene, mu.first, mu.second);
+  const std::vector<Snapshot> states = trial.motion(scene, {8, 36, 64});
+  const Vector3 along = scene.v.col(0);
+  const double time = 28 * scene.dt,
+               gained = along.dot((states[2].x - 2 * states[1].x + states[0].x).rowwise().mean()) /
+                        (weight * time * time),
+               coulomb = pressed[2] - mu.first * pressed[0] - mu.second * pressed[1];
+  double depth = 0;
+  for (const Snapshot& now : states)
+    for (Eigen::Index i = 0; i < now.x.cols(); ++i)
+      depth = std::max(depth, -clearance(scene, now.x.col(i)));
+  rows.row(crease.name, mu.first, mu.second, gained, coulomb, depth,
+           std::max(std::abs(gained - coulomb) / 0.05,
+                    depth / allowance(trial.declaration(), scene).depth));
+}
+
+/// Where obstacles meet at a right angle each is pressed on by its part of the weight, whatever the
+/// other does: so frictions are told apart there alone.
+Finding both_act_in_a_crease(Trial& trial) {
+  Table rows = table_of(
+      "crease of | mu of the first [1] | of the second [1] | acceleration along it [g] | by "
+      "Coulomb's law [g] | deepest [m] | largest part of what is allowed [1]");
+  const double little = drawn("little friction in a crease", 0.1, 0.16),
+               much = drawn("much friction in a crease", 0.5, 0.6);
+  for (const Crease& crease : creases()) {
+    if (!std::ranges::all_of(crease.kinds, [&](const std::string& kind) {
+          return trial.declaration().offers(kind);
+        }))
+      continue;
+    const bool is_right = std::abs(crease.first.dot(crease.second)) < 1e-9;
+    for (const Grips& mu :
+         is_right ? std::vector<Grips>{{little, much}, {much, little}} : std::vector<Grips>{{0, 0}})
+      measure_in_crease(trial, crease, mu, rows);
+  }
+  if (rows.rows() == 0) throw NotOffered{"planes or boxes"};
+  return judge_worst(rows, 1,
+                     "the acceleration to 0.05 g, an eighth of the friction: the sheet's waves "
+                     "across the crease, and the ball's curvature; a depth of 1 mm cannot be seen");
+}
+
 }  // namespace
 
 std::vector<Law> several_obstacle_laws() {
@@ -110,6 +235,11 @@ std::vector<Law> several_obstacle_laws() {
       {"obstacles.of-several-kinds-each-has-its-friction",
        "Among obstacles of other kinds, each has its own place and friction.", "Coulomb",
        kinds_count_together, "", slides_headline},
+      {"obstacles.both-act-on-what-touches-both",
+       "Cloth that slides in a crease, where two obstacles meet, enters neither and has the "
+       "friction of both.",
+       "Coulomb; impenetrability", both_act_in_a_crease, "",
+       "crease of | acceleration along it | by Coulomb's law | deepest"},
       {"obstacles.far-ones-change-nothing", "Obstacles that touch nothing do nothing.", "locality",
        far_ones_change_nothing},
       {"obstacles.go-with-their-scene", "A scene without obstacles has none of the scene before.",
