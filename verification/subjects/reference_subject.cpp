@@ -47,6 +47,12 @@ void set_masses(PreparedScene& prepared, const PerParticle& masses) {
   system.mass = masses;
   for (Force& force : system.forces)
     if (auto* weight = std::get_if<Gravity>(&force)) weight->mass = masses;
+  for (Filter& filter : system.filters) {
+    if (auto* layers = std::get_if<SelfCollision>(&filter))
+      layers->mass = masses, layers->inverse_mass = system.inverse_mass;
+    if (auto* limiter = std::get_if<StrainLimiter>(&filter))
+      limiter->inverse_mass = system.inverse_mass;
+  }
 }
 
 std::vector<PrescribedParticle>& prescribed_of(PreparedScene& prepared) {

@@ -43,6 +43,7 @@ TEST_CASE("subject: slips in contact of layers are found, each by its law", "[lo
                     lies = "self-collision.layer-lies-on-a-layer-on-a-plane";
   require_found({"layers"}, layers, {});
   require_found({"layers_push_one_side", "layers_push_corners"}, layers, {keep});
+  require_law_fails("layers_push_one_side", "self-collision.pairs-that-meet-keep-momentum");
   require_found({"layers_twice_as_thick"}, layers,
                 {"self-collision.layers-beyond-the-thickness-are-left-alone", lies});
   require_found({"layers_glue"}, layers, {"self-collision.layers-part-freely", lies});
@@ -50,6 +51,7 @@ TEST_CASE("subject: slips in contact of layers are found, each by its law", "[lo
   require_found({"thick_on_planes"}, {"contact", "self-collision.t"},
                 {"self-collision.thickness-is-not-kept-from-planes"});
   require_law_fails("particles_repel_alone", "self-collision.vertices-and-edges-stop");
+  require_law_fails("particles_repel_alone", "self-collision.stack-keeps-its-order");
   require_found({"neighbours_repel"}, {"self-collision.fine"},
                 {"self-collision.fine-mesh-stays-at-rest"});
 }

@@ -135,45 +135,180 @@ Finding thickness_does_not_lift(Trial& trial) {
                      "the thickness is that between layers; a tenth of an edge is left");
 }
 
-/// Edges shorter than the thickness: neighbours in a sheet are no layers.
-/// Two pieces of cloth, the second one thrown down at the first, which is held.
-PortableScene thrown_triangle(const char* name, const PerParticle3& held,
-                              const PerParticle3& thrown) {
-  PerParticle3 rest(3, 6);
-  rest << held, thrown;
+/// Two pieces of cloth that meet in one place, the second one over the first. Ridges meet at an edge
+/// whose ends are on no border.
+struct Pair {
+  const char* name;
+  PerParticle3 under, over;
+  std::vector<Triangle> triangles;  // of each
+};
+
+PerParticle3 points(std::initializer_list<Vector3> all) {
+  PerParticle3 x(3, Eigen::Index(all.size()));
+  Eigen::Index i = 0;
+  for (const Vector3& p : all) x.col(i++) = p;
+  return x;
+}
+
+std::vector<Pair> pairs() {
+  const PerParticle3 large = points({{-0.1, -0.1, 0}, {0.1, -0.1, 0}, {0, 0.2, 0}}),
+                     small = points({{-0.01, -0.01, 0}, {0.01, -0.01, 0.002}, {0, 0.02, 0.001}}),
+                     one = points({{-0.1, 0, 0}, {0.1, 0, 0}, {0, 0.2, 0}}),
+                     other = points({{0.01, -0.3, 0}, {0.01, 0.1, 0}, {-0.2, -0.1, 0.29}}),
+                     ridge = points({{-0.1, 0, 0},
+                                     {-0.03, 0, 0},
+                                     {0.04, 0, 0},
+                                     {0.1, 0, 0},
+                                     {0, -0.1, -0.05},
+                                     {0, 0.1, -0.05}}),
+                     across = points({{0.013, -0.1, 0},
+                                      {0.014, -0.04, 0},
+                                      {0.016, 0.03, 0},
+                                      {0.017, 0.1, 0},
+                                      {0.1, 0, 0.05},
+                                      {-0.09, 0, 0.05}});
+  const std::vector<Triangle> alone{{0, 1, 2}},
+      joined{{0, 4, 1}, {1, 4, 2}, {2, 4, 3}, {1, 5, 0}, {2, 5, 1}, {3, 5, 2}};
+  return {{"vertices over a triangle", large, small, alone},
+          {"a triangle over vertices", small, large, alone},
+          {"edges crosswise", one, other, alone},
+          {"ridges crosswise", ridge, across, joined}};
+}
+
+/// How a pair meets.
+struct Meeting {
+  const char* name;
+  double speed;      // m/s, of the piece over the other
+  bool from_behind;  // both turned upside down: each meets the other's back
+  bool is_first;     // in the mesh, the piece that is thrown
+  bool is_held;      // the other one
+  bool has_plane;    // far from both
+};
+
+constexpr double pair_gap = 0.011;  // m
+
+PortableScene pair_that_meets(const Pair& pair, const Meeting& how) {
+  const auto piece = [&](const PerParticle3& x) {
+    PerParticle3 placed = x;
+    if (how.from_behind) placed.row(2) *= -1;
+    return resting("", make_triangle_mesh(placed, pair.triangles), {.young = 0.1});
+  };
+  const double up = how.from_behind ? -1 : 1;
+  PortableScene under = piece(pair.under), over = shifted(piece(pair.over), {0, 0, up * pair_gap});
+  over.v.row(2).setConstant(-up * how.speed);
+  if (how.is_held)
+    for (int i = 0; i < int(under.x.cols()); ++i) under.held.push_back(i);
   PortableScene scene =
-      resting(name, make_triangle_mesh(rest, {{0, 1, 2}, {3, 4, 5}}), {.young = 0.1});
-  scene.held = {0, 1, 2};
+      together(std::string(pair.name) + how.name,
+               how.is_first ? std::vector{over, under} : std::vector{under, over});
+  if (how.has_plane) scene.planes = {{{0, 0, -1}, Vector3::UnitZ(), 0.3}};
   scene.dt = 0.002;
   scene.thickness = 0.004;
-  scene.v.rightCols(3).row(2).setConstant(-1);
   return scene;
 }
 
-/// A small triangle over the middle of a large one; edges of two that lie crosswise.
+/// Whether a triangle is on the wrong side of another's plane, whole: `up` is the right one.
+bool is_through(const PerParticle3& plane, const PerParticle3& x, double up) {
+  const Vector3 normal = Vector3(plane.col(1) - plane.col(0)).cross(plane.col(2) - plane.col(0));
+  const double side = normal.z() > 0 ? up : -up;
+  const Eigen::RowVectorXd out =
+      side * normal.normalized().transpose() * (x.colwise() - plane.col(0));
+  return out.maxCoeff() < -0.001;
+}
+
+/// What meets stops, or is pushed away: from the front or from behind, in any order of the mesh.
 Finding pairs_that_meet_stop(Trial& trial) {
-  PerParticle3 large(3, 3), small(3, 3), one(3, 3), other(3, 3);
-  large << -0.1, 0.1, 0, -0.1, -0.1, 0.2, 0, 0, 0;
-  small << -0.01, 0.01, 0, -0.01, -0.01, 0.02, 0.011, 0.013, 0.012;
-  one << -0.1, 0.1, 0, 0, 0, 0.2, 0, 0, 0;
-  other << 0.01, 0.01, -0.2, -0.3, 0.5, 0.1, 0.011, 0.011, 0.3;
-  Table measured = table_of("pieces | time [s] | edges in triangles [1]");
-  for (const auto& [name, held, thrown] :
-       {std::tuple("vertices over a triangle", large, small), {"edges crosswise", one, other}}) {
-    const PortableScene scene = thrown_triangle(name, held, thrown);
-    for (const long count : multiples(2, 5)) {
-      const PerParticle3 x = trial.after(scene, count).x;
-      const double lowest = x.rightCols(3).row(2).minCoeff();
-      // wholly through: only the small one can be
-      const bool is_through = held == large && lowest < -0.002;
-      measured.row(
-          name, double(count) * scene.dt,
-          double(oracles::exact_crossings(x, scene.mesh.triangles).size()) + (is_through ? 1 : 0));
+  std::vector<Meeting> meetings{
+      {"", 1, false, false, true, false},
+      {", from behind and fast", drawn("a fast meeting", 2.2, 2.8), true, true, true, false},
+      {", both free", 1.2, false, true, false, false}};
+  if (trial.declaration().offers("planes"))
+    meetings.push_back({", beside a plane", 0.9, true, false, true, true});
+  Table measured = table_of("pieces | time [s] | edges in triangles, or pieces through [1]");
+  for (const Pair& pair : pairs())
+    for (const Meeting& how : meetings) {
+      const PortableScene scene = pair_that_meets(pair, how);
+      const Eigen::Index half = scene.x.cols() / 2;
+      const std::vector<long> steps = multiples(2, 5);
+      const std::vector<Snapshot> states = trial.motion(scene, steps);
+      for (size_t k = 0; k < steps.size(); ++k) {
+        const PerParticle3 &x = states[k].x, first = x.leftCols(half), last = x.rightCols(half),
+                           &over = how.is_first ? first : last,
+                           &under = how.is_first ? last : first;
+        const double up = how.from_behind ? -1 : 1;
+        const bool is_past = pair.under.col(2).y() == 0.2
+                                 ? is_through(under, over, up)
+                                 : pair.over.col(2).y() == 0.2 && is_through(over, under, -up);
+        measured.row(
+            scene.name, double(steps[k]) * scene.dt,
+            double(oracles::exact_crossings(x, scene.mesh.triangles).size()) + (is_past ? 1 : 0));
+      }
     }
+  return judge_worst(measured, 0, "pairs that meet are counted without rounding");
+}
+
+/// Particles of unequal masses, where they can have them, share an impulse unequally.
+Finding pairs_that_meet_keep_momentum(Trial& trial) {
+  Table measured = table_of(
+      "pieces | impulse [of what stops them] | momentum gained by both [of it] | spin gained by "
+      "both [of it, times the lever] | largest of the momentum, and of half of the spin [1]");
+  for (const Pair& pair : pairs()) {
+    PortableScene scene = pair_that_meets(pair, {", both free", 1.2, false, false, false, false});
+    if (trial.declaration().offers("masses")) {
+      scene.own_masses = true;
+      for (Eigen::Index i = 0; i < scene.mass.size(); ++i)
+        scene.mass[i] *= 1 + 0.4 * std::sin(2.1 * double(i) + 0.5);
+    }
+    const Eigen::Index half = scene.x.cols() / 2;
+    const Snapshot end = trial.after(scene, 10);
+    const double under = scene.mass.head(half).sum(), over = scene.mass.tail(half).sum(),
+                 unit = 1.2 * under * over / (under + over),  // kg m/s
+        lever = largest(scene.x.colwise() - middle_of(scene.x));
+    const double hit = (end.v.leftCols(half) * scene.mass.head(half)).norm() / unit,
+                 gained = (momentum(scene, end.v) - momentum(scene, scene.v)).norm() / unit,
+                 turned =
+                     (spin(scene, end) - spin(scene, {scene.x, scene.v})).norm() / unit / lever;
+    if (!(hit > 0.05))
+      throw FailedWithoutNumber(scene.name + ": the pieces do not meet", "pieces that meet");
+    measured.row(pair.name, hit, gained, turned, std::max(gained, turned / 2));
+  }
+  return judge_worst(measured, 0.02,
+                     "opposite forces; on pieces that turn fast, their line is a first order "
+                     "method's: off by the way of a step");
+}
+
+/// Layers of a stack lie shifted, so that vertices, edges and triangles meet in all ways.
+Finding stack_keeps_its_order(Trial& trial) {
+  constexpr int count = 6;
+  const PortableScene layer = limp_sheet(3, cell);
+  const double thickness = drawn("thickness of a stack", 0.006, 0.008);
+  std::vector<PortableScene> layers;
+  for (int k = 0; k < count; ++k) {
+    const double turn = drawn("turn of a stack", 1, 2) * k;
+    layers.push_back(shifted(
+        layer, {0.3 * cell * std::cos(turn), 0.3 * cell * std::sin(turn), 1.5 * thickness * k}));
+  }
+  for (int i = 0; i < int(layer.x.cols()); ++i) layers[0].held.push_back(i);
+  PortableScene scene = together("stack of layers", layers);
+  scene.thickness = thickness;
+  scene.gravity = Vector3(0, 0, -weight);
+  Table measured =
+      table_of("steps [1] | crossings [1] | crossings and layers below the one below them [1]");
+  const std::vector<long> steps{40, 80, 120};
+  const std::vector<Snapshot> states = trial.motion(scene, steps);
+  for (size_t k = 0; k < steps.size(); ++k) {
+    const auto height = [&](int of) {
+      return states[k].x.middleCols(of * layer.x.cols(), layer.x.cols()).row(2).mean();
+    };
+    int wrong = 0;
+    for (int of = 1; of < count; ++of) wrong += height(of) > height(of - 1) ? 0 : 1;
+    const auto crossings = oracles::exact_crossings(states[k].x, scene.mesh.triangles).size();
+    measured.row(steps[k], crossings, wrong + int(crossings));
   }
   return judge_worst(measured, 0, "pairs that meet are counted without rounding");
 }
 
+/// Edges shorter than the thickness: neighbours in a sheet are no layers.
 Finding fine_mesh_stays(Trial& trial) {
   PortableScene scene = limp_sheet(6, 0.01);
   scene.name = "sheet finer than its thickness";
@@ -207,8 +342,17 @@ std::vector<Law> layer_laws() {
        "A sheet that has a thickness against itself lies on a plane.", "PROTOCOL.md",
        thickness_does_not_lift, "self_collision planes still", "highest particle"},
       {"self-collision.vertices-and-edges-stop",
-       "Held cloth stops a vertex inside of a triangle, and an edge that crosses an edge.",
+       "A vertex that meets a triangle, and an edge that meets an edge, inside or on a border, "
+       "stop "
+       "or are pushed away: from the front, from behind, held, free, fast, in any order.",
        "impenetrability", pairs_that_meet_stop, "self_collision held"},
+      {"self-collision.pairs-that-meet-keep-momentum",
+       "Vertices, triangles and edges that meet, of unequal masses, keep their momentum and spin.",
+       "action and reaction", pairs_that_meet_keep_momentum, self,
+       "pieces | impulse | momentum gained by both"},
+      {"self-collision.stack-keeps-its-order",
+       "Of six layers that fall on each other, each stays above the one below.", "impenetrability",
+       stack_keeps_its_order, "self_collision held"},
       {"self-collision.fine-mesh-stays-at-rest",
        "A flat sheet whose edges are shorter than its thickness stays at rest.", "PROTOCOL.md",
        fine_mesh_stays, "self_collision still"},
