@@ -21,6 +21,10 @@ TEST_CASE("subject: slips in obstacles are found by the law of their kind, and n
             .contains("capsule.surface-is-where-the-scene-says"));
   require_found({"walls_are_nothing"}, {"contact.planes"},
                 {"contact.planes-of-all-ways-have-their-friction"});
+  const std::string size = "of-any-size-is-where-the-scene-says";
+  require_found({"no_obstacle_is_small"}, {"box.o", "ball.o", "capsule.o", "box.surface"},
+                {"box." + size, "ball." + size, "capsule." + size});
+  require_law_fails("planes_snap_to_axes", "contact.planes-of-all-ways-have-their-friction");
   require_found({"points_are_nothing"}, {"capsule.of"}, {"capsule.of-one-point-is-a-ball"});
   require_found({"forgets_others"}, {"box.each", "obstacles"}, {"box." + several});
   require_found({"first_kind_alone"}, box, {kinds});

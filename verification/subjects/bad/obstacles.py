@@ -197,6 +197,26 @@ class BoxesOffCentre(OnObstacles):
         return super().to_boxes(body, p - np.array([0, 0, 0.005]))
 
 
+class NoObstacleIsSmall(OnObstacles):
+    """Boxes are at least 4 cm thick, radii at least 10 cm."""
+
+    def alter(self, scene: Scene) -> None:
+        super().alter(scene)
+        for kind, body in self.bodies:
+            if kind == "boxes":
+                body["half_extents"] = np.maximum(body["half_extents"], 0.02)
+            elif kind != "planes":
+                body["radius"] = max(body["radius"], 0.1)
+
+
+class PlanesSnapToAxes(OnObstacles):
+    """A normal within 18 degrees of an axis is the axis."""
+
+    def to_planes(self, body: dict, p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        normal = np.where(np.abs(body["normal"]) > 0.95, np.sign(body["normal"]), 0)
+        return super().to_planes({**body, "normal": normal} if normal.any() else body, p)
+
+
 class SixtyFourContacts(OnObstacles):
     def touch(self, normals: np.ndarray, gap: np.ndarray, friction: float) -> None:
         touched = np.flatnonzero(gap < 0)

@@ -8,21 +8,25 @@ namespace {
 
 using namespace suite;
 
-/// Floors, walls and ceilings: gravity presses the sheet on each.
+/// Floors, walls and ceilings, and planes that are nearly that: gravity presses the sheet on each.
 Finding planes_face_all_ways(Trial& trial) {
   Slides slides;
   for (int axis = 0; axis < 3; ++axis)
-    for (const int sign : {1, -1}) {
-      const Vector3 normal = sign * Vector3::Unit(axis), down = Vector3::Unit((axis + 1) % 3);
-      const Side side{fmt::format("plane that faces {}{}", sign > 0 ? '+' : '-', "xyz"[axis]),
-                      Vector3(0.3, -0.4, 0.2), normal, down};
-      PortableScene scene = limp_sheet(2, 0.03);
-      const double mu = drawn("friction on " + side.name, 0.2, 0.4);
-      scene.name = "sheet on a " + side.name;
-      scene.planes = {{side.point, normal, mu}};
-      lay(scene, side, 0.7);
-      slides.measure(trial, scene, side, mu);
-    }
+    for (const int sign : {1, -1})
+      for (const double lean : {0.0, drawn(fmt::format("lean {}{}", axis, sign), 0.1, 0.25)}) {
+        const Vector3 beside = Vector3::Unit((axis + 1) % 3), flat = sign * Vector3::Unit(axis),
+                      normal = std::cos(lean) * flat + std::sin(lean) * beside,
+                      down = std::cos(lean) * beside - std::sin(lean) * flat;
+        const Side side{fmt::format("plane that faces {}{}{}", sign > 0 ? '+' : '-', "xyz"[axis],
+                                    lean > 0 ? " nearly" : ""),
+                        Vector3(0.3, -0.4, 0.2), normal, down};
+        PortableScene scene = limp_sheet(2, 0.03);
+        const double mu = drawn("friction on " + side.name, 0.2, 0.4);
+        scene.name = "sheet on a " + side.name;
+        scene.planes = {{side.point, normal, mu}};
+        lay(scene, side, 0.7);
+        slides.measure(trial, scene, side, mu);
+      }
   return slides.judged();
 }
 
