@@ -122,6 +122,11 @@ TEST_CASE("subject: stated forces and energies that are not those of the motion 
   require_found({"states_unbalanced_damping"}, laws, {"damping.stated-forces-sum-to-zero"});
   require_found({"states_twice_the_damping"}, laws,
                 {"damping.stated-forces-are-those-of-the-motion"});
+  require_found({"held_neighbours_state_nothing"}, laws,
+                {"forces.of-a-held-sheet-are-those-of-a-free-one"});
+  require_found({"energy_of_motion"}, laws, {"forces.energy-is-that-of-positions"});
+  require_found({"sharp_hinges_have_no_energy"}, laws,
+                {"forces.of-a-sharply-bent-sheet-are-minus-the-energy-gradient"});
   require_found({"energy_without_weight"}, laws, {"forces.are-minus-the-energy-gradient"});
   require_found({"states_stale_forces", "forgets_what_is_set"}, laws,
                 {"forces.are-those-of-the-present-state"});
@@ -138,6 +143,8 @@ TEST_CASE("subject: wrong contact is found") {
   CHECK(failing_laws("jitters", on_a_plane).contains("contact.resting-sheet-is-still"));
   require_found({"friction_beyond_the_cone", "friction_halved"}, on_a_plane, {slides, slips});
   require_found({"friction_creeps"}, on_a_plane, {slips});
+  require_found({"states_velocities_before_contact"}, on_a_plane,
+                {"contact.resting-sheet-states-no-velocity"});
   require_found({"on_boxes_now_and_then"}, {"tunnelling", box},
                 {"tunnelling.thin-box-stops-a-slow-sheet"});
   require_found({"particles_repel_alone"}, {"self-collision.folded"},

@@ -35,6 +35,11 @@ TEST_CASE("subject: limits of a solver's own are found by their names", "[long]"
   require_own("steps_are_short", {"time.steps-last-as-long-as-asked"});
   require_own("first_step_is_kept", {"time.each-call-has-its-step"});
   CHECK(failing_laws("step_of_prepare", {"time"}).contains("time.dt-of-advance-counts"));
+  require_own("tires", {"limits.velocity-is-kept-for-thousands-of-steps"});
+  require_found({"divides_steps"}, {"time", "damping", "vibration"}, {});
+  CHECK(failing_laws("loses_a_part", {"time"}).contains("time.steps-last-as-long-as-asked"));
+  CHECK(failing_laws("damps_in_the_first_part", {"damping"})
+            .contains("damping.long-steps-damp-as-short-ones"));
 }
 
 TEST_CASE("subject: a solver that treats many particles otherwise is found", "[long]") {
@@ -53,6 +58,7 @@ TEST_CASE("subject: held particles that are not, and what is wrong beside them, 
   require_own("holds_in_order_alone", {many, seconds});
   require_own("weighs_half_beside_held", {many});
   require_own("releases_after_a_second", {seconds});
+  require_own("frees_held_when_set", {"held.particles-stay-in-steps-of-a-state"});
   require_own("dampers_spare_held", {"damping.edges-of-held-particles-damp-as-the-others"});
 }
 

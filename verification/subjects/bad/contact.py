@@ -80,6 +80,15 @@ class Jitters(OnPlanes):
         return np.where(gap < 0, -gap / self.dt * 4, 0)
 
 
+class StatesVelocitiesBeforeContact(OnPlanes):
+    """The last half kick of a step comes after the response to contact."""
+
+    def step(self, dt: float) -> None:
+        self.v = self.v - dt / 2 * self.gravity if hasattr(self, "before") else self.v
+        super().step(dt)
+        self.v = self.v + dt / 2 * self.gravity
+
+
 class PlanesAreLevel(OnPlanes):
     """A plane's point counts, its normal does not."""
 

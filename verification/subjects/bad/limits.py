@@ -203,3 +203,89 @@ class SoftHypotenuses(Toy):
         super().alter(scene)
         slanted = np.isclose(self.length / self.length.min(), np.sqrt(2))
         self.k = self.k * np.where(slanted, 2 / 3, 1)
+
+
+class DividesSteps(Damped):
+    """Right: a step is made of equal parts that are not longer than its own."""
+
+    substep = 7e-4  # s
+    more = {"substep": substep}
+
+    def advance(self, dt: float, steps: int) -> None:
+        for _ in range(steps):
+            parts = int(np.ceil(dt / self.substep * (1 - 1e-9)))
+            for k in range(parts):
+                self.part(k, parts, dt / parts)
+
+    def part(self, k: int, parts: int, dt: float) -> None:
+        self.step(dt)
+
+
+class LosesAPart(DividesSteps):
+    """Of three or more parts of a step, one is left out."""
+
+    def part(self, k: int, parts: int, dt: float) -> None:
+        if k == 0 or k + 1 < parts or parts < 3:
+            super().part(k, parts, dt)
+
+
+class DampsInTheFirstPart(DividesSteps):
+    def part(self, k: int, parts: int, dt: float) -> None:
+        given, self.c = self.c, self.c * (k == 0)
+        super().part(k, parts, dt)
+        self.c = given
+
+
+class Tires(Toy):
+    """After a thousand steps velocities decay by 1/s."""
+
+    def alter(self, scene: Scene) -> None:
+        super().alter(scene)
+        self.steps = 0
+
+    def step(self, dt: float) -> None:
+        self.steps += 1
+        super().step(dt)
+        self.v = self.v * np.exp(-dt * (self.steps > 1000))
+
+
+class FreesHeldWhenSet(Toy):
+    """After a state was set, the first held particle alone is held."""
+
+    def set_state(self, x: np.ndarray, v: np.ndarray, time: float) -> None:
+        super().set_state(x, v, time)
+        self.held = self.held[:1]
+
+
+class HeldNeighboursStateNothing(Toy):
+    """States no force for neighbours of held particles."""
+
+    is_moving = False
+
+    def step(self, dt: float) -> None:
+        self.is_moving = True
+        super().step(dt)
+        self.is_moving = False
+
+    def forces(self) -> np.ndarray:
+        f = super().forces()
+        if not self.is_moving:
+            f[self.edges[np.isin(self.edges, self.held).any(axis=1)]] = 0
+        return f
+
+
+class EnergyOfMotion(Toy):
+    """States the kinetic energy, too."""
+
+    def energy(self) -> float:
+        return super().energy() + 0.5 * np.sum(self.mass[:, None] * self.v**2)
+
+
+class SharpHingesHaveNoEnergy(Bends):
+    """Those beyond one radian; their forces are right."""
+
+    def bending(self) -> tuple[np.ndarray, float]:
+        sums = np.einsum("kc,kci->ki", self.weights, self.x[self.corners])
+        f, _ = super().bending()
+        blunt = (self.angles() < 1) * self.stiffness()
+        return f, 0.5 * np.sum(blunt[:, None] * sums**2)

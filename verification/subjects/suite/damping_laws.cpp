@@ -1,5 +1,6 @@
 // Dampers along the edges: what they do to the motion, and the forces that level 2 states.
 
+#include "reference/mesh/shapes.h"
 #include "verification/subjects/suite/laws.h"
 
 namespace foldproof {
@@ -130,6 +131,51 @@ Finding stated_forces_are_those_of_the_motion(Trial& trial) {
   return judge_worst(measured, explained + found.rounding, reason);
 }
 
+/// Twelve cells in a row of 1.2 m: half a wave along it takes 0.24 s, the shortest step that keeps
+/// an explicit method stable 6 ms.
+PortableScene ringing_strip(double step, double tau) {
+  PortableScene scene = resting("strip that rings along itself",
+                                make_sheet({.pattern = SheetPattern::union_jack,
+                                            .width = 1.2,
+                                            .height = 0.1,
+                                            .columns = 12,
+                                            .rows = 1}),
+                                {.young = 5});
+  scene.material.stretch_damping = tau * scene.material.young;
+  scene.dt = step;
+  for (Eigen::Index i = 0; i < scene.x.cols(); ++i)
+    scene.v.col(i) << 0.3 * std::cos(pi * scene.x(0, i) / 1.2), 0, 0;
+  return scene;
+}
+
+/// What dampers leave of the wave's momentum: with dampers, over that without.
+double left_by_dampers(Trial& trial, double step, double tau, double time) {
+  const auto wave = [&](double damped) {
+    const PortableScene scene = ringing_strip(step, damped);
+    const PerParticle3 v = trial.after(scene, std::lround(time / step)).v;
+    const double start = kinetic_energy(scene, scene.v);
+    if (!(kinetic_energy(scene, v) < 1.02 * start))
+      throw NotOffered{fmt::format("steps of {:.2g} s: a strip gains energy in them", step)};
+    return (v.cwiseProduct(scene.v) * scene.mass).sum() / 2 / start;
+  };
+  return wave(tau) / wave(0);
+}
+
+/// Steps beyond an explicit method's limit, which solvers may divide: dampers act in every part.
+Finding damp_alike_in_long_steps(Trial& trial) {
+  Table measured = table_of(
+      "tau [s] | left by dampers in steps of 20 ms [1] | in steps of 1 ms [1] | difference [of "
+      "what they take]");
+  for (const double tau : {0.03, drawn("dampers in long steps", 0.045, 0.055)}) {
+    const double lasting = left_by_dampers(trial, 0.02, tau, 0.06),
+                 brief = left_by_dampers(trial, 0.001, tau, 0.06);
+    measured.row(tau, lasting, brief, std::abs(lasting - brief) / std::abs(1 - brief));
+  }
+  return judge_worst(measured, 0.25,
+                     "a first order method errs by half of what a step of three takes, 10 %, and "
+                     "by the phase of the wave");
+}
+
 }  // namespace
 
 std::vector<Law> damping_laws() {
@@ -143,6 +189,10 @@ std::vector<Law> damping_laws() {
        "protocol: 'stretch_damping', 'held'",
        in_scene(edges_damp_as_stiff_as_they_are, rattled_sheet_with_held_particles),
        "damping held"},
+      {"damping.long-steps-damp-as-short-ones",
+       "Dampers take as much of a slow wave in steps of 20 ms as in steps of 1 ms.",
+       "protocol: 'stretch_damping', 'dt'", damp_alike_in_long_steps, "damping",
+       "tau | left by dampers in steps of 20 ms | in steps of 1 ms"},
       {"damping.stated-forces-sum-to-zero",
        "Damping forces of a free sheet sum to zero and exert no torque.", "Newton's third law",
        stated_forces_are_inner_ones, "L2 damping set_state"},

@@ -124,6 +124,45 @@ Finding are_of_the_present_state(Trial& trial) {
                      "forces of the same positions; rounding of the springs at a particle");
 }
 
+/// So bent that hinges turn by up to two thirds of a straight angle.
+PortableScene sharply_bent_sheet() {
+  PortableScene scene = bent_sheet();
+  scene.name = "sharply bent sheet";
+  for (Eigen::Index i = 0; i < scene.x.cols(); ++i)
+    scene.x(2, i) += 0.06 * std::sin(2.6 * double(i));
+  return scene;
+}
+
+/// Those that are held aside, whose force a solver may leave out.
+Finding held_particles_change_no_force(Trial& trial) {
+  PortableScene scene = moving_sheet();
+  scene.gravity = Vector3(2.3, -3.1, -9.0);
+  const PerParticle3 free = forces_at_start(trial, scene);
+  scene.name = "moving sheet that is held";
+  scene.held = {8, 0, 25, 51};
+  PerParticle3 apart = forces_at_start(trial, scene) - free;
+  for (const int i : scene.held) apart.col(i).setZero();
+  Table measured{{"held", "1"}, {"difference of the others' forces", "of the largest k, the size"}};
+  measured.row(scene.held.size(),
+               largest(apart) / (edge_stiffness(scene).maxCoeff() * largest(scene.x)));
+  return judge_worst(measured, roundings * trial.declaration().rounding(),
+                     "forces of the same positions; rounding of the springs at a particle");
+}
+
+Finding energy_is_of_positions(Trial& trial) {
+  const PortableScene scene = moving_sheet();
+  trial.prepare(scene);
+  const auto energy_at = [&](double times) {
+    return trial.solver().energy({scene.x, times * scene.v}, 0);
+  };
+  const double at_rest = energy_at(0), kinetic = 9 * kinetic_energy(scene, scene.v);
+  Table measured = table_of(
+      "energy at rest [J] | kinetic energy of the motion [J] | change of the energy [of the "
+      "kinetic energy]");
+  measured.row(at_rest, kinetic, std::abs(energy_at(3) - at_rest) / kinetic);
+  return judge_worst(measured, 0.01, "elastic and potential energy alone: rounding is less");
+}
+
 }  // namespace
 
 std::vector<Law> force_laws() {
@@ -152,6 +191,16 @@ std::vector<Law> force_laws() {
        "Forces of a sheet that resists bending are minus its energy's gradient.",
        "conservative forces", in_scene(are_the_energy_gradient, bent_sheet),
        "L2 set_state bending"},
+      {"forces.of-a-sharply-bent-sheet-are-minus-the-energy-gradient",
+       "Forces of hinges that are bent by up to 120 degrees are minus their energy's gradient.",
+       "conservative forces", in_scene(are_the_energy_gradient, sharply_bent_sheet),
+       "L2 set_state bending"},
+      {"forces.of-a-held-sheet-are-those-of-a-free-one",
+       "Held particles change no force that is stated for others.", "locality of forces",
+       held_particles_change_no_force, "L2 held"},
+      {"forces.energy-is-that-of-positions",
+       "The energy that is stated does not depend on velocities.", "protocol: 'energy'",
+       energy_is_of_positions, "L2 set_state"},
   };
 }
 

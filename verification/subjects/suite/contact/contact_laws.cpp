@@ -45,6 +45,17 @@ Finding resting_sheet_is_still(Trial& trial) {
       "gravity moves a particle by g dt^2 in the step before contact stops it; more is jitter");
 }
 
+/// Velocities that are stated at rest: after the response to contact, not before it.
+Finding resting_sheet_states_no_velocity(Trial& trial) {
+  const PortableScene scene = sheet_on_a_plane({0, 0}, 0.3);
+  Table measured{{"step", "1"}, {"largest velocity stated", "g dt"}};
+  for (const long count : {steps, steps + 1})
+    measured.row(count, largest(trial.after(scene, count).v) / (weight * scene.dt));
+  return judge_worst(measured, 0.25,
+                     "a step without contact ends with g dt, and half a step with g dt/2: a "
+                     "velocity that is stated before contact has stopped it");
+}
+
 /// What a slope does to a sheet in a time: it sticks where tan(slope) <= mu, else it slides with g
 /// (sin - mu cos), straight down.
 struct Slope {
@@ -142,6 +153,9 @@ std::vector<Law> contact_laws() {
        "impenetrability", rests_on_the_plane, "planes still", "deepest | highest"},
       {"contact.resting-sheet-is-still", "A sheet at rest on a plane does not jitter.",
        "equilibrium", resting_sheet_is_still, "planes still"},
+      {"contact.resting-sheet-states-no-velocity",
+       "The velocities of a sheet at rest on a plane are zero, not those before contact.",
+       "equilibrium", resting_sheet_states_no_velocity, "planes still"},
       {"contact.slides-as-coulomb-says",
        "On slopes that face all ways, a sheet sticks, or slides straight down, as Coulomb's law "
        "says.",

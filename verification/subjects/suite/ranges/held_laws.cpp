@@ -74,6 +74,27 @@ Finding stay_for_seconds(Trial& trial) {
   return judge_worst(measured, 8, "a few roundings of a position");
 }
 
+/// By `step`, each from the state that the one before gave.
+Finding stay_in_steps_of_a_state(Trial& trial) {
+  PortableScene scene = sheet_held_all_over();
+  scene.name = "sheet held all over, by single steps";
+  constexpr long steps = 6;
+  const PerParticle3 advanced = trial.after(scene, steps).x;
+  trial.prepare(scene);
+  Snapshot now{scene.x, scene.v};
+  for (long k = 0; k < steps; ++k)
+    now = trial.solver().step({now}, {double(k) * scene.dt}, scene.dt);
+  const double fall = largest(advanced - scene.x);
+  Table measured = table_of("particles | farthest from where `advance` takes them [of the fall]");
+  Worst held, free;
+  for (int i = 0; i < int(now.x.cols()); ++i)
+    (is_held(scene, i) ? held : free).observe((now.x - advanced).col(i).norm() / fall);
+  measured.row("held", held.value());
+  measured.row("free", free.value());
+  return judge_worst(measured, 0.2,
+                     "a scheme that looks back on several states begins anew in each step, of six");
+}
+
 }  // namespace
 
 std::vector<Law> held_laws() {
@@ -85,6 +106,10 @@ std::vector<Law> held_laws() {
       {"held.particles-stay-for-seconds",
        "Held particles stay for 2.5 s: none drifts or comes off.", "protocol: array 'held'",
        stay_for_seconds, "held", "time | held ones"},
+      {"held.particles-stay-in-steps-of-a-state",
+       "Held particles stay, and others fall, in steps from states that are set.",
+       "protocol: 'step'", stay_in_steps_of_a_state, "L1 set_state held",
+       "particles | farthest from where `advance` takes them"},
   };
 }
 

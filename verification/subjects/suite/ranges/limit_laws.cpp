@@ -108,6 +108,28 @@ Finding no_step_takes_velocity(Trial& trial) {
                      "for rounding of single precision");
 }
 
+/// In its rest shape, so that springs do nothing, however long it takes.
+Finding velocity_is_kept_for_thousands_of_steps(Trial& trial) {
+  Table measured = table_of("motion | time [s] | mean velocity [of v + g t] | difference [1]");
+  for (const bool falls : {false, true}) {
+    PortableScene scene = sheet_of_cells(2);
+    scene.name = falls ? "sheet that falls for seconds" : "sheet that drifts for seconds";
+    scene.material.young = 1e-4;
+    scene.v.colwise() = Vector3(0.9, -1.3, 0.4);
+    if (falls) scene.gravity = Vector3(0.3, 0.2, -1.1);
+    const std::vector<long> at{1200, 2600};
+    const std::vector<Snapshot> states = trial.motion(scene, at);
+    for (size_t k = 0; k < at.size(); ++k) {
+      const double time = double(at[k]) * scene.dt;
+      const Vector3 due = scene.v.col(0) + time * scene.gravity,
+                    mean = states[k].v * scene.mass / scene.mass.sum();
+      measured.row(falls ? "fall" : "drift", time, mean.dot(due) / due.squaredNorm(),
+                   (mean - due).norm() / due.norm());
+    }
+  }
+  return judge_worst(measured, 0.004, "no other force acts; rounding of single precision is less");
+}
+
 Finding gravity_is_that_of_the_scene(Trial& trial) {
   Table measured = table_of("gravity [m/s^2] | error of the mean velocity [g t]");
   for (const double size : {0.4, 1.62, drawn("gravity", 14, 20), 24.8}) {
@@ -120,24 +142,41 @@ Finding gravity_is_that_of_the_scene(Trial& trial) {
   return judge_worst(measured, 0.005, "rounding of single precision is less");
 }
 
-/// Against x + v t across gravity, and v + g t along it.
-double wrong_time(Trial& trial, double dt, long count) {
-  PortableScene scene = soft_sheet("sheet thrown sideways");
+struct Thrown {
+  double wrong_time;  // of the way or the speed: against x + v t across gravity, v + g t along it
+  double deformed;    // of its size [1]
+};
+
+Thrown thrown_sideways(Trial& trial, PortableScene scene, double dt, long count) {
+  scene.name = "sheet thrown sideways";
   scene.dt = dt;
   scene.v.colwise() = Vector3(2.7, -1.3, 0);
   scene.gravity = Vector3(0, 0, -9.81);
   const double time = double(count) * dt;
   const Snapshot end = trial.after(scene, count);
   const Vector3 moved = (end.x - scene.x).rowwise().mean(), path = time * scene.v.col(0);
+  const double deformed = largest((end.x - scene.x).colwise() - moved) / largest(scene.x);
   const double speed = (end.v.row(2) * scene.mass)[0] / scene.mass.sum(), gained = -9.81 * time;
-  return std::max((moved - path).head<2>().norm() / path.norm(),
-                  std::abs(speed - gained) / (std::abs(gained) + path.norm() / time));
+  return {std::max((moved - path).head<2>().norm() / path.norm(),
+                   std::abs(speed - gained) / (std::abs(gained) + path.norm() / time)),
+          deformed};
 }
 
+/// Steps may be too long for a stiff sheet: a solver without substeps may lose it.
 Finding steps_last_as_long_as_asked(Trial& trial) {
-  Table measured = table_of("step [s] | steps [1] | error of the way or the speed [1]");
+  Table measured =
+      table_of("Young's modulus [N/m] | step [s] | steps [1] | error of the way or the speed [1]");
+  PortableScene scene = soft_sheet("");
   for (const double dt : {1e-4, 0.003, 0.012, 1.0 / 60, drawn("long step", 0.035, 0.05), 0.11})
-    for (const long count : {1, 7}) measured.row(dt, count, wrong_time(trial, dt, count));
+    for (const long count : {1, 7})
+      measured.row(scene.material.young, dt, count,
+                   thrown_sideways(trial, scene, dt, count).wrong_time);
+  for (const double young : {1.0, 30.0, 900.0})
+    for (const double dt : {1.0 / 60, drawn("long step of a stiff sheet", 0.02, 0.03)}) {
+      scene.material.young = young;
+      const Thrown thrown = thrown_sideways(trial, scene, dt, 3);
+      if (thrown.deformed < 0.01) measured.row(young, dt, 3, thrown.wrong_time);
+    }
   return judge_worst(measured, 0.05, "the size of gravity is another law's, and rounding is less");
 }
 
@@ -194,13 +233,17 @@ std::vector<Law> limit_laws() {
       {"limits.no-step-takes-velocity",
        "What is left of a velocity does not depend on the number of steps: none scales it.",
        "Newton's first law", no_step_takes_velocity, "", "motion | difference"},
+      {"limits.velocity-is-kept-for-thousands-of-steps",
+       "After 2,600 steps a velocity is still that of the start, and what gravity gives.",
+       "Newton's laws", velocity_is_kept_for_thousands_of_steps, "", "motion | time | difference"},
       {"gravity.is-that-of-the-scene",
        "Gravity of any size and direction gives the velocity g t: it is not the solver's own.",
        "Newton's second law", gravity_is_that_of_the_scene, "",
        "gravity | error of the mean velocity"},
       {"time.steps-last-as-long-as-asked",
-       "Steps of 0.1 ms to 0.1 s last as long as asked: none is clamped, or of the solver's own.",
-       "protocol: 'advance'", steps_last_as_long_as_asked, "", "step | steps"},
+       "Steps of 0.1 ms to 0.1 s, of soft or stiff sheets, last as long as asked: none is clamped, "
+       "or of the solver's own, and no substep is lost.",
+       "protocol: 'advance'", steps_last_as_long_as_asked, "", "Young's modulus | step | steps"},
       {"time.dt-of-advance-counts",
        "The step is that of `advance`, where `prepare` had another one.", "protocol: 'advance'",
        dt_of_advance_counts, "L1"},
