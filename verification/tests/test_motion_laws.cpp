@@ -96,6 +96,9 @@ TEST_CASE("subject: hinges that are wrong where sharp, on a side, or from a star
   require_own("hinges_rest_as_the_shape", {angles, "symmetry.rotation-with-bending"});
   require_found({"hinges_crease"}, {"repeat"},
                 {"repeat.motion-with-bending-goes-on-from-its-state"});
+  require_law_fails("hinges_are_alike", "bending.graded-rows-resist-alike");
+  require_found({"hinges"}, {"together"}, {});
+  require_law_fails("one_damper_at_a_time", "together.each-part-acts-as-it-does-alone");
   require_found({"last_hinge_is_missing"}, {"symmetry"}, {"symmetry.renumbering-with-bending"});
 }
 

@@ -135,3 +135,19 @@ class LastHingeIsMissing(Hinges):
     def alter(self, scene: Scene) -> None:
         super().alter(scene)
         self.moments[-1:] = 0
+
+
+class HingesAreAlike(Hinges):
+    """All have the mean weight."""
+
+    def alter(self, scene: Scene) -> None:
+        super().alter(scene)
+        self.moments = np.full_like(self.moments, np.mean(self.moments))
+
+
+class OneDamperAtATime(Hinges):
+    """Where edges are damped, hinges are not."""
+
+    def alter(self, scene: Scene) -> None:
+        super().alter(scene)
+        self.brakes = self.brakes * (not self.c.any())

@@ -65,6 +65,42 @@ Finding stretch_does_not_depend_on_the_step(Trial& trial) {
                      "stretch, and five times that is allowed");
 }
 
+/// From places at three times, the acceleration along the slope, over that without friction [1].
+double slide_at_game_step(Trial& trial, double slope, double friction, double stiffer) {
+  constexpr long count = 10;
+  PortableScene scene = sheet_on_a_plane({std::atan(slope), 0.7}, friction);
+  scene.name = "sheet on a slope, in long steps";
+  scene.dt = game_step;
+  scene.material.young *= stiffer;
+  const std::vector<Snapshot> states = trial.motion(scene, {count, 2 * count});
+  const PerParticle3 way = seen_from_the_plane(states[1].x) - seen_from_the_plane(scene.x);
+  const Vector3 mean = way.rowwise().mean(), down(std::cos(0.7), std::sin(0.7), 0);
+  if (!(largest(way.colwise() - mean) < 0.03))
+    throw NotOffered{
+        fmt::format("steps of {:.2g} s: a sheet that slides gains energy in them", game_step)};
+  const Vector3 halfway =
+      (seen_from_the_plane(states[0].x) - seen_from_the_plane(scene.x)).rowwise().mean();
+  const double free = scene.gravity.norm() * slope / std::hypot(1, slope) *
+                      std::pow(double(count) * game_step, 2);  // m
+  return down.dot(mean - 2 * halfway) / free;
+}
+
+Finding friction_does_not_depend_on_the_step(Trial& trial) {
+  Table measured = table_of(
+      "Young's modulus [N/m] | slope [1] | mu [1] | acceleration [of that without friction] | by "
+      "Coulomb's law [1] | difference [1]");
+  const double mu = drawn("friction in long steps", 0.25, 0.35);
+  for (const double stiffer : {1.0, 40.0})
+    for (const double slope : {2 * mu, 0.8 * mu}) {
+      const double slides = slide_at_game_step(trial, slope, mu, stiffer),
+                   coulomb = std::max(0.0, 1 - mu / slope);
+      measured.row(stiffer * sheet_on_a_rail().material.young, slope, mu, slides, coulomb,
+                   std::abs(slides - coulomb));
+    }
+  return judge_worst(measured, 0.1,
+                     "the step in which contact begins is one of 20, and counts from three places");
+}
+
 }  // namespace
 
 std::vector<Law> game_step_laws() {
@@ -74,6 +110,10 @@ std::vector<Law> game_step_laws() {
        "short ones.",
        "equilibrium", stretch_does_not_depend_on_the_step, "L1 held",
        "Young's modulus | stretch in steps of 1/60 s | in short steps"},
+      {"game-step.slides-as-coulomb-says",
+       "In steps of 1/60 s sheets of 5 and 200 N/m slide down a plane, or stick, as Coulomb says.",
+       "Coulomb", friction_does_not_depend_on_the_step, "planes",
+       "Young's modulus | slope | acceleration | by Coulomb's law"},
   };
 }
 

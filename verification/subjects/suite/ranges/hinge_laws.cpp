@@ -108,6 +108,13 @@ PortableScene strip_of_bent_rest() {
   return scene;
 }
 
+PortableScene of_its_rest(PortableScene scene) {
+  PortableScene rest = scene;
+  rest.x = scene.mesh.rest;
+  scene.rest_angles = angles_of(rest);
+  return scene;
+}
+
 Finding rest_angles_count(Trial& trial) {
   PortableScene with_angles = flat_strip();
   with_angles.name = "flat strip with rest angles";
@@ -116,8 +123,9 @@ Finding rest_angles_count(Trial& trial) {
                        moment_beyond_rounding(trial, bent_strip(curvature))) /
                       2;
   require_opening(-bent);
-  Table measured =
-      table_of("strip | moment [N m] | expected [N m] | difference [of a bent strip's]");
+  Table measured = table_of(
+      "strip | moment [N m] | expected [N m] | difference [of a bent strip's; a tenth of it "
+      "folded]");
   const auto row = [&](const char* name, const PortableScene& scene, double expected) {
     const double moment = moment_beyond_rounding(trial, scene);
     measured.row(name, moment, expected, std::abs((moment - expected) / bent));
@@ -127,9 +135,52 @@ Finding rest_angles_count(Trial& trial) {
   at_its_angles.rest_angles = with_angles.rest_angles;
   row("bent, with those rest angles", at_its_angles, 0);
   row("flat, of a bent rest shape, without rest angles", strip_of_bent_rest(), 0);
+  row("flat, of a bent rest shape, with its rest angles", of_its_rest(strip_of_bent_rest()), bent);
+  const double fold = drawn("fold at rest", 0.7, 1.0),
+               blunt = moment_beyond_rounding(trial, folded_strip(small));
+  PortableScene folded = folded_strip(fold + small);
+  folded.mesh.rest = folded_strip(fold).x;
+  const double beyond = moment_beyond_rounding(trial, of_its_rest(folded));
+  // the stiffness of hinges in use, there: cos(fold) to 1/cos(fold/2)^2 of that when flat
+  measured.row("folded beyond a fold at rest", beyond, blunt, std::abs(beyond / blunt - 1) / 10);
   return judge_worst(measured, 0.05,
                      "a moment depends on angle minus rest angle; bent by 0.15 rad, arms are "
                      "shorter by 1 %, and steps add the rest (empirical)");
+}
+
+/// Rows of 0.5 to 1.5 times their height, from end to end.
+PortableScene graded_strip() {
+  PortableScene scene = flat_strip();
+  scene.name = "strip of graded rows";
+  const double length = shape.length();
+  for (Eigen::Index i = 0; i < scene.x.cols(); ++i)
+    scene.x(1, i) *= 1 + scene.x(1, i) / (2 * length);
+  scene.mesh.rest = scene.x;
+  scene.mass = lumped_masses(scene.mesh, scene.material.density);
+  bend(scene, 1, 0.8);
+  return scene;
+}
+
+/// Beyond this y of the rest shape [m].
+double moment_beyond(Trial& trial, double y) {
+  return beyond_rounding(trial, "a moment [N m]", 0.05, [&](const Vector3& away) {
+    PortableScene scene = graded_strip();
+    scene.x.colwise() += away;
+    const PerParticle3 v =
+        momentum_velocities(scene, trial.after(scene, steps).v, trial.declaration());
+    return angular_momentum(scene, v, 1, y, away) / (double(steps) * scene.dt);
+  });
+}
+
+Finding graded_rows_resist_alike(Trial& trial) {
+  const double fine = moment_beyond(trial, -0.055), coarse = moment_beyond(trial, 0.04);
+  require_opening(fine);
+  Table measured = table_of(
+      "moment across fine rows [N m] | across coarse rows [N m] | difference [of the first]");
+  measured.row(fine, coarse, std::abs(coarse / fine - 1));
+  return judge_worst(measured, 0.1,
+                     "evenly bent, an even strip has the same moment everywhere; hinges of several "
+                     "kinds give 2 % between triangles of unequal shape (empirical)");
 }
 
 }  // namespace
@@ -145,6 +196,11 @@ std::vector<Law> hinge_laws() {
       {"bending.rest-angles-are-those-of-the-scene",
        "Hinges are bent from the scene's rest angles, whatever the rest shape and the start.",
        "protocol: 'rest_angles'", rest_angles_count, "bending", "strip | moment | expected"},
+      {"bending.graded-rows-resist-alike",
+       "An evenly bent strip has the same moment across fine rows of triangles as across coarse "
+       "ones.",
+       "equilibrium; protocol: 'hinge_weights'", graded_rows_resist_alike, "bending",
+       "moment across fine rows | across coarse rows"},
   };
 }
 

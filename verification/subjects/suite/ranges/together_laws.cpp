@@ -1,0 +1,104 @@
+// All that a scene may have at once: each part does what it does alone.
+
+#include "verification/subjects/suite/laws.h"
+
+namespace foldproof {
+
+namespace {
+
+using namespace suite;
+
+constexpr long steps = 4;
+
+/// A strained, curved sheet that moves, with everything that a scene without obstacles may have.
+/// (omega t)^2 is 0.005 after the steps, and dampers take 0.02 of what they act on.
+PortableScene whole_sheet() {
+  PortableScene scene = moving_sheet();
+  scene.name = "sheet with everything at once";
+  scene.dt = 5e-5;
+  constexpr double tau = 5e-4;  // s
+  scene.material.bending_rigidity = drawn("rigidity among all", 0.002, 0.003);
+  scene.material.stretch_damping = tau * scene.material.young;
+  scene.material.bending_damping = 3 * tau * scene.material.bending_rigidity / 0.1;
+  scene.gravity = Vector3(2.3, -3.1, -9.0);
+  return scene;
+}
+
+struct Part {
+  const char* name;
+  void (*remove)(PortableScene& scene);
+};
+
+constexpr Part parts[] = {
+    {"bending", [](PortableScene& scene) { scene.material.bending_rigidity = 0; }},
+    {"dampers of edges", [](PortableScene& scene) { scene.material.stretch_damping = 0; }},
+    {"dampers of hinges", [](PortableScene& scene) { scene.material.bending_damping = 0; }},
+    {"weight", [](PortableScene& scene) { scene.gravity.setZero(); }},
+};
+
+/// Half as heavy again, or half as heavy, and some held, where the solver can have that.
+PortableScene with_own_particles(PortableScene scene, const Declaration& declared) {
+  if (declared.offers("masses")) {
+    scene.own_masses = true;
+    for (Eigen::Index i = 0; i < scene.mass.size(); ++i)
+      scene.mass[i] *= 1 + 0.5 * std::sin(1.9 * double(i) + 0.3);
+  }
+  if (declared.offers("held") && !declared.has_consistent_mass) {
+    scene.held = {30, 0, 17, 44};
+    for (const int i : scene.held) scene.v.col(i).setZero();
+  }
+  return scene;
+}
+
+/// What the part adds to the momentum of each particle, over the time [N].
+PerParticle3 force_of(Trial& trial, const PortableScene& scene, const Part& part) {
+  PortableScene without = scene;
+  part.remove(without);
+  const PerParticle3 gained = momentum_velocities(
+      scene, trial.after(scene, steps).v - trial.after(without, steps).v, trial.declaration());
+  return gained * scene.mass.asDiagonal() / (double(steps) * scene.dt);
+}
+
+Finding each_part_acts_as_alone(Trial& trial) {
+  const PortableScene whole = with_own_particles(whole_sheet(), trial.declaration());
+  Table measured = table_of(
+      "part | its force among all [N] | alone [N] | largest difference on a particle [of the "
+      "largest force]");
+  for (const Part& part : parts) {
+    PortableScene alone = whole_sheet();
+    alone.v = whole.v;
+    for (const Part& other : parts)
+      if (&other != &part) other.remove(alone);
+    PerParticle3 among = force_of(trial, whole, part), single = force_of(trial, alone, part);
+    if (part.remove == parts[3].remove)  // of the mass that the particle has
+      single = single * (whole.mass.array() / alone.mass.array()).matrix().asDiagonal();
+    for (const int i : whole.held) among.col(i).setZero(), single.col(i).setZero();
+    const double most = largest(single);
+    // velocities may come from positions of single precision, and from unfinished solves
+    const Declaration& declared = trial.declaration();
+    const double speed = largest(whole.x) / whole.dt * declared.rounding() +
+                         double(steps) * declared.solve_tolerance * largest(whole.v);  // m/s
+    const double rounding = speed * whole.mass.maxCoeff() / (double(steps) * whole.dt) / most;
+    if (!(rounding < widest_bound)) continue;  // or it does nothing alone: another law's business
+    measured.row(part.name, among.norm(), single.norm(),
+                 std::max(0.0, largest(among - single) / most - 2 * rounding));
+  }
+  return judge_worst(
+      measured, 0.1,
+      "(omega t)^2 is 0.005, and dampers change velocities that others act on by 0.02; "
+      "what rounding explains is taken off");
+}
+
+}  // namespace
+
+std::vector<Law> together_laws() {
+  return {
+      {"together.each-part-acts-as-it-does-alone",
+       "Bending, dampers of edges and of hinges, and weight give each particle the same impulse "
+       "together, beside held particles and with any masses, as alone.",
+       "sum of forces", each_part_acts_as_alone, "damping bending",
+       "part | its force among all | alone"},
+  };
+}
+
+}  // namespace foldproof
