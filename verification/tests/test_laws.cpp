@@ -124,7 +124,7 @@ TEST_CASE("subject: stated forces and energies that are not those of the motion 
                 {"damping.stated-forces-are-those-of-the-motion"});
   require_found({"held_neighbours_state_nothing"}, laws,
                 {"forces.of-a-held-sheet-are-those-of-a-free-one"});
-  require_found({"energy_of_motion"}, laws, {"forces.energy-is-that-of-positions"});
+  require_found({"energy_of_motion"}, laws, {"forces.and-energy-are-those-of-positions"});
   require_found({"sharp_hinges_have_no_energy"}, laws,
                 {"forces.of-a-sharply-bent-sheet-are-minus-the-energy-gradient"});
   require_found({"energy_without_weight"}, laws, {"forces.are-minus-the-energy-gradient"});

@@ -24,18 +24,19 @@ TEST_CASE("subject: hinges and dampers as the protocol says raise no alarm", "[l
 }
 
 TEST_CASE("subject: limits of a solver's own are found by their names", "[long]") {
-  const std::string speed = "limits.no-speed-is-too-fast", edge = "limits.no-edge-is-too-fast";
+  const std::string speed = "limits.no-speed-is-too-fast", edge = "limits.no-edge-is-too-fast",
+                    seconds = "limits.velocity-is-kept-for-thousands-of-steps";
   require_own("speed", {speed, edge});
   require_own("edges_are_slow", {edge});
   require_own("strain_is_limited",
               {"limits.no-strain-is-too-large", "held.particles-stay-for-seconds"});
   CHECK(failing_laws("scales_velocity_each_step", {"limits"}) ==
-        Names{"limits.no-step-takes-velocity"});
+        Names{"limits.no-step-takes-velocity", seconds});
   require_own("knows_gravity", {"gravity.is-that-of-the-scene", "symmetry.units"});
   require_own("steps_are_short", {"time.steps-last-as-long-as-asked"});
   require_own("first_step_is_kept", {"time.each-call-has-its-step"});
   CHECK(failing_laws("step_of_prepare", {"time"}).contains("time.dt-of-advance-counts"));
-  require_own("tires", {"limits.velocity-is-kept-for-thousands-of-steps"});
+  require_own("tires", {seconds});
   require_found({"divides_steps"}, {"time", "damping", "vibration"}, {});
   CHECK(failing_laws("loses_a_part", {"time"}).contains("time.steps-last-as-long-as-asked"));
   CHECK(failing_laws("damps_in_the_first_part", {"damping"})

@@ -108,24 +108,23 @@ Finding no_step_takes_velocity(Trial& trial) {
                      "for rounding of single precision");
 }
 
-/// In its rest shape, so that springs do nothing, however long it takes.
+/// In its rest shape, so that springs do nothing, however long it takes. What gravity gives it is
+/// judged by what it gave in the first second, since the size of gravity is another law's.
 Finding velocity_is_kept_for_thousands_of_steps(Trial& trial) {
-  Table measured = table_of("motion | time [s] | mean velocity [of v + g t] | difference [1]");
+  Table measured = table_of("motion | time [s] | difference of the mean velocity [of what is due]");
   for (const bool falls : {false, true}) {
     PortableScene scene = sheet_of_cells(2);
     scene.name = falls ? "sheet that falls for seconds" : "sheet that drifts for seconds";
     scene.material.young = 1e-4;
     scene.v.colwise() = Vector3(0.9, -1.3, 0.4);
     if (falls) scene.gravity = Vector3(0.3, 0.2, -1.1);
-    const std::vector<long> at{1200, 2600};
-    const std::vector<Snapshot> states = trial.motion(scene, at);
-    for (size_t k = 0; k < at.size(); ++k) {
-      const double time = double(at[k]) * scene.dt;
-      const Vector3 due = scene.v.col(0) + time * scene.gravity,
-                    mean = states[k].v * scene.mass / scene.mass.sum();
-      measured.row(falls ? "fall" : "drift", time, mean.dot(due) / due.squaredNorm(),
-                   (mean - due).norm() / due.norm());
-    }
+    constexpr long first = 500, last = 2600;
+    const std::vector<Snapshot> states = trial.motion(scene, {first, last});
+    const auto mean = [&](int k) { return Vector3(states[k].v * scene.mass / scene.mass.sum()); };
+    const Vector3 start = scene.v.col(0),
+                  due = falls ? Vector3(start + double(last) / first * (mean(0) - start)) : start;
+    measured.row(falls ? "fall" : "drift", double(last) * scene.dt,
+                 (mean(1) - due).norm() / due.norm());
   }
   return judge_worst(measured, 0.004, "no other force acts; rounding of single precision is less");
 }
@@ -234,8 +233,8 @@ std::vector<Law> limit_laws() {
        "What is left of a velocity does not depend on the number of steps: none scales it.",
        "Newton's first law", no_step_takes_velocity, "", "motion | difference"},
       {"limits.velocity-is-kept-for-thousands-of-steps",
-       "After 2,600 steps a velocity is still that of the start, and what gravity gives.",
-       "Newton's laws", velocity_is_kept_for_thousands_of_steps, "", "motion | time | difference"},
+       "Velocities of 2,600 steps are those of the first 500: none fades, and gravity goes on.",
+       "Newton's laws", velocity_is_kept_for_thousands_of_steps, "", "motion | time"},
       {"gravity.is-that-of-the-scene",
        "Gravity of any size and direction gives the velocity g t: it is not the solver's own.",
        "Newton's second law", gravity_is_that_of_the_scene, "",

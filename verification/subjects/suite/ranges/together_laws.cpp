@@ -70,7 +70,7 @@ Finding each_part_acts_as_alone(Trial& trial) {
     for (const Part& other : parts)
       if (&other != &part) other.remove(alone);
     PerParticle3 among = force_of(trial, whole, part), single = force_of(trial, alone, part);
-    if (part.remove == parts[3].remove)  // of the mass that the particle has
+    if (&part == &parts[3])  // weight: of the mass that the particle has
       single = single * (whole.mass.array() / alone.mass.array()).matrix().asDiagonal();
     for (const int i : whole.held) among.col(i).setZero(), single.col(i).setZero();
     const double most = largest(single);
@@ -83,6 +83,8 @@ Finding each_part_acts_as_alone(Trial& trial) {
     measured.row(part.name, among.norm(), single.norm(),
                  std::max(0.0, largest(among - single) / most - 2 * rounding));
   }
+  if (measured.rows() == 0)
+    throw CannotTell("what the solver declares allows errors as large as what each part does");
   return judge_worst(
       measured, 0.1,
       "(omega t)^2 is 0.005, and dampers change velocities that others act on by 0.02; "
