@@ -1,11 +1,14 @@
 // Adapter of Jolt's soft bodies; `scripts/engines jolt` installs them.
 // Settings: iterations = substeps of each step (5); compliance_scale = of all edges and hinges (1).
 import fs from 'node:fs';
+import path from 'node:path';
 import initialize from 'jolt-physics';
 import { Solver, serve } from '../foldproof_solver.mjs';
 
 const Jolt = await initialize();
 const about = new URL('node_modules/jolt-physics/package.json', import.meta.url);
+// An argument: the file of `foldproof material` that builds the sheet.
+const snippet = process.argv[2] && await import(path.resolve(process.argv[2]));
 const { version } = JSON.parse(fs.readFileSync(about));
 
 class SoftBody extends Solver {
@@ -30,15 +33,21 @@ class SoftBody extends Solver {
     this.bodies = this.system.GetBodyInterface();
   }
 
+  /// The scene's sheet.
+  mapped(scene, scale) {
+    const sheet = this.sheet(scene, scale), rigidity = scene.header.material.bending_rigidity;
+    if (rigidity > 0) this.add_hinges(sheet, scene, scale / (2 * rigidity));
+    sheet.Optimize();
+    return sheet;
+  }
+
   prepare(scene) {
     this.remove();
-    const { gravity, material, settings } = scene.header;
+    const { gravity, settings } = scene.header;
     const { iterations = 5, compliance_scale: scale = 1 } = settings;
     this.system.SetGravity(new Jolt.Vec3(...gravity));
-    const sheet = this.sheet(scene, scale);
-    if (material.bending_rigidity > 0)
-      this.add_hinges(sheet, scene, scale / (2 * material.bending_rigidity));
-    sheet.Optimize();
+    const sheet = snippet?.add_fabric(Jolt, Array.from(scene.rest), Array.from(scene.triangles))
+      ?? this.mapped(scene, scale);
     const origin = new Jolt.RVec3(0, 0, 0), unturned = Jolt.Quat.prototype.sIdentity();
     const creation = new Jolt.SoftBodyCreationSettings(sheet, origin, unturned, 0);
     Object.assign(creation, {

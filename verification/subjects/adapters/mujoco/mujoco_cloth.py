@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import re
 import sys
 from pathlib import Path
 from typing import Any
@@ -57,6 +58,9 @@ class MuJoCoCloth(Solver):
     def elasticity(self, material: dict[str, float]) -> tuple[str, dict[str, str]]:
         """Of the flex; a plate as thick as its two stiffnesses say."""
         o, young, b = self.options, material["young"], material["bending_rigidity"]
+        if o.snippet:
+            text = Path(o.snippet).read_text()
+            return re.search("<elasticity .*?/>", text)[0], {"all": f"elasticity of {o.snippet}"}
         kinds = ["stretch"] * (o.model == "flex") + ["bend"] * (b > 0)
         if not kinds:
             return "", {"bending": "none"}
@@ -179,7 +183,10 @@ def main() -> None:
     parser.add_argument("--radius", type=float, default=1e-4, help="of the flex [m]")
     parser.add_argument("--solref", default="1e-4 1", help="of contacts; raised to two steps")
     parser.add_argument("--solimp", default="0.5 0.5 0.001", help="of contacts")
+    parser.add_argument("--snippet", help="a file of `foldproof material`")
     options = parser.parse_args()
+    if options.snippet:
+        options.snippet = os.path.abspath(options.snippet)
     if "FOLDPROOF_FOLDER" in os.environ:
         os.chdir(os.environ["FOLDPROOF_FOLDER"])  # MuJoCo writes MUJOCO_LOG.TXT where it runs
     serve(MuJoCoCloth(options))

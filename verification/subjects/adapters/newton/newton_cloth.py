@@ -165,6 +165,7 @@ def read_options(words: list[str]) -> argparse.Namespace:
     parser.add_argument("--stretch", choices=("springs", "triangles"))
     parser.add_argument("--mapping", choices=("fair", "defaults"), default="fair",
                         help="defaults: parameters as in the engine's own helper functions")
+    parser.add_argument("--snippet", help="a file of `foldproof material` that builds the cloth")
     parser.add_argument("--iterations", type=int)
     parser.add_argument("--linear-iterations", type=int, default=20, help="of Style3D")
     parser.add_argument("--substeps", type=int)

@@ -12,6 +12,7 @@ and area of a triangle (mean of two), theta its angle from rest, w = L^2/(4 A):
 from __future__ import annotations
 
 import argparse
+from pathlib import Path
 from typing import Any, Iterator
 
 import newton
@@ -49,6 +50,8 @@ def build(scene: Scene, options: argparse.Namespace) -> tuple[newton.Model, dict
     if options.solver == "style3d":
         newton.solvers.SolverStyle3D.register_custom_attributes(builder)
     add = add_as_helpers if options.mapping == "defaults" else add_cloth
+    if options.snippet:
+        add = add_as_snippet
     mapping = add(builder, scene, options)
     frictions = add_obstacles(builder, header, options)
     if options.solver == "vbd":
@@ -245,6 +248,17 @@ def add_as_helpers(builder: newton.ModelBuilder, scene: Scene,
                    "where it asks for stiffnesses"}
 
 
+def add_as_snippet(builder: newton.ModelBuilder, scene: Scene,
+                   options: argparse.Namespace) -> dict[str, str]:
+    """As the text that `foldproof material` printed builds it; it holds its own material."""
+    names: dict[str, Any] = {}
+    exec(Path(options.snippet).read_text(), names)  # noqa: S102 (a file that the user named)
+    names["add_fabric"](builder, scene.rest.tolist(), scene.triangles.ravel().tolist())
+    for i in scene.held.tolist():
+        builder.particle_mass[i], builder.particle_flags[i] = 0.0, 0
+    return {"all": f"add_fabric of {options.snippet}"}
+
+
 # Constants, measured -------------------------------------------------------------------------
 
 ANGLE, STRAIN, STEP = 0.05, 1e-3, 1e-2  # rad, 1, s
@@ -294,7 +308,7 @@ def meet_obstacles(make: Any, options: argparse.Namespace) -> None:
 
 def require_constants(make: Any, options: argparse.Namespace) -> Iterator[str]:
     """Measures what stiffnesses mean; raises where it is not what the mapping assumes."""
-    once = argparse.Namespace(**{**vars(options), "graph": False, "substeps": 1})
+    once = argparse.Namespace(**{**vars(options), "graph": False, "substeps": 1, "snippet": None})
     solver, h, w = make(once), 0.6, 0.8**2 / (4 * 0.24)
     bends, young = {"young": 1e-9, "bending_rigidity": 1.0}, 100.0
     bent = -pull(solver, bends, np.array([0, 0, h * np.tan(ANGLE)]))[2]
