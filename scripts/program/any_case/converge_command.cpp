@@ -13,6 +13,7 @@
 #include "scripts/program/command_line/out_folder.h"
 #include "scripts/program/command_line/typed_words.h"
 #include "scripts/program/any_case/converge_report.h"
+#include "scripts/program/any_case/converge_settings.h"
 #include "scripts/program/interruption.h"
 #include "scripts/program/json_text.h"
 #include "scripts/program/any_case/ladder_runs.h"
@@ -279,7 +280,12 @@ int report(const std::vector<Told>& all, const Options& options) {
 
 }  // namespace
 
-int converge(const Options& options) {
+int converge(const ConvergeOptions& options) {
+  if (options.over.empty() && options.runs.empty() && !options.at.empty())
+    throw InputError("--at needs --over, or --runs");
+  if (options.file.empty() == options.runs.empty())
+    throw InputError("converge takes a CASE, or --runs TABLE.csv");
+  if (!options.over.empty() || !options.runs.empty()) return converge_settings(options);
   const LevelSetProvider level_sets =
       memoizing_provider(provider_for(options.cache, threads_of(options.running)));
   CaseSource source{case_file(options.file), options.overrides, "", options.until};
@@ -345,6 +351,22 @@ void add_ladder(CLI::App* converge, Options& options) {
             positive_number());
 }
 
+/// Options of the map over settings.
+void add_settings_map(CLI::App* converge, ConvergeOptions& options) {
+  CLI::Option* over =
+      add_value(converge, "--over NAMES", options.over,
+                "Map the error over one or two tunables that the solver declares, and `step`; of "
+                "the reference over step, tolerance, or both");
+  over->delimiter(',')->excludes("--in")->excludes("--levels");
+  add_value(converge, "--runs TABLE", options.runs,
+            "The same, of runs that were made elsewhere: a CSV file, without a CASE")
+      ->excludes(over);
+  add_value(converge, "--at VALUES", options.at,
+            "The settings in use, such as 4,8 (default: the solver's own, or the first row)",
+            positive_number())
+      ->delimiter(',');
+}
+
 /// Options of the disturbed runs.
 void add_twins(CLI::App* converge, Options& options) {
   add_value(
@@ -408,8 +430,9 @@ void add_converge_command(CLI::App& app, Program& program) {
        "How large are the errors of a case's step and mesh? Orders, limits and error bars",
        below_converge},
       converge);
-  add_input(command, "CASE", options.file, case_words);
+  add_input(command, "CASE", options.file, case_words)->required(false);
   add_ladder(command, options);
+  add_settings_map(command, options);
   add_twins(command, options);
   add_errors(command, options,
              "In both: errors to find the cheapest step and mesh for, as shares of the motion "

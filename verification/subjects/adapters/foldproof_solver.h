@@ -41,6 +41,7 @@ struct Declared {
   int order = 0;
   std::vector<std::string> capabilities;
   double solve_tolerance = 0;
+  Json tunables = Json::object();  // as in PROTOCOL.md
   Json more = Json::object();  // further fields, as {{"contact_offset", 0.001}}
 };
 
@@ -67,6 +68,13 @@ struct Solver {
   double time = 0;  // s
 
   virtual ~Solver() = default;
+
+  /// The value of a tunable in a scene.
+  double tuned(const Scene& scene, const char* name) const {
+    const Json set = scene.header["scene"].value("tunables", Json::object());
+    return set.contains(name) ? set[name] : declared.tunables[name]["value"];
+  }
+
   virtual Mapping prepare(const Scene&) { throw Declined("scenes"); }
   virtual void advance(double, long) { throw Declined("steps"); }
   virtual void set_state(Numbers new_x, Numbers new_v, double new_time) {
@@ -202,7 +210,8 @@ inline void declare(const Declared& d, Answer& answer) {
                    {"precision", d.precision},
                    {"scheme", {{"name", d.scheme}, {"order", d.order}}},
                    {"capabilities", d.capabilities},
-                   {"solve_tolerance", d.solve_tolerance}};
+                   {"solve_tolerance", d.solve_tolerance},
+                   {"tunables", d.tunables}};
   answer.header.update(d.more);
 }
 

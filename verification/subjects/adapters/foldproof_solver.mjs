@@ -20,6 +20,9 @@ export class Solver {
   capabilities = ['set_state', 'held', 'masses'];
   solve_tolerance = 0;  // relative residual of linear systems; 0 where none is solved
   more = {};            // further fields of the declaration, as { contact_offset: .001 }
+  tunables = {};        // as { iterations: { kind: 'iterations', range: [1, 99], value: 5 } }
+  /// The value of a tunable in a scene.
+  tuned(scene, name) { return scene.header.tunables?.[name] ?? this.tunables[name].value; }
   prepare() { throw new Declined('scenes'); }
   advance() { throw new Declined('steps'); }
   set_state(x, v) { this.x = x; this.v = v; }
@@ -138,7 +141,7 @@ function answer(solver, header, arrays) {
     const { name, version, level, precision, capabilities, solve_tolerance } = solver;
     const scheme = { name: solver.scheme, order: solver.order }, protocol = 2;
     return [{ protocol, name, version, level, precision, scheme, capabilities, solve_tolerance,
-      ...solver.more }];
+      tunables: solver.tunables, ...solver.more }];
   }
   if (op === 'prepare') return [{ mapping: solver.prepare(scene) ?? {} }];
   if (op === 'run') return run(solver, header, scene);

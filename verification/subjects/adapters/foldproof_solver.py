@@ -89,6 +89,8 @@ class Solver:
     capabilities: tuple[str, ...] = ()
     solve_tolerance = 0.0  # relative residual of linear systems; 0 where none is solved
     more: dict[str, Any] = {}  # further fields of the declaration, as {"contact_offset": 0.001}
+    # by name: {"kind": "iterations", "range": [1, 1000], "value": 10, "proportional": True}
+    tunables: dict[str, dict[str, Any]] = {}
     x: np.ndarray
     v: np.ndarray
     tell: Callable[[float], None] | None = None  # set by serve()
@@ -98,6 +100,10 @@ class Solver:
         Says at most once a second that the solver is at work, so that it is not taken to hang."""
         if self.tell:
             self.tell(part)
+
+    def tuned(self, scene: Scene, name: str) -> float:
+        """The value of a tunable in a scene."""
+        return scene.header["scene"].get("tunables", {}).get(name, self.tunables[name]["value"])
 
     def prepare(self, scene: Scene) -> dict[str, str]:
         raise Declined("scenes")
@@ -159,7 +165,7 @@ def declaration(solver: Solver) -> dict[str, Any]:
         "protocol": PROTOCOL, "name": solver.name, "version": solver.version, "level": solver.level,
         "precision": solver.precision, "scheme": {"name": solver.scheme, "order": solver.order},
         "capabilities": list(solver.capabilities), "solve_tolerance": solver.solve_tolerance,
-        **solver.more
+        **({"tunables": solver.tunables} if solver.tunables else {}), **solver.more
     }
 
 

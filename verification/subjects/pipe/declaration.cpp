@@ -89,6 +89,35 @@ std::vector<std::string> capabilities_of(const json& header, int protocol) {
   return declared;
 }
 
+constexpr const char* tunable_kinds[] = {"substeps",   "iterations",        "tolerance",
+                                         "relaxation", "contact_stiffness", "step"};
+
+Tunable tunable_of(const std::string& name, const json& declared) {
+  const auto refuse = [&](const std::string& why) -> SolverFailure {
+    return {"header", fmt::format("declared the tunable '{}' {}", name, why)};
+  };
+  if (!declared.is_object()) throw refuse("as no object");
+  const auto kind = std::ranges::find(tunable_kinds, text_of(declared, "kind"));
+  if (kind == std::end(tunable_kinds))
+    throw refuse(fmt::format("of no kind of {}", fmt::join(tunable_kinds, ", ")));
+  const json range = declared.value("range", json());
+  if (!range.is_array() || range.size() != 2 || !range[0].is_number() || !range[1].is_number())
+    throw refuse("without a range of two numbers");
+  Tunable tunable{name, TunableKind(kind - tunable_kinds), range[0], range[1],
+                  number_of(declared, "value", nan), declared.value("proportional", json()) == true};
+  if (!(tunable.least > 0 && tunable.least <= tunable.value && tunable.value <= tunable.most))
+    throw refuse("with a value outside its range, or a range that is not positive");
+  return tunable;
+}
+
+std::vector<Tunable> tunables_of(const json& header) {
+  const json all = header.value("tunables", json::object());
+  if (!all.is_object()) throw SolverFailure("header", "sent no object as 'tunables'");
+  std::vector<Tunable> tunables;
+  for (const auto& [name, declared] : all.items()) tunables.push_back(tunable_of(name, declared));
+  return tunables;
+}
+
 }  // namespace
 
 Work work_of(const json& header) {
@@ -129,6 +158,7 @@ Declaration read_declaration(const json& header) {
   declared.has_consistent_mass = declares_consistent(header.value("mass_matrix", json("lumped")));
   declared.substep = length_of(header, "substep");
   declared.contact_offset = length_of(header, "contact_offset");
+  declared.tunables = tunables_of(header);
   const json deterministic = header.value("deterministic", json(true));
   if (!deterministic.is_boolean())
     throw SolverFailure("header", "declared neither true nor false as 'deterministic'");

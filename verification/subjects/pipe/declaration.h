@@ -13,6 +13,17 @@ namespace foldproof {
 
 constexpr int protocol_version = 2;  // 1 is served, too
 
+/// What a solver can be tuned by. Finer is more of substeps, iterations and contact stiffness, and
+/// less of a tolerance; `step` is the steps of a frame, which every solver has.
+enum class TunableKind { substeps, iterations, tolerance, relaxation, contact_stiffness, step };
+
+struct Tunable {
+  std::string name;
+  TunableKind kind = TunableKind::substeps;
+  double least = 1, most = 1, value = 1;  // value: in use, unless a scene sets another
+  bool is_proportional = false;           // a step costs in proportion to it
+};
+
 /// The solver's description of itself: its answer to `start`.
 struct Declaration {
   int protocol = protocol_version;
@@ -27,6 +38,7 @@ struct Declaration {
   double substep = 0;                // its longest internal step [s]; 0: that of the call
   bool is_deterministic = true;      // the same input gives the same bits
   double contact_offset = 0;         // at which it keeps cloth from obstacles [m]
+  std::vector<Tunable> tunables = {};
 
   /// Throws std::logic_error for a word that no solver can offer.
   bool offers(const std::string& capability) const;

@@ -195,9 +195,13 @@ PipedSolver::~PipedSolver() = default;
 PipedSolver::PipedSolver(PipedSolver&&) noexcept = default;
 PipedSolver& PipedSolver::operator=(PipedSolver&&) noexcept = default;
 
+void PipedSolver::tune(const std::map<std::string, double>& tunables) {
+  impl_->command.tunables = tunables;
+}
+
 std::vector<std::pair<std::string, std::string>> PipedSolver::prepare(const PortableScene& scene) {
   Request request = impl_->request_of("prepare");
-  add_scene(scene, impl_->command.settings, request);
+  add_scene(scene, {impl_->command.settings, impl_->command.tunables}, request);
   impl_->where = {scene.name};
   impl_->particles = scene.x.cols();
   const json mapping = impl_->ask(std::move(request), {}).header.value("mapping", json::object());
@@ -248,7 +252,7 @@ double PipedSolver::energy(const Snapshot& state, double time) {
 std::vector<Snapshot> PipedSolver::run(const PortableScene& scene,
                                        const std::vector<long>& frames) {
   Request request = impl_->request_of("run");
-  add_scene(scene, impl_->command.settings, request);
+  add_scene(scene, {impl_->command.settings, impl_->command.tunables}, request);
   request.header["frames"] = frames;
   impl_->where = {scene.name};
   const long n = scene.x.cols(), count = long(frames.size());

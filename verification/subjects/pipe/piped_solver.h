@@ -1,6 +1,7 @@
 // A solver in a process of its own, asked over the protocol of verification/subjects/PROTOCOL.md.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -18,6 +19,7 @@ namespace foldproof {
 struct SolverCommand {
   std::string command;                                        // for sh -c
   std::vector<std::pair<std::string, std::string>> settings;  // passed through in every scene
+  std::map<std::string, double> tunables = {};                // likewise: values of its tunables
   ProcessLimits limits = {};
 };
 
@@ -38,6 +40,9 @@ class PipedSolver {
   PipedSolver& operator=(PipedSolver&&) noexcept;
 
   const Declaration& declaration() const { return declaration_; }
+
+  /// The values of its tunables in the scenes to come.
+  void tune(const std::map<std::string, double>& tunables);
 
   /// Makes a scene ready. Returns the mapping: how the solver understood the parameters.
   std::vector<std::pair<std::string, std::string>> prepare(const PortableScene& scene);

@@ -159,9 +159,9 @@ void add_cloth(const PortableScene& scene, Request& request) {
 
 }  // namespace
 
-void add_scene(const PortableScene& scene, const Settings& typed, Request& request) {
+void add_scene(const PortableScene& scene, const Settings& set, Request& request) {
   json settings = json::object();
-  for (const auto& [key, value] : typed) settings[key] = value;
+  for (const auto& [key, value] : set.typed) settings[key] = value;
   request.header["scene"] = {{"name", scene.name},
                              {"dt", scene.dt},
                              {"gravity", list_of(scene.gravity)},
@@ -169,6 +169,7 @@ void add_scene(const PortableScene& scene, const Settings& typed, Request& reque
                              {"own_masses", scene.own_masses},
                              {"settings", settings}};
   json& constants = request.header["scene"];
+  if (!set.tunables.empty()) constants["tunables"] = set.tunables;
   if (scene.thickness > 0) constants["thickness"] = scene.thickness;
   if (!scene.extension.empty()) constants["extension"] = json::parse(scene.extension);
   add_cloth(scene, request);

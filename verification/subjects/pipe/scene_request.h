@@ -1,6 +1,7 @@
 // A scene as a message of the protocol: its object `scene`, and its arrays.
 #pragma once
 
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,9 +11,13 @@
 
 namespace foldproof {
 
-using Settings = std::vector<std::pair<std::string, std::string>>;  // typed, for the solver
+/// What a user sets, for the solver: its own settings as typed, and values of its tunables.
+struct Settings {
+  std::vector<std::pair<std::string, std::string>> typed;
+  std::map<std::string, double> tunables = {};
+};
 
 /// Adds the scene to a request.
-void add_scene(const PortableScene& scene, const Settings& typed, Request& request);
+void add_scene(const PortableScene& scene, const Settings& set, Request& request);
 
 }  // namespace foldproof

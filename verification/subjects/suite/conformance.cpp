@@ -86,6 +86,23 @@ void limit_strain(PortableScene& s) { s.strain_limits = {0.1, 0.1}; }
 void put_air(PortableScene& s) { s.air = {1.2, Vector3(1, 0, 0), 1.17, 0.02}; }
 void rub_layers(PortableScene& s) { s.thickness = 0.01, s.layer_friction = 0.3; }
 
+/// Each tunable at the least of its range, and at its own value: the sheet is moved.
+std::string tune(PipedSolver& solver) {
+  const auto& tunables = solver.declaration().tunables;
+  if (tunables.empty()) throw NotOffered{"no tunables are declared"};
+  std::string names;
+  for (const Tunable& tunable : tunables) {
+    names += (names.empty() ? "" : ", ") + tunable.name;
+    for (const double value : {tunable.least, tunable.value}) {
+      solver.tune({{tunable.name, value}});
+      solver.prepare(suite::moving_sheet());
+      solver.advance(suite::moving_sheet().dt, 1);
+    }
+  }
+  solver.tune({});
+  return names;
+}
+
 std::string ask_declined(PipedSolver& solver) {
   if (!solver.declines_unknown_operation())
     throw SolverFailure("header", "answered an operation that does not exist");
@@ -121,6 +138,7 @@ std::vector<Demand> all_demands() {
       meets("a sheet with strain limits is moved", "strain_limits", limit_strain),
       meets("a sheet in air is moved", "air", put_air),
       meets("a sheet with friction of layers is moved", "layer_friction", rub_layers),
+      {"scenes set the tunables", 1, "", tune},
       {"stop is answered, and nothing else is sent", 0, "",
        [](PipedSolver& s) { return s.stop(), std::string(); }},
   };

@@ -39,6 +39,11 @@ WatchedSolver& Trial::solver() {
   return *running_;
 }
 
+void Trial::tune(const std::map<std::string, double>& tunables) {
+  command_.tunables = tunables;
+  if (running_) running_->tune(tunables);
+}
+
 void Trial::restart() {
   running_.reset();
   solver();

@@ -1,6 +1,7 @@
 // A solver on trial: kept running from law to law, started again after a failure.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -42,6 +43,9 @@ class Trial {
   /// Whether the latest scene deforms if it is stretched by 1 % and without its obstacles: the
   /// companion of a law that holds because nothing moves. Does not count as asked by the law.
   bool deforms_when_stretched();
+
+  /// The values of the solver's tunables from now on; an empty map leaves it to its own.
+  void tune(const std::map<std::string, double>& tunables);
 
   /// Starts another process in place of the running one.
   void restart();

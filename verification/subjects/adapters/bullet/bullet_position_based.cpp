@@ -7,7 +7,11 @@
 using namespace foldproof_solver;
 
 struct PositionBased : BulletBody {
-  PositionBased() : BulletBody("Bullet soft body") { declared.scheme = "position based"; }
+  PositionBased() : BulletBody("Bullet soft body") {
+    declared.scheme = "position based";
+    declared.tunables["iterations"] = {
+        {"kind", "iterations"}, {"range", {1, 10000}}, {"value", 10}, {"proportional", true}};
+  }
 
   Mapping prepare(const Scene& scene) override {
     prepare_body(scene);
@@ -15,7 +19,7 @@ struct PositionBased : BulletBody {
     auto made = std::make_unique<btSoftRigidDynamicsWorld>(&dispatcher, broadphase.get(),
                                                            constraints.get(), &configuration);
     made->setGravity(gravity);
-    body->m_cfg.piterations = (int)setting(scene, "iterations", 10);
+    body->m_cfg.piterations = (int)setting(scene, "iterations", (int)tuned(scene, "iterations"));
     body->updateLinkConstants();
     made->addSoftBody(body);
     world = std::move(made);

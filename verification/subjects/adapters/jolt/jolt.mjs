@@ -16,6 +16,9 @@ class SoftBody extends Solver {
   scheme = 'position based, with compliance'; order = 0; obstacles = [];
   capabilities = ['set_state', 'held', 'masses', 'planes', 'boxes', 'spheres', 'capsules'];
 
+  // Jolt calls the substeps of a step its iterations
+  tunables = { iterations: { kind: 'substeps', range: [1, 10000], value: 5, proportional: true } };
+
   constructor() {
     super();
     const settings = new Jolt.JoltSettings();
@@ -44,7 +47,7 @@ class SoftBody extends Solver {
   prepare(scene) {
     this.remove();
     const { gravity, settings } = scene.header;
-    const { iterations = 5, compliance_scale: scale = 1 } = settings;
+    const { iterations = this.tuned(scene, 'iterations'), compliance_scale: scale = 1 } = settings;
     this.system.SetGravity(new Jolt.Vec3(...gravity));
     const sheet = snippet?.add_fabric(Jolt, Array.from(scene.rest), Array.from(scene.triangles))
       ?? this.mapped(scene, scale);

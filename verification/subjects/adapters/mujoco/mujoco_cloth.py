@@ -53,6 +53,8 @@ class MuJoCoCloth(Solver):
     def __init__(self, options: argparse.Namespace) -> None:
         self.options = options
         self.name = f"MuJoCo {options.model}"
+        self.tunables = {"substeps": {"kind": "substeps", "range": [1, 100000],
+                                      "value": options.substeps, "proportional": True}}
         self.scheme, self.order = options.integrator, ORDERS[options.integrator]
 
     def elasticity(self, material: dict[str, float]) -> tuple[str, dict[str, str]]:
@@ -97,6 +99,7 @@ class MuJoCoCloth(Solver):
     def prepare(self, scene: Scene) -> dict[str, str]:
         header = scene.header["scene"]
         material, o = header["material"], self.options
+        o.substeps = int(self.tuned(scene, "substeps"))
         self.require_mapped(scene, material)
         self.moves = np.ones(len(scene.mass), bool)
         self.moves[scene.held] = False

@@ -38,6 +38,9 @@ class NewtonCloth(Solver):
         # iterations that stop before they converge have no order to claim
         self.order = 1 if options.solver == "semi_implicit" else 0
         self.capabilities = self.offered()
+        self.tunables = {name: {"kind": name, "range": [1, 100000],
+                                "value": getattr(options, name), "proportional": True}
+                         for name in ("substeps", "iterations") if getattr(options, name)}
         if options.solver == "semi_implicit":
             self.level = "L2"
 
@@ -49,6 +52,8 @@ class NewtonCloth(Solver):
         return tuple(names)
 
     def prepare(self, scene: Scene) -> dict[str, str]:
+        for name in self.tunables:
+            setattr(self.options, name, int(self.tuned(scene, name)))
         newton_mapping.require_mapped(scene, self.options)
         self.model, mapping = newton_mapping.build(scene, self.options)
         self.mass, self.held = scene.mass, scene.held
