@@ -9,7 +9,8 @@ TEST_CASE("subject: slips in obstacles are found by the law of their kind, and n
           "[long]") {
   const std::string side = "each-side-has-its-friction",
                     several = "each-of-several-has-its-friction",
-                    kinds = "obstacles.of-several-kinds-each-has-its-friction";
+                    kinds = "obstacles.of-several-kinds-each-has-its-friction",
+                    both = "obstacles.both-act-on-what-touches-both";
   const std::vector<std::string> box{"box.s", "box.e",        "box.l",
                                      "box.i", "box.friction", "obstacles"},
       capsule{"capsule.s", "capsule.e", "capsule.lets"};
@@ -26,9 +27,9 @@ TEST_CASE("subject: slips in obstacles are found by the law of their kind, and n
                 {"box." + size, "ball." + size, "capsule." + size});
   require_law_fails("planes_snap_to_axes", "contact.planes-of-all-ways-have-their-friction");
   require_found({"points_are_nothing"}, {"capsule.of"}, {"capsule.of-one-point-is-a-ball"});
-  require_found({"forgets_others"}, {"box.each", "obstacles"}, {"box." + several});
-  require_found({"first_kind_alone"}, box, {kinds});
-  require_law_fails("meets_one_obstacle", "obstacles.both-act-on-what-touches-both");
+  require_found({"forgets_others"}, {"box.each", "obstacles"}, {"box." + several, both});
+  require_found({"first_kind_alone"}, box, {kinds, both});
+  require_law_fails("meets_one_obstacle", both);
   require_found({"means_friction"}, {"box"}, {"box.sheet-across-two-has-the-friction-of-both"});
   require_found({"keeps_old_obstacles"}, {"obstacles"}, {"obstacles.go-with-their-scene"});
   require_found({"far_obstacles_pull"}, box, {"obstacles.far-ones-change-nothing"});
