@@ -21,12 +21,15 @@ from data.unreadable import Unreadable, one_line  # noqa: E402
 from data.whole_file import write_whole  # noqa: E402
 
 
+SHIPPED = Path(__file__).resolve().parent / "standing"
+
+
 def main() -> int:
     """Returns 0; refuses with exit code 2."""
     parser = OneLineParser(description="Bundles of judged solvers, and their pages.")
     parser.add_argument("action", choices=("bundle", "add", "site"))
     parser.add_argument("paths", nargs="+")
-    parser.add_argument("--in", dest="folder", type=Path)
+    parser.add_argument("--in", dest="folder", type=Path, default=SHIPPED)
     said = parser.parse_args()
     try:
         {"bundle": make, "add": add, "site": site}[said.action](said)

@@ -113,11 +113,14 @@ def slug(*words: str) -> str:
 
 
 def standings_of(bundles: list[Bundle]) -> list[Standing]:
-    """By engine, version, settings, date; each with a page of its own."""
+    """By engine, version, settings, date; each with a page of its own. Runs that agree are one,
+    the first."""
     order = sorted(bundles, key=lambda one: (*version_key(one), one.about["date"]))
     taken: Counter[str] = Counter()
     standings = []
     for bundle in order:
+        if any(bundle in shown.reruns for shown in standings):
+            continue
         one = Standing(bundle, "")
         name = slug(one.name)
         taken[name] += 1

@@ -1,6 +1,5 @@
 // foldproof results: bundles of judged solvers, and the pages on which they stand.
 #include "scripts/program/command_line/options_of_commands.h"
-#include "scripts/program/data_folder.h"
 #include "scripts/program/pages/report_script.h"
 
 namespace foldproof {
@@ -14,8 +13,7 @@ struct ResultsOptions : Options {
 int handle_results(const ResultsOptions& options) {
   std::vector<std::string> arguments = {options.action};
   arguments.insert(arguments.end(), options.names.begin(), options.names.end());
-  const std::string shipped = data_folder() + "/reports/standing";
-  add_option(arguments, "--in", options.in.empty() ? shipped : options.in);
+  add_option(arguments, "--in", options.in);
   return run_report_script("results", "make_results.py", arguments);
 }
 
