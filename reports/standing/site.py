@@ -63,9 +63,8 @@ class Standing:
 
     @property
     def settings(self) -> str:
-        about = self.bundle.about
-        words = [f"{key}={value}" if value else key for key, value in about["settings"].items()]
-        return " ".join(words + about["options"])
+        settings = self.bundle.about["settings"]
+        return " ".join(f"{key}={value}" if value else key for key, value in settings.items())
 
     @property
     def name(self) -> str:
@@ -167,6 +166,9 @@ def write_site(bundles: list[Bundle], folder: Path) -> Path:
         for run in runs:
             pages[run.file] = ("standing-run.html.j2", {"run": run})
     folder.mkdir(parents=True, exist_ok=True)
+    for old in folder.glob("*.html"):
+        if old.name.startswith(("run-", "engine-", "difference-")):
+            old.unlink()
     for file, (template, values) in pages.items():
         text = environment.get_template(template).render(values)
         write_whole(folder / file, text.encode("utf-8"))
