@@ -21,33 +21,23 @@ Product product_of(const KeyTable& keys) {
   return product;
 }
 
-EngineNumber number_of(const KeyTable& keys) {
-  return {keys.text("name"), keys.text("unit"), product_of(*keys.table("value")),
-          keys.text("depends"), keys.text("from")};
-}
-
 Engine engine_of(const KeyTable& keys) {
-  Engine engine{keys.text("name"),
-                keys.text("words"),
-                "",
-                "",
-                0,
-                0,
-                keys.number_or("poisson", isotropic),
-                {},
-                {},
-                keys.texts("cannot"),
-                keys.text_or("snippet", "")};
-  const std::vector<std::string> marks = keys.texts("comment");
-  if (marks.size() != 2) throw InputError(keys.where("comment") + ": two texts are needed");
-  engine.comment = marks[0], engine.end_of_comment = marks[1];
-  if (keys.has("pair")) {
-    const std::vector<long> pair = keys.integers("pair");
-    if (pair.size() != 2) throw InputError(keys.where("pair") + ": two numbers are needed");
-    engine.substeps = pair[0], engine.iterations = pair[1];
-  }
+  Engine engine{.name = keys.text("name"),
+                .words = keys.text("words"),
+                .comment = keys.text("comment"),
+                .comment_end = keys.text_or("comment_end", ""),
+                .pair = keys.has("pair") ? keys.integers("pair") : std::vector<long>{},
+                .poisson = keys.number_or("poisson", isotropic),
+                .relation = {},
+                .numbers = {},
+                .cannot = keys.texts("cannot"),
+                .snippet = keys.text_or("snippet", "")};
   if (keys.has("relation")) engine.relation = product_of(*keys.table("relation"));
-  for (const auto& number : keys.tables("number")) engine.numbers.push_back(number_of(*number));
+  for (const auto& number : keys.tables("number")) {
+    for (const char* of_the_page : {"depends", "from"}) number->leave(of_the_page);
+    engine.numbers.push_back(
+        {number->text("name"), number->text("unit"), product_of(*number->table("value"))});
+  }
   return engine;
 }
 

@@ -19,16 +19,14 @@ struct Product {
 struct EngineNumber {
   std::string name, unit;
   Product value;
-  std::string depends;  // on what else its effect depends, in words
-  std::string from;     // how the product is known: measured, source or documentation
 };
 
 struct Engine {
-  std::string name, words;              // as typed; the engine and the version meant
-  std::string comment, end_of_comment;  // in its language
-  long substeps, iterations;            // 0: has none
-  double poisson;                       // for Y = 8/3 G [1]
-  Product relation;                     // is 1; without powers: Y and G are free
+  std::string name, words;           // as typed; the engine and the version meant
+  std::string comment, comment_end;  // in its language
+  std::vector<long> pair;            // substeps, iterations; empty: it has none
+  double poisson;                    // for Y = 8/3 G [1]
+  Product relation;                  // is 1; without powers: Y and G are free
   std::vector<EngineNumber> numbers;
   std::vector<std::string> cannot;  // represent, in words
   std::string snippet;              // with {names}; empty: there is none

@@ -2,13 +2,11 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <optional>
 #include <regex>
 
 #include "reference/mesh/mesh_file.h"
 #include "reference/mesh/pattern.h"
-#include "reference/mesh/rigidity_map.h"
 #include "reference/scene/fabrics.h"
 #include "reference/scene/key_file.h"
 #include "scripts/program/command_line/options_of_commands.h"
@@ -29,6 +27,8 @@ struct MaterialOptions : Options {
 
 bool is_measured(double value) { return std::isfinite(value); }
 
+std::string engines_file() { return data_folder() + "/cases/engines.toml"; }
+
 // From a fabric to an engine ------------------------------------------------------------------
 
 /// Quantities that an engine's numbers are products of; Y = 8/3 G in all engines.
@@ -42,118 +42,88 @@ Values values_of(const Fabric& fabric, const Engine& engine) {
   return values;
 }
 
-double sheet_area(const TriangleMesh& mesh) { return rest_areas(mesh).sum(); }
-
-/// The rigidities along x and y of a flat sheet whose hinges all take `number` for the product
-/// [N m]. A hinge of rigidity B stores B w angle^2: as ke = 4 B in reference/mesh/rigidity_map.h.
-std::array<double, 2> rigidity_with(double number, const Product& product, const Values& values,
-                                    const TriangleMesh& mesh) {
-  RestPlane plane;
-  if (!is_flat(mesh, plane)) return {none_measured, none_measured};
-  const std::vector<FlatElement> elements = flat_hinges(mesh, plane);
-  const std::vector<std::array<EdgeSide, 2>> sides = edge_sides(mesh);
-  Rigidity sum;
-  for (size_t h = 0; h < elements.size(); ++h) {
-    const auto& [one, other] = sides[size_t(mesh.hinges[h].edge)];
-    Values of_hinge = values;
-    of_hinge.erase("rigidity");
-    of_hinge["length"] = one.length, of_hinge["area"] = (one.area + other.area) / 2;
-    if (!solve(product, number, of_hinge)) return {none_measured, none_measured};
-    sum.R += 4 * of_hinge["rigidity"] * elements[h].energy / sheet_area(mesh);
-  }
-  return {sum.along(0), sum.along(std::numbers::pi / 2)};
-}
-
 bool is_of_hinges(const Product& product) {
   return product.powers.contains("rigidity") && product.powers.contains("area");
 }
 
-std::string remark(const Engine& engine, const std::string& text) {
-  return engine.comment + " " + text + engine.end_of_comment + "\n";
+/// Its area, and the mean edge and triangle of its hinges.
+Values shape_of(const std::string& file) {
+  if (file.empty()) return {};
+  const TriangleMesh mesh = flat_panels(read_mesh(file));
+  Values mean{{"sheet", rest_areas(mesh).sum()}, {"vertices", double(mesh.particles())}};
+  const std::vector<std::array<EdgeSide, 2>> sides = edge_sides(mesh);
+  for (const Hinge& hinge : mesh.hinges) {
+    const auto& [one, other] = sides[size_t(hinge.edge)];
+    mean["length"] += one.length / double(mesh.hinges.size());
+    mean["area"] += (one.area + other.area) / 2 / double(mesh.hinges.size());
+  }
+  return mean;
 }
 
-/// For engines or helpers that give all hinges one number: the one for this mesh, and what it does.
-void print_for_mesh(const Engine& engine, const Values& values, const std::string& file) {
-  const TriangleMesh mesh = flat_panels(read_mesh(file));
-  for (const EngineNumber& number : engine.numbers) {
-    if (!is_of_hinges(number.value)) continue;
-    const double wanted = values.at("rigidity"), trial = 1;
-    const auto [along_x, along_y] = rigidity_with(trial, number.value, values, mesh);
-    if (!is_measured(along_x))
-      throw InputError(file + ": the sheet is not flat, nor has a pattern");
-    const double one = std::pow(wanted / along_x, number.value.powers.at("rigidity"));
-    fmt::print("{}", remark(engine, fmt::format("one {} for all hinges of {}: {:.6g} {} bends as "
-                                                "{:.4g} N m along x, {:.4g} along y",
-                                                number.name, file, one, number.unit, wanted,
-                                                wanted * along_y / along_x)));
-  }
+void print_remark(const Engine& engine, const std::string& text) {
+  fmt::print("{} {}{}\n", engine.comment, text, engine.comment_end);
+}
+
+Values united(Values one, const Values& other) {
+  one.insert(other.begin(), other.end());
+  return one;
 }
 
 /// The snippet's text with its {names} replaced.
 std::string filled(const Engine& engine, const std::map<std::string, std::string>& texts) {
-  std::string text;
-  for (size_t at = 0; at < engine.snippet.size();) {
-    const size_t open = engine.snippet.find('{', at), close = engine.snippet.find('}', open);
-    const std::string name =
-        close == std::string::npos ? "" : engine.snippet.substr(open + 1, close - open - 1);
-    if (!name.empty() && texts.contains(name)) {
-      text += engine.snippet.substr(at, open - at) + texts.at(name);
-      at = close + 1;
-    } else {
-      const size_t end = open == std::string::npos ? open : open + 1 - at;
-      text += engine.snippet.substr(at, end);
-      at = open == std::string::npos ? engine.snippet.size() : open + 1;
-    }
+  std::string text = engine.snippet;
+  for (const auto& [name, value] : texts) {
+    const std::string mark = "{" + name + "}";
+    for (size_t at = 0; (at = text.find(mark, at)) != std::string::npos; at += value.size())
+      text.replace(at, mark.size(), value);
   }
   return text;
 }
 
 /// Inside a comment of a file, a comment cannot start.
 std::string assumed_in(const Engine& engine) {
-  return engine.end_of_comment.empty() ? engine.comment + " assumed" : "assumed";
+  return engine.comment_end.empty() ? engine.comment + " assumed" : "assumed";
 }
 
+/// As comments: the fabric, the engine, what the snippet leaves out.
 void print_head(const Fabric& fabric, const Engine& engine) {
-  const auto line = [&](const std::string& text) { fmt::print("{}", remark(engine, text)); };
-  line(fmt::format("{}: {}; {:g} kg/m^2, B = {:.4g} N m", fabric.name, fabric.words, fabric.density,
-                   fabric.rigidity[0]));
-  line("source: " + fabric.source);
-  line("for " + engine.words);
+  std::vector<std::string> lines{fmt::format("{}: {}; {:g} kg/m^2, B = {:.4g} N m", fabric.name,
+                                             fabric.words, fabric.density, fabric.rigidity[0]),
+                                 "source: " + fabric.source, "for " + engine.words};
   if (fabric.rigidity[0] != fabric.rigidity[1])
-    line(fmt::format("left out: B = {:.4g} N m along the fabric's second direction",
-                     fabric.rigidity[1]));
-  for (const std::string& what : engine.cannot) line("cannot represent: " + what);
+    lines.push_back(fmt::format("left out: B = {:.4g} N m along the fabric's second direction",
+                                fabric.rigidity[1]));
+  for (const std::string& what : engine.cannot) lines.push_back("cannot represent: " + what);
+  for (const std::string& line : lines) print_remark(engine, line);
 }
 
 int print_material(const MaterialOptions& options, const Fabric& fabric) {
-  Engine engine = engine_named(read_engines(data_folder() + "/cases/engines.toml"), options.engine);
-  if (!options.pair.empty()) engine.substeps = options.pair[0], engine.iterations = options.pair[1];
-  Values values = values_of(fabric, engine);
+  Engine engine = engine_named(read_engines(engines_file()), options.engine);
+  if (!options.pair.empty() && engine.pair.empty())
+    throw InputError(engine.name + " has no substeps and iterations: leave out --pair");
+  if (!options.pair.empty()) engine.pair = options.pair;
+  Values values = values_of(fabric, engine), mesh = shape_of(options.mesh);
+  if (mesh.empty() && !engine.comment_end.empty()) mesh["sheet"] = 1;  // a file has no code
+  for (const auto& [name, value] : mesh)
+    if (name == "sheet" || name == "vertices") values[name] = value;
+  print_head(fabric, engine);
   std::map<std::string, std::string> texts{
-      {"substeps", std::to_string(engine.substeps)},
-      {"iterations", std::to_string(engine.iterations)},
+      {"substeps", engine.pair.empty() ? "" : std::to_string(engine.pair[0])},
+      {"iterations", engine.pair.empty() ? "" : std::to_string(engine.pair[1])},
       {"pair", options.pair.empty() ? assumed_in(engine) : "as typed"},
       {"why", is_measured(fabric.shear) ? "from the measured shear" : assumed_in(engine)},
       {"density", fmt::format("{:g}", fabric.density)},
-      {"mass_of", "kg, of 1 m^2: times the area of your sheet"}};
-  if (!options.mesh.empty()) {
-    const TriangleMesh mesh = flat_panels(read_mesh(options.mesh));
-    values["sheet"] = sheet_area(mesh), values["vertices"] = double(mesh.particles());
-    texts["mass_of"] = "kg, of " + options.mesh;
-  } else if (engine.comment == "<!--") {
-    values["sheet"] = 1;  // a file has no code
+      {"mass_of", options.mesh.empty() ? "kg, of 1 m^2: times the area of your sheet"
+                                       : "kg, of " + options.mesh}};
+  for (const auto& [name, unit, product] : engine.numbers) {
+    texts[name] = code_of(product, values);
+    if (is_measured(value_of(product, values))) values.emplace(name, value_of(product, values));
+    if (is_of_hinges(product) && mesh.contains("area"))
+      print_remark(engine, fmt::format("one {} for all hinges of {}: {} {}", name, options.mesh,
+                                       code_of(product, united(values, mesh)), unit));
+    if (engine.snippet.empty())
+      print_remark(engine, fmt::format("{} = {} [{}]", name, texts[name], unit));
   }
-  for (const EngineNumber& number : engine.numbers) {
-    texts[number.name] = code_of(number.value, values);
-    if (const double value = value_of(number.value, values); is_measured(value))
-      values.emplace(number.name, value);
-  }
-  print_head(fabric, engine);
-  if (!options.mesh.empty()) print_for_mesh(engine, values, options.mesh);
-  if (engine.snippet.empty())
-    for (const EngineNumber& number : engine.numbers)
-      fmt::print("{}", remark(engine, fmt::format("{} = {} [{}]", number.name, texts[number.name],
-                                                  number.unit)));
   fmt::print("{}", filled(engine, texts));
   return all_hold;
 }
@@ -177,20 +147,6 @@ std::optional<Found> find_number(const std::string& text, const std::string& nam
   const std::string rest = match[2];
   return Found{std::stod(match[1]), rest.find(" length") != std::string::npos ||
                                         rest.find("of 1 m^2") != std::string::npos};
-}
-
-/// Mean of the mesh's hinges, and of the sheet.
-Values shape_of(const std::string& file) {
-  if (file.empty()) return {};
-  const TriangleMesh mesh = flat_panels(read_mesh(file));
-  Values mean{{"sheet", sheet_area(mesh)}, {"vertices", double(mesh.particles())}};
-  const std::vector<std::array<EdgeSide, 2>> sides = edge_sides(mesh);
-  for (const Hinge& hinge : mesh.hinges) {
-    const auto& [one, other] = sides[size_t(hinge.edge)];
-    mean["length"] += one.length / double(mesh.hinges.size());
-    mean["area"] += (one.area + other.area) / 2 / double(mesh.hinges.size());
-  }
-  return mean;
 }
 
 bool is_poisson(const Product& product) { return product.powers.contains("poisson"); }
@@ -254,28 +210,24 @@ int from_arcsim(const std::string& name, const std::string& text, const Material
 }
 
 int print_neutral(const MaterialOptions& options) {
-  const std::string text = read_text(options.from[1]);
-  const std::string name = options.names.empty()
-                               ? std::filesystem::path(options.from[1]).stem().string()
-                               : options.names[0];
+  const std::string& file = options.from[1];
+  const std::string text = read_text(file), name = options.names.empty()
+                                                       ? std::filesystem::path(file).stem().string()
+                                                       : options.names[0];
   if (options.from[0] == "arcsim") return from_arcsim(name, text, options);
-  const Engine engine =
-      engine_named(read_engines(data_folder() + "/cases/engines.toml"), options.from[0]);
-  std::string read, names;
+  const Engine engine = engine_named(read_engines(engines_file()), options.from[0]);
+  std::string read;
   Values values = neutral_values(engine, text, shape_of(options.mesh), read);
-  for (const EngineNumber& number : engine.numbers)
-    names += (names.empty() ? "" : ", ") + number.name;
   for (const char* needed : {"density", "rigidity"})
     if (!values.contains(needed))
-      throw InputError(fmt::format("{}: no {} follows from {} (found: {}){}", options.from[1],
-                                   needed, names, read.empty() ? "nothing" : read,
+      throw InputError(fmt::format("{}: no {} follows from its numbers of {}: {}{}", file, needed,
+                                   engine.name, read.empty() ? "none was found" : read,
                                    options.mesh.empty() ? "; some need --mesh FILE" : ""));
-  print_fabric(
-      name,
-      fmt::format("density = {:.6g}\nrigidity = {{ first = {:.6g}, second = {:.6g} }}\n{}",
-                  values["density"], values["rigidity"], values["rigidity"],
-                  values.contains("shear") ? fmt::format("shear = {:.6g}\n", values["shear"]) : ""),
-      options, read);
+  std::string numbers =
+      fmt::format("density = {:.6g}\nrigidity = {{ first = {:.6g}, second = {:.6g} }}\n",
+                  values["density"], values["rigidity"], values["rigidity"]);
+  if (values.contains("shear")) numbers += fmt::format("shear = {:.6g}\n", values["shear"]);
+  print_fabric(name, numbers, options, read);
   return all_hold;
 }
 

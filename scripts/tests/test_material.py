@@ -5,7 +5,6 @@ from __future__ import annotations
 import ast
 import json
 import re
-import shutil
 import subprocess
 import tempfile
 import tomllib
@@ -120,13 +119,6 @@ class Snippets(unittest.TestCase):
                 elif engine == "mujoco":
                     ElementTree.fromstring("<all>" + text + "</all>")
 
-    @unittest.skipUnless(shutil.which("node"), "node is not installed")
-    def test_jolt_s_is_javascript(self) -> None:
-        with tempfile.NamedTemporaryFile("w", suffix=".mjs") as file:
-            file.write(material("denim", "--engine", "jolt"))
-            file.flush()
-            subprocess.run(["node", "--check", file.name], check=True)
-
     def test_what_no_source_measured_is_marked(self) -> None:
         self.assertIn("tri_ke=50,  # N/m, # assumed", material("denim", "--engine", "newton-vbd"))
         self.assertIn("tri_ke=126,  # N/m, from the measured shear",
@@ -141,7 +133,9 @@ class Snippets(unittest.TestCase):
         self.assertIn("unknown engine 'mujocco'; known: newton-vbd",
                       material("wool", "--engine", "mujocco", code=2))
         self.assertIn("--engine NAME, or --from", material("wool", code=2))
-        self.assertIn("no rigidity follows from",
+        self.assertIn("leave out --pair",
+                      material("wool", "--engine", "mujoco", "--pair", "4,8", code=2))
+        self.assertIn("no rigidity follows from its numbers of newton-vbd: density = 0.2",
                       self.read("newton-vbd", "x.add(density=0.2, edge_ke=1)", code=2))
 
     def read(self, engine: str, text: str, *more: str, code: int = 0) -> str:

@@ -9,6 +9,7 @@ import subprocess
 import unittest
 from pathlib import Path
 
+from script_module import script
 from test_engines import ADAPTERS, ROOT, judge, require_engine, run
 
 LAWS = ("smoke", "held", "momentum", "symmetry.mirror",
@@ -48,7 +49,7 @@ newton_cloth.main()
 class PythonEngine:
     """An engine in a virtual environment."""
 
-    name, version, settings = "", "", ()
+    name, version, settings, snippets = "", "", (), ()
 
     @classmethod
     def setUpClass(cls) -> None:
@@ -81,6 +82,16 @@ class PythonEngine:
             for law in asked:
                 self.assertEqual(found[law], recorded[law][0], (settings, law))
 
+    def test_snippets_bend_and_stretch_as_the_page_records(self) -> None:
+        back = script("run_back")
+        twill = next(row for row in back.fabrics() if row["name"] == "cotton-twill")
+        for engine in self.snippets:
+            kept = json.loads(back.DATA.read_text())[engine]["cotton-twill"]
+            found = back.run_cell(engine, twill)
+            self.assertLess(abs(found["rigidity"] - 1), back.TOLERANCE)
+            for quantity in ("rigidity", "young"):
+                self.assertAlmostEqual(found[quantity], kept[quantity], delta=0.003, msg=engine)
+
     def lines(self, name: str) -> dict[str, tuple[float, float]]:
         """What a reproduction prints: measured, and right."""
         done = self.python(ADAPTERS / self.name / "reproductions" / f"{name}.py")
@@ -94,6 +105,7 @@ class PythonEngine:
 
 class Newton(PythonEngine, unittest.TestCase):
     name, version, settings = "newton", "1.8.0", ("xpbd", )
+    snippets = ("newton-vbd", "newton-style3d")
 
     def test_a_graph_gives_the_same_bits(self) -> None:
         for solver in ("vbd", "xpbd", "semi_implicit", "style3d"):
@@ -119,6 +131,7 @@ class Newton(PythonEngine, unittest.TestCase):
 
 class MuJoCo(PythonEngine, unittest.TestCase):
     name, version, settings = "mujoco", "4.0.0", ("flex", "tendons")
+    snippets = ("mujoco", )
 
     def test_a_flex_is_a_plate_that_is_flat_at_rest(self) -> None:
         for what, (measured, right) in self.lines("flex").items():
@@ -130,8 +143,9 @@ class MuJoCo(PythonEngine, unittest.TestCase):
 
 class Tables(unittest.TestCase):
     def test_pages_are_as_their_data(self) -> None:
-        done = run("scripts/record_engines", "--check")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        for words in ("scripts/record_engines", "scripts/run_back"):
+            done = run(words, "--check")
+            self.assertEqual(done.returncode, 0, words + done.stderr)
 
 
 if __name__ == "__main__":

@@ -40,51 +40,43 @@ def child(command: str) -> Pipe:
     return Pipe(os.fdopen(from_it, "rb"), os.fdopen(to_it, "wb"))
 
 
-def times(value: Any, factor: float) -> Any:
-    """Numbers, lists or arrays, which keep their type."""
-    if isinstance(value, np.ndarray):
-        return (value * factor).astype(value.dtype)
-    return [factor * each for each in value] if isinstance(value, list) else factor * value
+def times(values: dict[str, Any], by: dict[str, float], way: int) -> dict[str, Any]:
+    """The values with each that has a unit in `by` multiplied by it, or divided (way -1)."""
+    def one(value: Any, factor: float) -> Any:
+        if isinstance(value, np.ndarray):
+            return (value * factor).astype(value.dtype)
+        return [factor * each for each in value] if isinstance(value, list) else factor * value
+
+    return {name: one(value, by[name]**way) if name in by else value
+            for name, value in values.items()}
 
 
-class Scaled:
-    """Messages to the solver, and back."""
-
-    def __init__(self, of: dict[str, float]) -> None:
-        m, kg, s = of["m"], of["kg"], of["s"]
-        self.arrays = {"x": m, "rest": m, "rest_lengths": m, "v": m / s, "mass": kg,
-                       "edge_stiffness": kg / s**2, "f": kg * m / s**2}
-        self.scene = {"dt": s, "gravity": m / s**2}
-        self.material = {"density": kg / m**2, "young": kg / s**2, "bending_damping": kg * m / s,
-                         "bending_rigidity": kg * m**2 / s**2, "stretch_damping": kg / s}
-        self.header = {"dt": s, "time": s, "energy": kg * m**2 / s**2}
-
-    def __call__(self, header: dict[str, Any], arrays: dict[str, np.ndarray],
-                 way: int) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
-        def scaled(values: dict[str, Any], by: dict[str, float]) -> dict[str, Any]:
-            return {name: times(value, by[name]**way) if name in by else value
-                    for name, value in values.items()}
-
-        header = scaled(header, self.header)
-        if "scene" in header:
-            header["scene"] = scaled(header["scene"], self.scene)
-            header["scene"]["material"] = scaled(header["scene"]["material"], self.material)
-        return header, scaled(arrays, self.arrays)
+def scaled(message: tuple[dict[str, Any], dict[str, np.ndarray]], of: dict[str, float],
+           way: int) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
+    """A message in the solver's units (way 1), or back in the suite's (-1)."""
+    m, kg, s = of["m"], of["kg"], of["s"]
+    header = times(message[0], {"dt": s, "time": s, "energy": kg * m**2 / s**2}, way)
+    header.pop("arrays", None)
+    if "scene" in header:
+        scene = header["scene"] = times(header["scene"], {"dt": s, "gravity": m / s**2}, way)
+        scene["material"] = times(scene["material"], {
+            "density": kg / m**2, "young": kg / s**2, "stretch_damping": kg / s,
+            "bending_rigidity": kg * m**2 / s**2, "bending_damping": kg * m / s}, way)
+    return header, times(message[1], {
+        "x": m, "rest": m, "rest_lengths": m, "v": m / s, "mass": kg, "f": kg * m / s**2,
+        "edge_stiffness": kg / s**2}, way)
 
 
 def main() -> None:
-    scaled = Scaled(units(*map(float, sys.argv[1:4])))
+    of = units(*map(float, sys.argv[1:4]))
     judge, solver = open_pipe(), child(" ".join(sys.argv[4:]))
     while (message := judge.receive()) is not None:
-        request, arrays = scaled(*message, 1)
-        request.pop("arrays", None)
-        solver.send(request, arrays)
+        solver.send(*scaled(message, of, 1))
         while (answer := solver.receive()) is not None:
-            reply, got = scaled(*answer, -1)
-            reply.pop("arrays", None)
+            reply, arrays = scaled(answer, of, -1)
             if "capabilities" in reply:
                 reply["capabilities"] = [c for c in reply["capabilities"] if c in PASSED]
-            judge.send(reply, got)
+            judge.send(reply, arrays)
             if "progress" not in reply:
                 break
         if message[0]["op"] == "stop":
