@@ -135,8 +135,8 @@ Finding thickness_does_not_lift(Trial& trial) {
                      "the thickness is that between layers; a tenth of an edge is left");
 }
 
-/// Two pieces of cloth that meet in one place, the second one over the first. Ridges meet at an edge
-/// whose ends are on no border.
+/// Two pieces of cloth that meet in one place, the second one over the first. Ridges meet at an
+/// edge whose ends are on no border.
 struct Pair {
   const char* name;
   PerParticle3 under, over;
