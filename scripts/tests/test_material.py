@@ -41,52 +41,36 @@ def number(text: str, name: str) -> float:
 class Formulas(unittest.TestCase):
     """Twill's numbers, from each engine's energy as its source states it."""
 
-    def close(self, found: float, right: float) -> None:
-        self.assertAlmostEqual(found / right, 1, delta=1e-5)
-
-    def test_vbd_stores_half_ke_length_angle_squared(self) -> None:
-        text, length, area = material("cotton-twill", "--engine", "newton-vbd"), 0.013, 7e-5
-        self.assertIn("* length / area", text)
-        ke = number(text, "edge_ke") * length / area
-        self.close(ke * length / 2, B * length**2 / (4 * area))  # B w angle^2
-        self.close(number(text, "tri_ke"), G)
-        self.close(number(text, "tri_ka"), G)  # lambda of plane stress for nu = 1/3
-        self.close(number(text, "density"), RHO)
-
-    def test_style3d_stores_three_quarters_of_ke_length_squared_over_area(self) -> None:
-        text = material("cotton-twill", "--engine", "newton-style3d")
-        self.close(3 * number(text, "default_edge_ke"), B)
-        self.close(number(text, "shear"), G)
-        self.close(number(text, "warp"), 8 / 3 * G)
-
-    def test_mujoco_is_a_plate(self) -> None:
-        root = ElementTree.fromstring(material("cotton-twill", "--engine", "mujoco").partition(
-            "\n<mujoco>")[2].join(("<mujoco>", "")))
-        given = {k: float(v) for k, v in root.find(".//elasticity").attrib.items()
-                 if k != "elastic2d"}
-        young, nu, t = (given[name] for name in ("young", "poisson", "thickness"))
-        self.close(young * t**3 / (12 * (1 - nu**2)), B)
-        self.close(young * t / (2 * (1 + nu)), G)
-        self.close(float(root.find(".//flexcomp").attrib["mass"]), RHO)
-
-    def test_jolt_stores_angle_squared_over_twice_the_compliance(self) -> None:
-        text, length, area = material("cotton-twill", "--engine", "jolt"), 0.013, 7e-5
-        compliance = number(text, "hinge_compliance") * area / length**2
-        self.close(1 / (2 * compliance), B * length**2 / (4 * area))
-        self.close(number(text, "edge_compliance"), 1 / (8 / 3 * G))
-
-    def test_blender_pushes_with_a_third_of_hundred_stiffness_length_angle(self) -> None:
-        text, length, area = material("cotton-twill", "--engine", "blender"), 0.013, 7e-5
-        force = 100 / 3 * number(text, "bending_stiffness") * length**2 / area**2 * length
-        # far corner of the hinge: the moment 2 B w angle over its height
-        self.close(force, 2 * B * length**2 / (4 * area) / (2 * area / length))
-
-    def test_ppf_scales_with_density(self) -> None:
-        text = material("cotton-twill", "--engine", "ppf")
-        self.close(1.28e-5 * number(text, "bend") * number(text, "density"), B)
-        young, nu = number(text, "young-mod"), number(text, "poiss-rat")
-        self.close(RHO * young * nu / ((1 + nu) * (1 - 2 * nu)), G)
-        self.close(RHO * young / (2 * (1 + nu)), 8 / 3 * G)
+    def test_numbers_store_the_energy_of_the_fabric(self) -> None:
+        edge, size = 0.013, 7e-5  # of a hinge [m], of a triangle [m^2]
+        weight = edge**2 / (4 * size)  # it stores B weight angle^2
+        for engine, pairs in {
+                # half ke length angle^2; Lame's constants of plane stress
+                "newton-vbd": lambda n: [(n("edge_ke") * edge / size * edge / 2, B * weight),
+                                         (n("tri_ke"), G), (n("tri_ka"), G), (n("density"), RHO)],
+                # 3 ke edge^2/(4 A) angle^2; Baraff and Witkin's
+                "newton-style3d": lambda n: [(3 * n("default_edge_ke"), B), (n("shear"), G),
+                                             (n("warp"), 8 / 3 * G), (n("density"), RHO)],
+                # a plate
+                "mujoco": lambda n: [
+                    (n("young") * n("thickness")**3 / (12 * (1 - n("poisson")**2)), B),
+                    (n("young") * n("thickness") / (2 * (1 + n("poisson"))), G), (n("mass"), RHO)],
+                # angle^2 over twice the compliance; a spring of Y (A1 + A2)/L^2
+                "jolt": lambda n: [(1 / (2 * n("hinge_compliance") * size / edge**2), B * weight),
+                                   (n("edge_compliance"), 1 / (8 / 3 * G))],
+                # pushes a far corner with a third of 100 stiffness, edge and angle
+                "blender": lambda n: [
+                    (100 / 3 * n("bending_stiffness") * edge**2 / size**2 * edge,
+                     2 * B * weight / (2 * size / edge))],
+                "ppf": lambda n: [
+                    (1.28e-5 * n("bend") * n("density"), B),
+                    (RHO * n("young-mod") * n("poiss-rat") / (
+                        (1 + n("poiss-rat")) * (1 - 2 * n("poiss-rat"))), G),
+                    (RHO * n("young-mod") / (2 * (1 + n("poiss-rat"))), 8 / 3 * G)],
+        }.items():
+            text = material("cotton-twill", "--engine", engine)
+            for found, right in pairs(lambda name, text=text: number(text, name)):
+                self.assertAlmostEqual(found / right, 1, delta=1e-5, msg=engine)
 
     def test_one_number_for_a_mesh_is_the_hinges_own_where_all_are_alike(self) -> None:
         with tempfile.TemporaryDirectory() as folder:
@@ -94,7 +78,7 @@ class Formulas(unittest.TestCase):
             file.write_text(equilateral(24, 0.01))
             text = material("cotton-twill", "--engine", "newton-vbd", "--mesh", file)
         one = float(re.search(r"one edge_ke for all hinges of \S+: (\S+) N", text)[1])
-        self.assertAlmostEqual(one / (2 * B / 3**0.5 / 0.01), 1, delta=0.04)  # its border has none
+        self.assertAlmostEqual(one / (2 * B / 3**0.5 / 0.01), 1, delta=1e-5)
 
 
 def equilateral(rows: int, side: float) -> str:
