@@ -17,8 +17,8 @@ constexpr double same_value = 1e-9;  // of two settings [1]
 // Of the change from one extrapolated limit to the next: if the next term is of half an order more,
 // 2.4 times the change is left. [1]
 constexpr double limit_safety = 3;
-constexpr double visible = 1e-3;  // distance of limits that matters, over the scale [1]
-constexpr double highest_order = 4;    // that is extrapolated with
+constexpr double visible = 1e-3;         // distance of limits that matters, over the scale [1]
+constexpr double highest_order = 4;      // that is extrapolated with
 constexpr double single_floor = 1.2e-4;  // 1e3 roundings of single precision [1]
 
 bool are_same(double a, double b) { return std::abs(a - b) <= same_value * std::abs(b); }
@@ -131,7 +131,7 @@ double scale_of(const SettingsMap& map, size_t quantity, const Seen& limit) {
   double motion = nan;
   for (const SettingsRun& run : map.runs)
     if (run.stopped.empty()) motion = run.motion;
-  return motion;
+  return limit.size() == 1 ? std::max(motion, size_of(limit)) : motion;
 }
 
 std::string value_text(const Seen& value) {
@@ -207,20 +207,19 @@ OwnLimit own_limit(const SettingsMap& map, size_t quantity) {
     return own;
   }
   const bool by_fineness = map.axes.size() > 1 && map.axes[1].falls();
-  const ChainLimit& best =
-      by_fineness ? limits.front()
-                  : *std::ranges::min_element(limits, {}, [](const ChainLimit& limit) {
-                      return std::isfinite(limit.bar) ? limit.bar : INFINITY;
-                    });
+  const ChainLimit& best = by_fineness
+                               ? limits.front()
+                               : *std::ranges::min_element(limits, {}, [](const ChainLimit& limit) {
+                                   return std::isfinite(limit.bar) ? limit.bar : INFINITY;
+                                 });
   own.scale = scale_of(map, quantity, best.value);
   own.none = rows_disagree(map, limits, own.scale);
   if (!own.none.empty()) return own;
   own.value = best.value, own.bar = best.bar, own.order = best.read.order, own.along = best.along;
-  if (by_fineness && limits.size() > 1)
-    own.bar += size_of(limits[1].value - best.value);
+  if (by_fineness && limits.size() > 1) own.bar += size_of(limits[1].value - best.value);
   if (!(own.bar <= 0.5 * own.scale))
-    own.unknown = fmt::format("rows of {} have not settled: {}", map.axes[0].name,
-                              in_words(best.read));
+    own.unknown =
+        fmt::format("rows of {} have not settled: {}", map.axes[0].name, in_words(best.read));
   return own;
 }
 
@@ -230,8 +229,8 @@ double error_of(const SettingsRun& run, size_t quantity, const OwnLimit& limit) 
   return std::isnan(error) ? INFINITY : error;
 }
 
-PricedPair pair_in_row(const SettingsMap& map, size_t quantity, double other,
-                       const OwnLimit& limit, double wanted) {
+PricedPair pair_in_row(const SettingsMap& map, size_t quantity, double other, const OwnLimit& limit,
+                       double wanted) {
   const Row row = row_of(map, 0, other);
   size_t first = row.size();  // from here on, all runs reach it
   while (first > 0 && error_of(*row[first - 1], quantity, limit) <= wanted) --first;
@@ -246,8 +245,8 @@ PricedPair pair_in_row(const SettingsMap& map, size_t quantity, double other,
   const double unit = map.axes[0].unit, exact = coarse.at[0] * std::pow(ratio, part);
   const double value = map.axes[0].falls() ? exact : unit * std::ceil(exact / unit - same_value);
   if (are_same(value, fine.at[0]) || !std::isfinite(value)) return pair;
-  pair.cost = coarse.cost * std::pow(fine.cost / coarse.cost,
-                                     std::log(value / coarse.at[0]) / std::log(ratio));
+  pair.cost = coarse.cost *
+              std::pow(fine.cost / coarse.cost, std::log(value / coarse.at[0]) / std::log(ratio));
   pair.at[0] = value, pair.was_run = false, pair.error = nan;
   return pair;
 }
@@ -266,7 +265,8 @@ PricedPair cheapest_pair(const SettingsMap& map, size_t quantity, double wanted)
   if (std::isnan(best.cost)) best.because = "no run reaches it";
   if (limit.bar > wanted * limit.scale) {
     best = {wanted};
-    best.because = fmt::format("the limit is known to {:.2g} % only", 100 * limit.bar / limit.scale);
+    best.because =
+        fmt::format("the limit is known to {:.2g} % only", 100 * limit.bar / limit.scale);
   }
   return best;
 }

@@ -17,7 +17,7 @@ namespace foldproof {
 struct SettingsAxis {
   std::string name;
   TunableKind kind = TunableKind::substeps;
-  double first = 1;                 // the value in use
+  double first = 1;                  // the value in use
   double least = 1, most = 1 << 20;  // of its values
   bool is_proportional = true;       // costs in proportion to it
   double unit = 1;                   // values are multiples of it, but of a tolerance
@@ -40,22 +40,22 @@ using SettingsPair = std::array<double, 2>;  // values of both tunables; of one 
 
 struct SettingsRun {
   SettingsPair at;
-  double cost = 0;          // the product of the proportional tunables; else seconds
-  double seconds = 0;       // of the processor
-  double motion = nan;      // largest distance from the start, root mean square [m]
+  double cost = 0;              // the product of the proportional tunables; else seconds
+  double seconds = 0;           // of the processor
+  double motion = nan;          // largest distance from the start, root mean square [m]
   std::vector<Seen> seen = {};  // one a quantity
   std::string stopped = {};     // why it came to no end, or ""
 };
 
 struct SettingsQuantity {
   std::string name, unit;
-  double floor = 0;          // differences up to it are rounding
-  Seen truth = {};           // the converged answer of another solver; empty: not known
-  double truth_bar = 0;      // of it
+  double floor = 0;      // differences up to it are rounding
+  Seen truth = {};       // the converged answer of another solver; empty: not known
+  double truth_bar = 0;  // of it
 };
 
 struct SettingsMap {
-  std::vector<SettingsAxis> axes;  // one or two; iterations, or a tolerance, last
+  std::vector<SettingsAxis> axes;            // one or two; iterations, or a tolerance, last
   std::vector<SettingsQuantity> quantities;  // positions first
   std::vector<SettingsRun> runs = {};
 
@@ -67,9 +67,10 @@ struct SettingsMap {
 
 /// The limit of a quantity as a solver refines its settings, by Richardson's extrapolation.
 struct OwnLimit {
-  Seen value;           // empty: not known, or none
-  double bar = nan;     // of it, in the quantity's unit
-  double scale = nan;   // that errors are divided by: the motion of lengths, else the limit's size
+  Seen value;        // empty: not known, or none
+  double bar = nan;  // of it, in the quantity's unit
+  double scale =
+      nan;  // of errors: the motion of positions; of a length that, or the limit, if larger
   double order = nan;   // observed in the first tunable
   double along = 1;     // value of the second tunable at which it was found
   std::string none;     // why there is none; "" if there is, or if it is not known
@@ -98,8 +99,8 @@ struct PricedPair {
 PricedPair cheapest_pair(const SettingsMap& map, size_t quantity, double wanted);
 
 /// Where one row reaches the error for good; cost is NaN where it does not.
-PricedPair pair_in_row(const SettingsMap& map, size_t quantity, double other,
-                       const OwnLimit& limit, double wanted);
+PricedPair pair_in_row(const SettingsMap& map, size_t quantity, double other, const OwnLimit& limit,
+                       double wanted);
 
 /// Runs what the map needs; not kept in the map by the callee.
 using RunSettings = std::function<SettingsRun(const SettingsPair& at)>;

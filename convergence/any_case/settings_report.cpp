@@ -80,10 +80,14 @@ constexpr double hundred = 100;  // percent
 
 std::string regime_in_words(Regime regime) {
   switch (regime) {
-    case Regime::discretisation: return "what you see is the discretisation";
-    case Regime::unconverged: return "what you see is an unconverged solve";
-    case Regime::rounding: return "what you see is the floor of rounding";
-    default: return "what it is made of is not known: the second tunable has no three values there";
+    case Regime::discretisation:
+      return "what you see is the discretisation";
+    case Regime::unconverged:
+      return "what you see is an unconverged solve";
+    case Regime::rounding:
+      return "what you see is the floor of rounding";
+    default:
+      return "what it is made of is not known: the second tunable has no three values there";
   }
 }
 
@@ -100,16 +104,15 @@ std::string price_in_words(const SettingsAnswer& answer, const PricedPair& pair)
 std::string sentence_of(const SettingsAnswer& answer, size_t q) {
   const SettingsQuantity& quantity = answer.map.quantities[q];
   const QuantityAnswer& of = answer.quantities[q];
-  if (!of.limit.none.empty())
-    return fmt::format("{}: no limit: {}", quantity.name, of.limit.none);
+  if (!of.limit.none.empty()) return fmt::format("{}: no limit: {}", quantity.name, of.limit.none);
   if (!of.limit.unknown.empty())
     return fmt::format("{}: the limit is not known: {}", quantity.name, of.limit.unknown);
   std::string text =
       std::isnan(of.in_use.all)
           ? fmt::format("{}: {} was not run", quantity.name, pair_text(answer.map, answer.in_use))
           : fmt::format("at {} your {} {} {:.2g} % from your own limit",
-                        pair_text(answer.map, answer.in_use), quantity.name,
-                        q == 0 ? "are" : "is", hundred * of.in_use.all);
+                        pair_text(answer.map, answer.in_use), quantity.name, q == 0 ? "are" : "is",
+                        hundred * of.in_use.all);
   for (const PricedPair& pair : of.pairs) text += "; " + price_in_words(answer, pair);
   if (!std::isnan(of.in_use.all)) text += "; " + regime_in_words(of.in_use.regime);
   return text;
@@ -129,8 +132,7 @@ std::vector<std::string> settings_sentences(const SettingsAnswer& answer) {
   for (size_t q = 0; q < answer.quantities.size(); ++q) {
     sentences.push_back(sentence_of(answer, q));
     const QuantityAnswer& of = answer.quantities[q];
-    if (!std::isnan(of.gap))
-      sentences.push_back(gap_in_words(answer.map.quantities[q].name, of));
+    if (!std::isnan(of.gap)) sentences.push_back(gap_in_words(answer.map.quantities[q].name, of));
     if (!of.ends.empty() && (q == 0 || answer.quantities[0].ends.empty()))
       sentences.push_back(of.ends);
   }
@@ -157,8 +159,7 @@ Curve contour(const SettingsAnswer& answer, double wanted) {
   Curve curve{fmt::format("{:.2g} %", hundred * wanted)};
   for (const double other : values_on(answer.map, 1)) {
     SettingsMap row = answer.map;
-    const PricedPair pair =
-        pair_in_row(row, 0, other, answer.quantities[0].limit, wanted);
+    const PricedPair pair = pair_in_row(row, 0, other, answer.quantities[0].limit, wanted);
     if (std::isfinite(pair.cost)) curve.point(pair.at[0], other);
   }
   return curve;
@@ -241,7 +242,8 @@ Table run_table(const SettingsAnswer& answer) {
 
 StudyRecord settings_study(const SettingsAnswer& answer) {
   StudyRecord study;
-  study.name = fmt::format("converge.{}.{}.settings", as_name(answer.scene), as_name(answer.solver));
+  study.name =
+      fmt::format("converge.{}.{}.settings", as_name(answer.scene), as_name(answer.solver));
   study.source = "Roache 1994; Eca and Hoekstra 2014";
   for (const std::string& sentence : settings_sentences(answer))
     study.claim += (study.claim.empty() ? "" : ". ") + sentence;

@@ -11,9 +11,9 @@ namespace foldproof {
 
 /// The cloth whose frames are measured.
 struct SettingsCloth {
-  PerParticle mass;             // N, of any unit; 0 where the motion is prescribed
-  std::vector<Edge> edges;      // none: strains are not measured
-  Eigen::VectorXd lengths;      // of the edges at rest [m]
+  PerParticle mass;         // N, of any unit; 0 where the motion is prescribed
+  std::vector<Edge> edges;  // none: strains are not measured
+  Eigen::VectorXd lengths;  // of the edges at rest [m]
   Vector3 up = Vector3::UnitZ();
 };
 
@@ -30,7 +30,7 @@ struct QuantityAnswer {
   OwnLimit limit;
   std::vector<PricedPair> pairs;
   PairError in_use;
-  std::string ends;           // end_of_refinement
+  std::string ends;                 // end_of_refinement
   double gap = nan, gap_bar = nan;  // of the limit from the truth, over the scale [1]
 };
 
@@ -45,7 +45,7 @@ struct SettingsAnswer {
   SettingsMap map;
   std::string scene, solver;
   SettingsPair in_use;
-  std::vector<double> wanted;            // 1
+  std::vector<double> wanted;              // 1
   std::vector<QuantityAnswer> quantities;  // as the map's
   std::vector<ApparentMaterial> material = {};
   std::string step_check = {};  // whether substeps refine all that a shorter step refines; or ""

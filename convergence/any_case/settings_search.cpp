@@ -8,7 +8,7 @@ namespace foldproof {
 
 namespace {
 
-constexpr double steepest = 2;   // order at which errors may fall beyond the runs so far [1]
+constexpr double steepest = 2;          // order at which errors may fall beyond the runs so far [1]
 constexpr double limit_part = 1.0 / 3;  // of a wanted error that the limit's bar may have
 constexpr double row_spacing = 4;       // of the first rows' second values
 constexpr int most_confirmed = 4;       // pairs that are run to name one
@@ -90,9 +90,8 @@ class Search {
     const SettingsRun* last = last_of(other);
     if (!last || limit.value.size() == 0) return 0;
     const double error = error_of(*last, quantity_, limit);
-    return std::isfinite(error)
-               ? last->cost * std::max(1.0, std::pow(error / wanted, 1 / steepest))
-               : 0;
+    return std::isfinite(error) ? last->cost * std::max(1.0, std::pow(error / wanted, 1 / steepest))
+                                : 0;
   }
 
   bool is_known(const OwnLimit& limit, double wanted) const {
@@ -105,8 +104,10 @@ class Search {
     const std::vector<double> rows = first_rows();
     for (int k = 0; k < 3; ++k)
       for (const double row : rows) {
-        if (k == 0) make({map_.axes[0].first, row});
-        else make(next_of(row));
+        if (k == 0)
+          make({map_.axes[0].first, row});
+        else
+          make(next_of(row));
       }
     while (true) {
       const OwnLimit limit = own_limit(map_, quantity_);

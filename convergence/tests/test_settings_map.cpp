@@ -31,7 +31,8 @@ MadeUp surface(Random& random) {
     for (double& entry : v.reshaped()) entry = between(random, -1, 1);
     return Seen(v * (size / v.norm()));
   };
-  const double p = between(random, 0.9, 2), q = between(random, 1, 2.5), r = between(random, 0.5, 1.5);
+  const double p = between(random, 0.9, 2), q = between(random, 1, 2.5),
+               r = between(random, 0.5, 1.5);
   const Seen limit = vector(1), first = vector(between(random, 0.1, 0.6)), second = vector(0.1),
              solve = vector(between(random, 0.3, 2));
   return {[=](const SettingsPair& at) {
@@ -70,8 +71,8 @@ Seen swing_position_based(const ChainOfMasses& chain, const SettingsPair& at, bo
       for (int i = 0; i < chain.n; ++i) {
         const Eigen::Vector2d d = i > 0 ? x.col(i) - x.col(i - 1) : Eigen::Vector2d(x.col(0));
         const double weight = i > 0 ? 2 * w : w;
-        const double change = -(d.norm() - chain.length() + compliance * multipliers[i]) /
-                              (weight + compliance);
+        const double change =
+            -(d.norm() - chain.length() + compliance * multipliers[i]) / (weight + compliance);
         multipliers[i] += change;
         x.col(i) += w * change * d.normalized();
         if (i > 0) x.col(i - 1) -= w * change * d.normalized();
@@ -92,16 +93,14 @@ Seen swing_implicit(const ChainOfMasses& chain, double substeps, int sweeps) {
     stiffness(i, i) += chain.k * (i + 1 < n ? 2 : 1);
     if (i > 0) stiffness(i, i - 1) = stiffness(i - 1, i) = -chain.k;
   }
-  const Eigen::MatrixXd matrix =
-      chain.mass() * Eigen::MatrixXd::Identity(n, n) + h * h * stiffness;
+  const Eigen::MatrixXd matrix = chain.mass() * Eigen::MatrixXd::Identity(n, n) + h * h * stiffness;
   const Eigen::LLT<Eigen::MatrixXd> factored(matrix);
   Eigen::VectorXd u = Eigen::VectorXd::Zero(n), v = u;
   for (int step = 0; step < int(std::lround(chain.frames * substeps)); ++step) {
     const Eigen::VectorXd b = (chain.mass() * (v.array() - 9.81 * h)).matrix() - h * stiffness * u;
     if (sweeps == 0) v = factored.solve(b);
     for (int sweep = 0; sweep < sweeps; ++sweep)
-      for (int i = 0; i < n; ++i)
-        v[i] += (b[i] - matrix.row(i).dot(v)) / matrix(i, i);
+      for (int i = 0; i < n; ++i) v[i] += (b[i] - matrix.row(i).dot(v)) / matrix(i, i);
     u += h * v;
   }
   return u / std::sqrt(double(n));
@@ -126,8 +125,9 @@ MadeUp position_based_chain(Random& random, bool resets = false) {
   const double softest = resets ? 20 : 100;
   const ChainOfMasses chain{int(between(random, 5, 10)), between(random, softest, 10 * softest),
                             between(random, 0.02, 0.05), int(between(random, 4, 9))};
-  const Seen limit = limit_of_swing(
-      [&](double s) { return swing_position_based(chain, {s, 2}, resets); });
+  const Seen limit = limit_of_swing([&](double s) {
+    return swing_position_based(chain, {s, 2}, resets);
+  });
   Masses start(2, chain.n);
   for (int i = 0; i < chain.n; ++i) start.col(i) << (i + 1) * chain.length(), 0;
   return {[=](const SettingsPair& at) { return swing_position_based(chain, at, resets); }, limit,
@@ -166,11 +166,10 @@ struct Score {
 };
 
 void try_one(const MadeUp& solver, Random& random, Score& score) {
-  SettingsMap map = map_from(std::exp2(int(between(random, 0, 3))),
-                             std::exp2(int(between(random, 1, 4))));
+  SettingsMap map =
+      map_from(std::exp2(int(between(random, 0, 3))), std::exp2(int(between(random, 1, 4))));
   const double grid = std::pow(2 * finest - 1, 2);
-  const std::vector<PricedPair> pairs =
-      find_pairs(map, 0, {1e-2, 1e-3}, grid / 3, runs_of(solver));
+  const std::vector<PricedPair> pairs = find_pairs(map, 0, {1e-2, 1e-3}, grid / 3, runs_of(solver));
   const OwnLimit limit = own_limit(map, 0);
   ++score.problems;
   score.costs.push_back(map.cost() / grid);

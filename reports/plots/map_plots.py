@@ -127,6 +127,8 @@ def _draw_curves(axes: Axes, curves: list[Curve]) -> None:
         good = np.isfinite(curve.x) & np.isfinite(curve.y)
         x, y = curve.x[good], curve.y[good]
         style = DASHES[index % len(DASHES)]
+        if len(x) == 1:  # a place, not a line
+            axes.plot(x, y, "o", color=INK, markeredgecolor=PAPER, markersize=7, zorder=5)
         axes.plot(x, y, color=PAPER, linewidth=3.6, zorder=3, scalex=False, scaley=False)
         axes.plot(
             x, y, color=INK, linewidth=1.4, linestyle=style, zorder=4, scalex=False, scaley=False

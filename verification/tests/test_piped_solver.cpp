@@ -74,6 +74,19 @@ TEST_CASE("subject: a capability that there is not is told by its name") {
   CHECK_THROWS_WITH(read_declaration(header), Contains("'sphere', which is no capability"));
 }
 
+TEST_CASE("subject: a tunable has a kind, and a value in its range") {
+  nlohmann::json header = nlohmann::json::parse(R"({"protocol": 2, "name": "n", "version": "1",
+    "level": "L1", "precision": "f8", "scheme": {"name": "s", "order": 1}, "capabilities": [],
+    "tunables": {"sweeps": {"kind": "iterations", "range": [3, 50], "value": 7}}})");
+  const Tunable sweeps = read_declaration(header).tunables.at(0);
+  CHECK((sweeps.name == "sweeps" && sweeps.kind == TunableKind::iterations));
+  CHECK((sweeps.least == 3 && sweeps.most == 50 && sweeps.value == 7 && !sweeps.is_proportional));
+  header["tunables"]["sweeps"]["value"] = 51;
+  CHECK_THROWS_WITH(read_declaration(header), Contains("'sweeps' with a value outside its range"));
+  header["tunables"]["sweeps"]["kind"] = "sweeps";
+  CHECK_THROWS_WITH(read_declaration(header), Contains("'sweeps' of no kind"));
+}
+
 TEST_CASE("subject: memory and files are limited, and noise on standard output does no harm") {
   SolverCommand filling = broken("fill_memory"), writing = broken("fill_disk");
   filling.limits.memory_bytes = 768L << 20;

@@ -407,6 +407,15 @@ and whether both error bars explain that. A case can have what the protocol can 
 still, self-collision, and planes, boxes, spheres and capsules at rest. The solver's runs are not
 kept.
 
+--over NAMES maps the error over the settings that a solver declares (`tunables` in PROTOCOL.md), as
+substeps and iterations, or over step and tolerance of the reference. Says how far positions, sag,
+height and largest strain are from the solver's own limit, and from the reference's; whether that is
+discretisation, an unconverged solve or rounding; whether there is a limit at all; and the cheapest
+pair for each of --errors, which was run. Rows of one iteration count are refined in turn, so that
+it costs at most a third of a grid; --hours limits it (default: 5 min).
+--runs TABLE.csv does so with runs that were made elsewhere: columns of one or two tunables, `frames`
+(a folder or a cache), and, if you like, `seconds`; a row "truth" has the converged frames.
+
 The folder keeps every run: an interrupted call resumes; a second call runs only what is missing.
 The two coarsest levels run alone first and show what the others will cost. A level that exceeds the
 memory or --hours is refused; the other levels still give a result. Seconds are processor time of a
@@ -414,7 +423,7 @@ run's own thread. DIR/converge.h5 is for `foldproof report DIR`.
 
 Examples:
   foldproof converge hanging_sheet --solver ./adapter --settings iterations=20
-  foldproof converge hanging_sheet --in space --set cloth.columns=6 --set cloth.rows=6 --until 0.3
+  foldproof converge hanging_sheet --solver ./adapter --over substeps,iterations --at 4,8
 
 Exit codes:
   0    the positions have an order, or at least an error bar

@@ -1,14 +1,16 @@
 #include "scripts/program/any_case/converge_settings.h"
 
 #include <algorithm>
+#include <chrono>
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "convergence/any_case/portable_case.h"
+#include "convergence/any_case/settings_material.h"
 #include "convergence/any_case/settings_report.h"
 #include "convergence/any_case/solver_ladder.h"
 #include "convergence/any_case/space_ladder.h"
 #include "convergence/work_precision/precision_problem.h"
-#include "reference/mesh/mesh_frames.h"
 #include "scripts/program/any_case/ladder_runs.h"
 #include "scripts/program/any_case/settings_table.h"
 #include "scripts/program/command_line/input_files.h"
@@ -31,7 +33,7 @@ namespace foldproof {
 
 namespace {
 
-constexpr double usual_hours = 5.0 / 60, most_of_grid = 1.0 / 3;
+constexpr double usual_hours = 5.0 / 60;
 
 /// The tunables of --over as axes; `known`: those that there are. Iterations and tolerances last.
 std::vector<SettingsAxis> axes_of(const ConvergeOptions& options,
@@ -45,13 +47,13 @@ std::vector<SettingsAxis> axes_of(const ConvergeOptions& options,
     if (found == known.end()) {
       std::string names;
       for (const Tunable& one : known) names += (names.empty() ? "" : ", ") + one.name;
-      throw InputError(fmt::format("--over {}: no tunable of the solver; it has {}",
-                                   options.over[k], names));
+      throw InputError(
+          fmt::format("--over {}: no tunable of the solver; it has {}", options.over[k], names));
     }
     if (found->kind == TunableKind::relaxation)
       throw InputError("--over " + found->name + ": a relaxation has no finer values");
-    SettingsAxis axis{found->name, found->kind, found->value, found->least, found->most,
-                      found->is_proportional};
+    SettingsAxis axis{found->name,  found->kind, found->value,
+                      found->least, found->most, found->is_proportional};
     if (!options.at.empty()) axis.first = options.at[k];
     if (!axis.has(axis.first))
       throw InputError(fmt::format("--at {:g}: {} is from {:g} to {:g}", axis.first, axis.name,
@@ -95,12 +97,12 @@ std::vector<double> wanted_of(const Options& options) {
   return wanted;
 }
 
-/// The cost that fits the time: by that of the pair in use, which is run first.
+/// The cost that fits the time of the clock: by that of the pair in use, which is run first.
 double cost_within(SettingsMap& map, const RunSettings& run, double hours) {
+  const auto start = std::chrono::steady_clock::now();
   map.runs.push_back(run(pair_in_use(map)));
-  const SettingsRun& first = map.runs.back();
-  const double seconds = 3600 * (hours > 0 ? hours : usual_hours);
-  return first.seconds > 0 ? first.cost * seconds / first.seconds : INFINITY;
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+  return map.cost() * 3600 * (hours > 0 ? hours : usual_hours) / took.count();
 }
 
 /// Makes the runs: the column of the pair in use, then what each quantity's pairs need.
@@ -113,8 +115,10 @@ SettingsAnswer searched(SettingsMap map, const ConvergeOptions& options, const R
   };
   const SettingsPair in_use = pair_in_use(map);
   run_column(map, in_use, most, told);
-  for (size_t q = 0; q < map.quantities.size(); ++q)
-    find_pairs(map, q, wanted_of(options), most, told);
+  find_pairs(map, 0, wanted_of(options), most, told);
+  const double more = std::min(most, 1.5 * map.cost());  // the others may cost half as much again
+  for (size_t q = 1; q < map.quantities.size(); ++q)
+    find_pairs(map, q, wanted_of(options), more, told);
   return settings_answer(std::move(map), in_use, wanted_of(options));
 }
 
@@ -158,13 +162,20 @@ struct TunedSolver {
     a_frame = divides ? 1 : ladder.steps().a_frame;
   }
 
-  LevelRun run(const SettingsMap& map, const SettingsPair& at, long steps) {
+  /// Sets the tunables; returns the steps of a frame, `steps` where they are none of them.
+  long tune(const SettingsMap& map, const SettingsPair& at, long steps) {
     std::map<std::string, double> values;
     for (size_t axis = 0; axis < map.axes.size(); ++axis)
-      if (map.axes[axis].kind == TunableKind::step) steps = std::lround(at[axis]);
-      else values[map.axes[axis].name] = at[axis];
+      if (map.axes[axis].kind == TunableKind::step)
+        steps = std::lround(at[axis]);
+      else
+        values[map.axes[axis].name] = at[axis];
     trial.tune(values);
-    return ladder.run_with(steps);
+    return steps;
+  }
+
+  LevelRun run(const SettingsMap& map, const SettingsPair& at, long steps) {
+    return ladder.run_with(tune(map, at, steps));
   }
 };
 
@@ -181,8 +192,7 @@ std::string step_check(const SettingsAnswer& answer, TunedSolver& solver,
       finest = &run;
   if (!finest) return "";
   const SettingsPair half{finest->at[0] / 2, finest->at[1]};
-  const SettingsRun other =
-      run_of(map, half, solver.run(map, half, 2 * solver.a_frame), cloth, 0);
+  const SettingsRun other = run_of(map, half, solver.run(map, half, 2 * solver.a_frame), cloth, 0);
   if (!other.stopped.empty()) return "";
   const double moved = size_of(other.seen[0] - finest->seen[0]) / limit.scale;
   const std::string head = fmt::format("half the step with half the {} moves positions by {:.2g} %",
@@ -192,6 +202,34 @@ std::string step_check(const SettingsAnswer& answer, TunedSolver& solver,
              ? fmt::format("{}: {} do not refine all that a step does, such as contact", head,
                            map.axes[0].name)
              : head + ": they refine what a step does";
+}
+
+constexpr double seconds_to_rest = 10;       // of motion, about
+constexpr double seconds_for_material = 10;  // of the processor
+
+/// At the pair in use and at the finest pair that is named and can be asked in that time; none
+/// where a cloth finds no rest.
+std::vector<ApparentMaterial> material_of(const SettingsAnswer& answer, TunedSolver& solver,
+                                          const Scene& scene) {
+  const PricedPair* fine = nullptr;
+  for (const PricedPair& pair : answer.quantities[0].pairs)
+    if (const SettingsRun* run = answer.map.find(pair.at);
+        run && run->seconds * seconds_to_rest < seconds_for_material * scene.schedule.end)
+      fine = &pair;
+  if (!fine) return {};
+  const auto young = [&](const SettingsPair& at) {
+    const long steps = solver.tune(answer.map, at, solver.a_frame);
+    return apparent_young(solver.trial, portable_case(scene),
+                          solver.ladder.steps().interval / double(steps));
+  };
+  try {
+    return {{"membrane stiffness", young(answer.in_use), young(fine->at), "N/m"}};
+  } catch (const NotOffered&) {
+  } catch (const FailedWithoutNumber&) {
+  } catch (const SolverFailure& failure) {
+    solver.trial.note(failure);
+  }
+  return {};
 }
 
 SettingsAnswer answer_of_solver(const LadderPlan& plan, const ConvergeOptions& options,
@@ -210,6 +248,7 @@ SettingsAnswer answer_of_solver(const LadderPlan& plan, const ConvergeOptions& o
   answer.scene = scene.name;
   answer.solver = declared.name + (declared.version.empty() ? "" : " " + declared.version);
   answer.step_check = step_check(answer, solver, cloth);
+  answer.material = material_of(answer, solver, scene);
   return answer;
 }
 
@@ -219,8 +258,7 @@ SettingsAnswer answer_of_reference(const CaseSource& source, const LadderPlan& p
                                    const ConvergeOptions& options, const LevelRunner& by) {
   const Scene& scene = plan.input_case.scene;
   const SettingsCloth cloth = cloth_of(scene);
-  const std::vector<double> ends =
-      stored_level(time_level(plan, 0, {}), by.kept).step_ends;
+  const std::vector<double> ends = stored_level(time_level(plan, 0, {}), by.kept).step_ends;
   const double count = double(ends.size()), tolerance = scene.solver.tolerance;
   SettingsMap map{axes_of(options, {{"step", TunableKind::step, count, 1e9, count, true},
                                     {"tolerance", TunableKind::tolerance, 1e-15, 0.5, tolerance}}),
@@ -265,46 +303,63 @@ void print(const SettingsAnswer& answer) {
                percent_text(in_use.of_second), limit.order, percent_text(in_use.from_truth),
                name_of(in_use.regime));
   }
-  fmt::print("\nin use: error of {} from the own limit; by first: what is left when {} converged; "
-             "order: in {}\n\n",
-             pair_text(map, answer.in_use), map.axes.size() > 1 ? map.axes[1].name + " have" : "it has",
-             map.axes[0].name);
+  fmt::print(
+      "\nin use: error of {} from the own limit; by first: what is left when {} converged; "
+      "order: in {}\n\n",
+      pair_text(map, answer.in_use), map.axes.size() > 1 ? map.axes[1].name + " have" : "it has",
+      map.axes[0].name);
   for (const std::string& sentence : settings_sentences(answer)) fmt::print("{}\n", sentence);
 }
 
 nlohmann::json to_json(const SettingsAnswer& answer, const Options& options) {
   const SettingsMap& map = answer.map;
-  nlohmann::json told = {{"case", answer.scene}, {"solver", answer.solver},
-                         {"cost", map.cost()}, {"cost_of_grid", map.cost_of_grid()},
-                         {"in_use", answer.in_use}, {"sentences", settings_sentences(answer)},
+  nlohmann::json told = {{"case", answer.scene},
+                         {"solver", answer.solver},
+                         {"cost", map.cost()},
+                         {"cost_of_grid", map.cost_of_grid()},
+                         {"in_use", answer.in_use},
+                         {"sentences", settings_sentences(answer)},
                          {"step_check", answer.step_check},
                          {"program", program_json(options.command)}};
   for (const SettingsAxis& axis : map.axes) told["over"].push_back(axis.name);
   for (const SettingsRun& run : map.runs)
-    told["runs"].push_back({{"at", run.at}, {"cost", run.cost}, {"seconds", run.seconds},
+    told["runs"].push_back({{"at", run.at},
+                            {"cost", run.cost},
+                            {"seconds", run.seconds},
                             {"error", error_of(run, 0, answer.quantities[0].limit)},
                             {"stopped", run.stopped}});
   for (size_t q = 0; q < answer.quantities.size(); ++q) {
     const auto& [limit, pairs, in_use, ends, gap, gap_bar] = answer.quantities[q];
-    nlohmann::json one = {{"name", map.quantities[q].name}, {"unit", map.quantities[q].unit},
+    nlohmann::json one = {{"name", map.quantities[q].name},
+                          {"unit", map.quantities[q].unit},
                           {"limit", limit.value.size() == 1 ? limit.value(0, 0) : nan},
-                          {"error_bar", limit.bar}, {"scale", limit.scale},
-                          {"order", limit.order}, {"no_limit", limit.none},
-                          {"unknown", limit.unknown}, {"error", in_use.all},
-                          {"left_by_first", in_use.of_first}, {"left_by_second", in_use.of_second},
+                          {"error_bar", limit.bar},
+                          {"scale", limit.scale},
+                          {"order", limit.order},
+                          {"no_limit", limit.none},
+                          {"unknown", limit.unknown},
+                          {"error", in_use.all},
+                          {"left_by_first", in_use.of_first},
+                          {"left_by_second", in_use.of_second},
                           {"order_in_second", in_use.order_second},
-                          {"from_truth", in_use.from_truth}, {"regime", name_of(in_use.regime)},
-                          {"ends", ends}, {"limit_from_truth", gap}, {"bars", gap_bar},
+                          {"from_truth", in_use.from_truth},
+                          {"regime", name_of(in_use.regime)},
+                          {"ends", ends},
+                          {"limit_from_truth", gap},
+                          {"bars", gap_bar},
                           {"pairs", nlohmann::json::array()}};
     for (const PricedPair& pair : pairs)
-      one["pairs"].push_back({{"wanted", pair.wanted}, {"at", pair.at}, {"cost", pair.cost},
-                              {"error", pair.error}, {"was_run", pair.was_run},
+      one["pairs"].push_back({{"wanted", pair.wanted},
+                              {"at", pair.at},
+                              {"cost", pair.cost},
+                              {"error", pair.error},
+                              {"was_run", pair.was_run},
                               {"because", pair.because}});
     told["quantities"].push_back(std::move(one));
   }
   for (const ApparentMaterial& m : answer.material)
-    told["material"].push_back({{"name", m.name}, {"unit", m.unit}, {"in_use", m.in_use},
-                                {"converged", m.converged}});
+    told["material"].push_back(
+        {{"name", m.name}, {"unit", m.unit}, {"in_use", m.in_use}, {"converged", m.converged}});
   return told;
 }
 
@@ -314,8 +369,10 @@ int finish(const SettingsAnswer& answer, const ConvergeOptions& options) {
   run.studies = {settings_study(answer)};
   run.seconds = run.studies[0].seconds;
   write_run(options.out + "/converge.h5", run);
-  if (options.json) fmt::print("{}\n", json_text(to_json(answer, options)));
-  else print(answer);
+  if (options.json)
+    fmt::print("{}\n", json_text(to_json(answer, options)));
+  else
+    print(answer);
   const OwnLimit& limit = answer.quantities[0].limit;
   return limit.none.empty() && limit.unknown.empty() ? all_hold : some_fail;
 }
@@ -334,9 +391,9 @@ int converge_settings(const ConvergeOptions& options) {
   const LadderPlan plan{case_of(source), 4, {}};
   log_warnings(plan.input_case.scene);
   ResultStore store(options.out + "/store");
-  const InterruptionNotice notice("finished runs of the reference are kept in " + options.out +
-                                      "/store",
-                                  typed_again(options.words));
+  const InterruptionNotice notice(
+      "finished runs of the reference are kept in " + options.out + "/store",
+      typed_again(options.words));
   const LevelRunner by{{level_sets, store, program_identity()}, options.running};
   return finish(options.solver.empty() ? answer_of_reference(source, plan, options, by)
                                        : answer_of_solver(plan, options, by),

@@ -145,8 +145,7 @@ SettingsAnswer settings_answer_of_table(const std::string& file, const std::vect
   }
   SettingsPair in_use = map.runs.front().at;
   for (size_t k = 0; k < columns.size() && !at.empty(); ++k)
-    in_use[k] = at[std::min(at.size() - 1,
-                            size_t(std::ranges::count_if(columns, [&](size_t c) {
+    in_use[k] = at[std::min(at.size() - 1, size_t(std::ranges::count_if(columns, [&](size_t c) {
                               return c < columns[k];
                             })))];
   SettingsAnswer answer = settings_answer(std::move(map), in_use, wanted);

@@ -42,7 +42,7 @@ struct Declared {
   std::vector<std::string> capabilities;
   double solve_tolerance = 0;
   Json tunables = Json::object();  // as in PROTOCOL.md
-  Json more = Json::object();  // further fields, as {{"contact_offset", 0.001}}
+  Json more = Json::object();      // further fields, as {{"contact_offset", 0.001}}
 };
 
 /// A scene: arrays by name (PROTOCOL.md lists them), and the header's object `scene`.

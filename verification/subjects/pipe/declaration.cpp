@@ -103,8 +103,9 @@ Tunable tunable_of(const std::string& name, const json& declared) {
   const json range = declared.value("range", json());
   if (!range.is_array() || range.size() != 2 || !range[0].is_number() || !range[1].is_number())
     throw refuse("without a range of two numbers");
-  Tunable tunable{name, TunableKind(kind - tunable_kinds), range[0], range[1],
-                  number_of(declared, "value", nan), declared.value("proportional", json()) == true};
+  Tunable tunable{
+      name,     TunableKind(kind - tunable_kinds), range[0],
+      range[1], number_of(declared, "value", nan), declared.value("proportional", json()) == true};
   if (!(tunable.least > 0 && tunable.least <= tunable.value && tunable.value <= tunable.most))
     throw refuse("with a value outside its range, or a range that is not positive");
   return tunable;
