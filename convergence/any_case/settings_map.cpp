@@ -294,6 +294,17 @@ PairError pair_error(const SettingsMap& map, size_t quantity, const SettingsPair
   return error;
 }
 
+namespace {
+
+/// Whether the last two differences are no smaller than half of the one before: of first order they
+/// would be three eighths.
+bool has_stalled(const std::vector<double>& d) {
+  const size_t n = d.size();
+  return n > 2 && d[n - 1] + d[n - 2] > d[n - 3];
+}
+
+}  // namespace
+
 std::string end_of_refinement(const SettingsMap& map, size_t quantity, const OwnLimit& limit) {
   for (const double other : others_of(map)) {
     const Chain chain = chain_of(row_of(map, 0, other), 0);
@@ -307,7 +318,7 @@ std::string end_of_refinement(const SettingsMap& map, size_t quantity, const Own
       return fmt::format("{} beyond {:g} change nothing", map.axes[0].name,
                          chain.runs[size_t(zero)]->at[0]);
     }
-    if (last > 0.7 * before && largest > 10 * last && last < single_floor * limit.scale * 10)
+    if (has_stalled(d) && largest > 10 * last && last < single_floor * limit.scale * 10)
       return fmt::format("beyond {:g} {}, differences stay at {:.2g} % of it: a floor of rounding",
                          chain.runs[chain.runs.size() - 3]->at[0], map.axes[0].name,
                          100 * std::max(last, before) / limit.scale);

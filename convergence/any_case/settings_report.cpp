@@ -122,7 +122,7 @@ std::string sentence_of(const SettingsAnswer& answer, size_t q) {
 std::string gap_in_words(const std::string& name, const QuantityAnswer& of) {
   return fmt::format("{}: the limit is {:.2g} % from the truth, the bars are {:.2g} %: {}", name,
                      hundred * of.gap, hundred * of.gap_bar,
-                     of.gap > of.gap_bar ? "no pair reaches it" : "they agree");
+                     of.gap > std::max(of.gap_bar, 1e-3) ? "no pair reaches it" : "they agree");
 }
 
 }  // namespace

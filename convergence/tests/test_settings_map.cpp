@@ -240,5 +240,24 @@ TEST_CASE("a solver whose limit depends on iterations has none") {
   }
 }
 
+/// Backward Euler of a fall in air, solved; its state is rounded to single precision.
+Seen single_fall(double substeps) {
+  float x = 0, v = 0;
+  const float h = float(0.5 / substeps);
+  for (int step = 0; step < int(substeps); ++step) {
+    v = (v - 9.81F * h) / (1 + 2 * h);
+    x += h * v;
+  }
+  return Seen::Constant(1, 1, x);
+}
+
+TEST_CASE("a solver in single precision has a floor that more substeps do not pass") {
+  SettingsMap map{{{"substeps", TunableKind::substeps, 64}}, {{"height", "m"}}};
+  for (double s = 64; s <= 32768; s *= 2) map.runs.push_back({{s, 1}, s, 0, 1, {single_fall(s)}});
+  const std::string said = end_of_refinement(map, 0, own_limit(map, 0));
+  INFO(said);
+  CHECK(said.find("a floor of rounding") != std::string::npos);
+}
+
 }  // namespace
 }  // namespace foldproof

@@ -79,14 +79,8 @@ SettingsRun run_of(const SettingsMap& map, const SettingsPair& at, const LevelRu
   SettingsRun run = level.stopped.empty() ? measured_run(at, level.x, cloth) : SettingsRun{at};
   if (!level.stopped.empty()) run.stopped = level.stopped;
   run.seconds = std::isnan(level.seconds) ? level.clock : level.seconds;
-  run.cost = counted;
-  if (std::isnan(counted)) {
-    run.cost = 1;
-    for (size_t axis = 0; axis < map.axes.size(); ++axis)
-      if (!map.axes[axis].is_proportional) run.cost = run.seconds;
-    if (run.cost == 1)
-      for (size_t axis = 0; axis < map.axes.size(); ++axis) run.cost *= at[axis];
-  }
+  const bool counts = std::ranges::all_of(map.axes, &SettingsAxis::is_proportional);
+  run.cost = !std::isnan(counted) ? counted : counts ? at[0] * at[1] : run.seconds;
   return run;
 }
 
