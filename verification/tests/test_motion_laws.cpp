@@ -97,6 +97,7 @@ TEST_CASE("subject: hinges that are wrong where sharp, on a side, or from a star
   require_own("hinges_rest_as_the_shape", {angles, "symmetry.rotation-with-bending"});
   require_found({"hinges_crease"}, {"repeat"},
                 {"repeat.motion-with-bending-goes-on-from-its-state"});
+  require_law_fails("hinges_need_six_neighbours", "bending.every-pattern-resists");
   require_law_fails("hinges_are_alike", "bending.graded-rows-resist-alike");
   require_found({"hinges"}, {"together"}, {});
   require_law_fails("one_damper_at_a_time", "together.each-part-acts-as-it-does-alone");

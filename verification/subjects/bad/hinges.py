@@ -151,3 +151,15 @@ class OneDamperAtATime(Hinges):
     def alter(self, scene: Scene) -> None:
         super().alter(scene)
         self.brakes = self.brakes * (not self.c.any())
+
+
+class HingesNeedSixNeighbours(Hinges):
+    """None bends beside an inner particle that has another number of them."""
+
+    def alter(self, scene: Scene) -> None:
+        super().alter(scene)
+        hinged = {tuple(sorted(ends)) for ends in self.corners[:, 2:].tolist()}
+        border = [ends for ends in self.edges.tolist() if tuple(sorted(ends)) not in hinged]
+        odd = np.bincount(self.edges.ravel()) != 6
+        odd[np.unique(border)] = False
+        self.moments = self.moments * ~odd[self.corners[:, 2:]].any(axis=1)

@@ -221,7 +221,8 @@ Finding pairs_that_meet_stop(Trial& trial) {
   std::vector<Meeting> meetings{
       {"", 1, false, false, true, false},
       {", from behind and fast", drawn("a fast meeting", 2.2, 2.8), true, true, true, false},
-      {", both free", 1.2, false, true, false, false}};
+      {", both free", 1.2, false, true, false, false},
+      {", slowly", 0.015, true, false, true, false}};
   if (trial.declaration().offers("planes"))
     meetings.push_back({", beside a plane", 0.9, true, false, true, true});
   Table measured = table_of("pieces | time [s] | edges in triangles, or pieces through [1]");
@@ -229,7 +230,8 @@ Finding pairs_that_meet_stop(Trial& trial) {
     for (const Meeting& how : meetings) {
       const PortableScene scene = pair_that_meets(pair, how);
       const Eigen::Index half = scene.x.cols() / 2;
-      const std::vector<long> steps = multiples(2, 5);
+      // 0.01 to 0.03 m on their way
+      const std::vector<long> steps = multiples(std::max(2L, std::lround(2 / how.speed)), 5);
       const std::vector<Snapshot> states = trial.motion(scene, steps);
       for (size_t k = 0; k < steps.size(); ++k) {
         const PerParticle3 &x = states[k].x, first = x.leftCols(half), last = x.rightCols(half),
@@ -251,7 +253,8 @@ Finding pairs_that_meet_stop(Trial& trial) {
 Finding pairs_that_meet_keep_momentum(Trial& trial) {
   Table measured = table_of(
       "pieces | impulse [of what stops them] | momentum gained by both [of it] | spin gained by "
-      "both [of it, times the lever] | largest of the momentum, and of half of the spin [1]");
+      "both [of it, times the lever] | kinetic energy [of the start] | largest of the momentum, of "
+      "half of the spin, and of 0.4 of the energy gained [1]");
   for (const Pair& pair : pairs()) {
     PortableScene scene = pair_that_meets(pair, {", both free", 1.2, false, false, false, false});
     if (trial.declaration().offers("masses")) {
@@ -270,7 +273,9 @@ Finding pairs_that_meet_keep_momentum(Trial& trial) {
                      (spin(scene, end) - spin(scene, {scene.x, scene.v})).norm() / unit / lever;
     if (!(hit > 0.05))
       throw FailedWithoutNumber(scene.name + ": the pieces do not meet", "pieces that meet");
-    measured.row(pair.name, hit, gained, turned, std::max(gained, turned / 2));
+    const double energy = kinetic_energy(scene, end.v) / kinetic_energy(scene, scene.v);
+    measured.row(pair.name, hit, gained, turned, energy,
+                 std::max({gained, turned / 2, (energy - 1) / 2.5}));
   }
   return judge_worst(measured, 0.02,
                      "opposite forces; on pieces that turn fast, their line is a first order "
@@ -347,7 +352,8 @@ std::vector<Law> layer_laws() {
        "or are pushed away: from the front, from behind, held, free, fast, in any order.",
        "impenetrability", pairs_that_meet_stop, "self_collision held"},
       {"self-collision.pairs-that-meet-keep-momentum",
-       "Vertices, triangles and edges that meet, of unequal masses, keep their momentum and spin.",
+       "Vertices, triangles and edges that meet, of unequal masses, keep their momentum and spin, "
+       "and gain no energy.",
        "action and reaction", pairs_that_meet_keep_momentum, self,
        "pieces | impulse | momentum gained by both"},
       {"self-collision.stack-keeps-its-order",
