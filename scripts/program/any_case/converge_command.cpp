@@ -413,8 +413,8 @@ height and largest strain are from the solver's own limit, and from the referenc
 discretisation, an unconverged solve or rounding; whether there is a limit at all; and the cheapest
 pair for each of --errors, which was run. Rows of one iteration count are refined in turn, so that
 it costs at most a third of a grid; --hours limits it (default: 5 min).
---runs TABLE.csv does so with runs that were made elsewhere: columns of one or two tunables, `frames`
-(a folder or a cache), and, if you like, `seconds`; a row "truth" has the converged frames.
+--runs TABLE.csv does so with runs that were made elsewhere: columns of one or two tunables,
+`frames` (a folder or a cache), and, if you like, `seconds`; a row "truth" has the converged frames.
 
 The folder keeps every run: an interrupted call resumes; a second call runs only what is missing.
 The two coarsest levels run alone first and show what the others will cost. A level that exceeds the
