@@ -258,7 +258,11 @@ PricedPair cheapest_pair(const SettingsMap& map, size_t quantity, double wanted)
     best.because = limit.none + limit.unknown;
     return best;
   }
-  for (const double other : others_of(map))
+  std::vector<double> others = others_of(map);
+  if (map.axes.size() > 1)  // the value in use comes first, which wins where costs are equal
+    std::ranges::stable_partition(others,
+                                  [&](double other) { return are_same(other, map.axes[1].first); });
+  for (const double other : others)
     if (PricedPair pair = pair_in_row(map, quantity, other, limit, wanted);
         std::isfinite(pair.cost) && !(pair.cost >= best.cost))
       best = std::move(pair);

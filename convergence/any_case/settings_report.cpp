@@ -77,6 +77,7 @@ std::string_view name_of(Regime regime) {
 namespace {
 
 constexpr double hundred = 100;  // percent
+constexpr double blown_up = 10;  // error, in motions, beyond which nothing else is worth saying
 
 std::string regime_in_words(Regime regime) {
   switch (regime) {
@@ -101,20 +102,27 @@ std::string price_in_words(const SettingsAnswer& answer, const PricedPair& pair)
                      pair.was_run ? "" : " (between two runs)");
 }
 
+/// How far the settings in use are from the limit.
+std::string distance_in_words(const SettingsAnswer& answer, const std::string& name, double error,
+                              const char* is) {
+  const std::string at = pair_text(answer.map, answer.in_use);
+  if (std::isnan(error)) return fmt::format("{}: {} was not run", name, at);
+  if (error > blown_up)
+    return fmt::format("at {} the run blows up: your {} {} off by {:.2g} times the motion", at,
+                       name, is, error);
+  return fmt::format("at {} your {} {} {:.2g} % from your own limit", at, name, is,
+                     hundred * error);
+}
+
 std::string sentence_of(const SettingsAnswer& answer, size_t q) {
   const SettingsQuantity& quantity = answer.map.quantities[q];
   const QuantityAnswer& of = answer.quantities[q];
   if (!of.limit.none.empty()) return fmt::format("{}: no limit: {}", quantity.name, of.limit.none);
   if (!of.limit.unknown.empty())
     return fmt::format("{}: the limit is not known: {}", quantity.name, of.limit.unknown);
-  std::string text =
-      std::isnan(of.in_use.all)
-          ? fmt::format("{}: {} was not run", quantity.name, pair_text(answer.map, answer.in_use))
-          : fmt::format("at {} your {} {} {:.2g} % from your own limit",
-                        pair_text(answer.map, answer.in_use), quantity.name, q == 0 ? "are" : "is",
-                        hundred * of.in_use.all);
+  std::string text = distance_in_words(answer, quantity.name, of.in_use.all, q == 0 ? "are" : "is");
   for (const PricedPair& pair : of.pairs) text += "; " + price_in_words(answer, pair);
-  if (!std::isnan(of.in_use.all)) text += "; " + regime_in_words(of.in_use.regime);
+  if (of.in_use.all <= blown_up) text += "; " + regime_in_words(of.in_use.regime);
   return text;
 }
 
@@ -126,6 +134,11 @@ std::string gap_in_words(const std::string& name, const QuantityAnswer& of) {
 }
 
 }  // namespace
+
+std::string cost_in_words(const SettingsMap& map) {
+  if (!std::ranges::all_of(map.axes, &SettingsAxis::is_proportional)) return "";
+  return fmt::format(", {:.2g} of the cost of a full grid", map.cost() / map.cost_of_grid());
+}
 
 std::vector<std::string> settings_sentences(const SettingsAnswer& answer) {
   std::vector<std::string> sentences;
@@ -247,8 +260,7 @@ StudyRecord settings_study(const SettingsAnswer& answer) {
   study.source = "Roache 1994; Eca and Hoekstra 2014";
   for (const std::string& sentence : settings_sentences(answer))
     study.claim += (study.claim.empty() ? "" : ". ") + sentence;
-  study.about = fmt::format("{} runs, {:.2g} of the cost of a grid of doubled values.",
-                            answer.map.runs.size(), answer.map.cost() / answer.map.cost_of_grid());
+  study.about = fmt::format("{} runs{}.", answer.map.runs.size(), cost_in_words(answer.map));
   for (const SettingsRun& run : answer.map.runs) study.seconds += run.seconds;
   study.tables = {quantity_table(answer), run_table(answer)};
   if (answer.map.axes.size() > 1 && answer.quantities[0].limit.value.size() > 0)

@@ -58,6 +58,9 @@ SettingsAnswer settings_answer(SettingsMap map, const SettingsPair& in_use,
 std::string pair_text(const SettingsMap& map, const SettingsPair& at);  // "4 x 8"
 std::string_view name_of(Regime regime);
 
+/// ", 0.21 of the cost of a full grid" of doubled values; "" if a tunable's price is not known.
+std::string cost_in_words(const SettingsMap& map);
+
 /// For the user, a sentence each: the error of the pair in use, what it is made of, and the pairs.
 std::vector<std::string> settings_sentences(const SettingsAnswer& answer);
 

@@ -26,7 +26,8 @@ class Search {
     best = confirmed(best);
     for (bool better = map_.axes.size() > 1; better;) {
       better = false;
-      for (const double times : {0.5, 2.0})
+      const double ratio = map_.axes[1].ratio();
+      for (const double times : {1 / ratio, ratio})
         if (!better && tries_row(times, best)) better = true;
     }
     return best;
@@ -78,6 +79,11 @@ class Search {
     return last;
   }
 
+  long runs_of(double other) const {
+    return std::ranges::count_if(map_.runs,
+                                 [&](const SettingsRun& run) { return run.at[1] == other; });
+  }
+
   /// The pair that refines the row next.
   SettingsPair next_of(double other) const {
     const SettingsRun* last = last_of(other);
@@ -106,7 +112,7 @@ class Search {
       for (const double row : rows) {
         if (k == 0)
           make({map_.axes[0].first, row});
-        else
+        else if (runs_of(row) <= k)
           make(next_of(row));
       }
     while (true) {
@@ -154,7 +160,7 @@ class Search {
       if (map_.find(at) || !make(at)) break;
     }
     const PricedPair found = confirmed(cheapest_pair(map_, quantity_, best.wanted));
-    if (!found.because.empty() || !(found.cost < best.cost)) return false;
+    if (!found.because.empty() || !(found.cost < 0.9 * best.cost)) return false;
     best = found;
     return true;
   }

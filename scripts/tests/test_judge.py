@@ -257,14 +257,12 @@ class Judge(JudgeCase):
         self.assertEqual(done.returncode, 1)
         self.assertIn(f": {laws - neither} worse, 0 better, {neither} neither\n", done.stdout)
 
-    def test_the_job_of_the_page_judges_against_its_baseline(self) -> None:
-        """The commands of CI.md, in a repository as it describes."""
+    def test_verdicts_kept_as_the_page_says_are_a_baseline(self) -> None:
         page = (SUBJECTS / "CI.md").read_text(encoding="utf-8")
-        job = re.search(r"```yaml\n(.*?)```", page, re.S).group(1)
         keep = re.search(r"^foldproof judge .*$", page, re.M).group()
-        judge = re.search(r"run: (foldproof judge .*)$", job, re.M).group(1)
         adapter = self.path / "adapter"
-        for program, command in ((TOY, f"{keep} && {judge}"), (WRONG, judge)):
+        for program, command in ((TOY, keep), (WRONG, "foldproof judge --solver ./adapter "
+                                                      "--baseline baseline.json --out judged")):
             adapter.write_text(f"#!/bin/sh\n{program}\n", encoding="utf-8")
             adapter.chmod(0o755)
             done = subprocess.run(

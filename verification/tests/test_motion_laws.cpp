@@ -26,8 +26,8 @@ TEST_CASE("subject: hinges and dampers as the protocol says raise no alarm", "[l
 TEST_CASE("subject: limits of a solver's own are found by their names", "[long]") {
   const std::string speed = "limits.no-speed-is-too-fast", edge = "limits.no-edge-is-too-fast",
                     seconds = "limits.velocity-is-kept-for-thousands-of-steps";
-  require_own("speed", {speed, edge});
-  require_own("edges_are_slow", {edge});
+  require_own("speed", {speed, edge, "symmetry.units"});
+  require_own("edges_are_slow", {edge, "symmetry.units"});
   require_own("strain_is_limited",
               {"limits.no-strain-is-too-large", "held.particles-stay-for-seconds"});
   CHECK(failing_laws("scales_velocity_each_step", {"limits"}) ==

@@ -284,8 +284,8 @@ std::string percent_text(double fraction) {
 
 void print(const SettingsAnswer& answer) {
   const SettingsMap& map = answer.map;
-  fmt::print("{}, {}: {} runs, {:.2g} of the cost of a full grid\n\n", answer.scene, answer.solver,
-             map.runs.size(), map.cost() / map.cost_of_grid());
+  fmt::print("{}, {}: {} runs{}\n\n", answer.scene, answer.solver, map.runs.size(),
+             cost_in_words(map));
   fmt::print("{:<16} {:<5} {:>12} {:>9} {:>9} {:>9} {:>9} {:>6} {:>9}  {}\n", "quantity", "unit",
              "own limit", "+-", "in use", "by first", "by second", "order", "truth", "made of");
   for (size_t q = 0; q < answer.quantities.size(); ++q) {
@@ -298,9 +298,9 @@ void print(const SettingsAnswer& answer) {
                name_of(in_use.regime));
   }
   fmt::print(
-      "\nin use: error of {} from the own limit; by first: what is left when {} converged; "
+      "\nin use: error of {} from the own limit; by first: what is left with {} converged; "
       "order: in {}\n\n",
-      pair_text(map, answer.in_use), map.axes.size() > 1 ? map.axes[1].name + " have" : "it has",
+      pair_text(map, answer.in_use), map.axes.size() > 1 ? map.axes[1].name : "it",
       map.axes[0].name);
   for (const std::string& sentence : settings_sentences(answer)) fmt::print("{}\n", sentence);
 }

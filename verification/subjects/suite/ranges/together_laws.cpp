@@ -98,7 +98,7 @@ std::vector<Law> together_laws() {
       {"together.each-part-acts-as-it-does-alone",
        "Bending, dampers of edges and of hinges, and weight give each particle the same impulse "
        "together, beside held particles and with any masses, as alone.",
-       "sum of forces", each_part_acts_as_alone, "damping bending",
+       "sum of forces", each_part_acts_as_alone, "f8 damping bending",
        "part | its force among all | alone"},
   };
 }
