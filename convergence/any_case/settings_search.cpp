@@ -12,6 +12,7 @@ constexpr double steepest = 2;          // order at which errors may fall beyond
 constexpr double limit_part = 1.0 / 3;  // of a wanted error that the limit's bar may have
 constexpr double row_spacing = 4;       // of the first rows' second values
 constexpr int most_confirmed = 4;       // pairs that are run to name one
+constexpr int most_values = 5;          // of a first row whose price is not known before
 
 /// The search for one quantity's pairs.
 class Search {
@@ -112,7 +113,7 @@ class Search {
       for (const double row : rows) {
         if (k == 0)
           make({map_.axes[0].first, row});
-        else if (runs_of(row) <= k)
+        else if (map_.axes[0].is_proportional || runs_of(row) < most_values)
           make(next_of(row));
       }
     while (true) {
