@@ -46,12 +46,13 @@ def mesh_files(value: Any) -> list[str]:
 
 
 def case_files(cases: Path) -> dict[str, str]:
-    """The file name of each case, as used by case_digest. fabrics.toml is data of cases;
+    """The file name of each case, as used by case_digest. fabrics.toml and engines.toml are data;
     cantilever.toml is for `foldproof settle`, not for runs in time."""
+    no_runs = {"fabrics", "engines", "cantilever"}
     return {
         file.stem: str(file.relative_to(cases))
         for file in sorted(cases.glob("**/*.toml"))
-        if file.stem not in ("fabrics", "cantilever") and not file.name.endswith(".campaign.toml")
+        if file.stem not in no_runs and not file.name.endswith(".campaign.toml")
     }
 
 
