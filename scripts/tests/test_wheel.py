@@ -43,15 +43,20 @@ class Wheel(unittest.TestCase):
         folder = tempfile.TemporaryDirectory(prefix="foldproof wheel ")
         cls.addClassCleanup(folder.cleanup)
         cls.folder = Path(folder.name)
-        cls.wheel = Path(output_of(ROOT / "scripts/package/wheel").strip())
+        cls.wheel = ROOT / output_of(ROOT / "scripts/package/wheel").strip()
         cls.begin = time.monotonic()
         output_of("/usr/bin/python3", "-m", "venv", cls.folder / "venv")
         cls.install(cls.wheel)
 
     @classmethod
     def install(cls, *what: str | Path) -> None:
-        output_of(cls.folder / "venv/bin/pip", "install", "-q", "--disable-pip-version-check",
-                  *what, cwd=ROOT)
+        try:
+            output_of(cls.folder / "venv/bin/pip", "install", "-q", "--disable-pip-version-check",
+                      *what, cwd=ROOT)
+        except AssertionError as error:
+            if "No matching distribution" not in str(error):
+                raise
+            raise unittest.SkipTest("packages cannot be had here") from error
 
     def python(self, *words: str | Path) -> str:
         adapters = str(ROOT / "verification/subjects/adapters")
