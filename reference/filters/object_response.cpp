@@ -39,11 +39,11 @@ Vector3 without_sinking(const ObjectPoint& a, const ObjectPoint& b, const Vector
 
 //   v += u_a N_a + u_b N_b  with  phi_new = 0 of both:   u_a +   c u_b = -phi_new_a / tau
 //                                                      c u_a +     u_b = -phi_new_b / tau
-//   and c = N_a.N_b
-/// Leads a point onto both surfaces, where the way out of one leads back into the other.
+//   and c = N_a.N_b; where it is positive, the way out of one leads out of the other, too: c = 0
+/// Leads a point out of both, and onto both where the way out of one leads back into the other.
 Vector3 velocity_into_corner(const ObjectPoint& a, const ObjectPoint& b, const Vector3& v,
                              double tau) {
-  const double c = a.normal.dot(b.normal);
+  const double c = std::min(0.0, a.normal.dot(b.normal));
   const double out_of_a = -forecast_distance(a, v, tau) / tau;  // m/s
   const double out_of_b = -forecast_distance(b, v, tau) / tau;  // m/s
   return v + ((out_of_a - c * out_of_b) * a.normal + (out_of_b - c * out_of_a) * b.normal) /

@@ -174,7 +174,7 @@ double depth_in_corner(const Subject& subject, double degrees) {
 
 Finding corner_finding(const Subject& subject) {
   Table measured{{"normals apart", "degrees"}, {"largest depth", "m"}};
-  for (const double degrees : {25., 70., 90., 118., 124., 152., 168.})
+  for (const double degrees : {0., 25., 70., 90., 118., 124., 152., 168.})
     measured.row(degrees, depth_in_corner(subject, degrees));
   return judge_worst(measured, 200 * epsilon,
                      "a rounding of steps of 30 mm in each of a hundred steps, along 1 m");
