@@ -71,7 +71,7 @@ Chain chain_of(const Row& row, size_t axis) {
   return longest;
 }
 
-/// What a chain tends to.
+/// The limit of a chain of runs.
 struct ChainLimit {
   Seen value;
   double bar = nan;

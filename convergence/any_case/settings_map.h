@@ -116,11 +116,11 @@ std::vector<PricedPair> find_pairs(SettingsMap& map, size_t quantity,
 
 enum class Regime { discretisation, unconverged, rounding, unknown };
 
-/// What the error of a pair is made of, over the limit's scale [1].
+/// The error of a pair and its parts, over the limit's scale [1].
 struct PairError {
   double all = nan;           // from the own limit
   double of_first = nan;      // left when the second tunable has converged
-  double of_second = nan;     // what the second tunable leaves
+  double of_second = nan;     // due to the second tunable
   double order_second = nan;  // observed
   double from_truth = nan;
   Regime regime = Regime::unknown;

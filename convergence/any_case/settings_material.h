@@ -1,4 +1,4 @@
-// What a task feels of a solver's settings: the cloth's apparent material.
+// The apparent material: the stiffness that cloth seems to have at a solver's settings.
 #pragma once
 
 #include "verification/subjects/suite/trial.h"

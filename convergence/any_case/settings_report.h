@@ -25,7 +25,7 @@ std::vector<SettingsQuantity> settings_quantities(const SettingsCloth& cloth, do
 SettingsRun measured_run(const SettingsPair& at, const std::vector<PerParticle3>& frames,
                          const SettingsCloth& cloth);
 
-/// What a map says of one quantity.
+/// The answer of a map for one quantity.
 struct QuantityAnswer {
   OwnLimit limit;
   std::vector<PricedPair> pairs;
@@ -48,7 +48,7 @@ struct SettingsAnswer {
   std::vector<double> wanted;              // 1
   std::vector<QuantityAnswer> quantities;  // as the map's
   std::vector<ApparentMaterial> material = {};
-  std::string step_check = {};  // whether substeps refine all that a shorter step refines; or ""
+  std::string step_check = {};  // half the step against half the substeps, in words; or ""
 };
 
 /// Reads the runs of the map.

@@ -92,7 +92,7 @@ class Search {
     return {last ? first.finer(last->at[0], first.ratio()) : first.first, other};
   }
 
-  /// What the row would cost at the least for the error, if it fell as steeply as it may.
+  /// A lower bound on the cost of a row for the error: its errors fall as steeply as they may.
   double least_price(double other, const OwnLimit& limit, double wanted) const {
     const SettingsRun* last = last_of(other);
     if (!last || limit.value.size() == 0) return 0;
