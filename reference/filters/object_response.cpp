@@ -53,7 +53,7 @@ Vector3 velocity_into_corner(const ObjectPoint& a, const ObjectPoint& b, const V
 /// Treats each object once, deepest forecast first, so that it also treats an object that will be
 /// entered but is not the nearest. If the way out of one leads into another, the point is led to
 /// both surfaces; if the two face each other, it is held between them.
-Vector3 forecast_against_each(std::span<ObjectPoint> left, const MovingPoint& point) {
+Vector3 forecast(std::span<ObjectPoint> left, const MovingPoint& point) {
   Vector3 v = point.v;
   std::optional<ObjectPoint> before;
   const auto deeper = [&](const ObjectPoint& a, const ObjectPoint& b) {
@@ -72,14 +72,6 @@ Vector3 forecast_against_each(std::span<ObjectPoint> left, const MovingPoint& po
     left = left.first(left.size() - 1);
   }
   return v;
-}
-
-/// A pinched point is held between its two objects. Held in a corner, it would sink along the
-/// surface between them: there it is led out of each.
-Vector3 forecast(std::span<ObjectPoint> answers, const MovingPoint& point) {
-  const Nearest nearest = nearest_of(answers);
-  if (nearest.held_between()) return velocity_between(nearest.first, nearest.second, point);
-  return forecast_against_each(answers, point);
 }
 
 Vector3 forecast_deepest(std::span<ObjectPoint> answers, const MovingPoint& point) {

@@ -106,11 +106,12 @@ Finding each_object_finding(const Subject& subject) {
 
 /// The half-spaces z >= 0 of a floor and of one turned about y, particles without
 /// friction between them.
-Scene wedge(double degrees) {
+Scene wedge(double degrees, const Eigen::Quaterniond& frame) {
   Scene scene = loose_particles(5);
   const Eigen::Quaterniond turn(Eigen::AngleAxisd(degrees * pi / 180, Vector3::UnitY()));
-  scene.objects.push_back(object_at("floor", HalfSpace{}, {}));
-  scene.objects.push_back(object_at("other", HalfSpace{}, {turn, Vector3::Zero()}));
+  const Vector3 edge = frame * Vector3::UnitY();
+  scene.objects.push_back(object_at("floor", HalfSpace{}, {frame, 0.37 * edge}));
+  scene.objects.push_back(object_at("other", HalfSpace{}, {frame * turn, -0.53 * edge}));
   return scene;
 }
 
@@ -121,7 +122,7 @@ Finding closing_finding(const Subject& subject) {
   Random random(37);
   Table measured = roundings_of("place and way");
   for (const double degrees : {95., 118., 122., 150.}) {
-    const Scene scene = wedge(degrees);
+    const Scene scene = wedge(degrees, Eigen::Quaterniond::Identity());
     const double angle = degrees * pi / 180;
     const Vector3 a = Vector3::UnitZ(), b(std::sin(angle), 0, std::cos(angle));
     const Eigen::Matrix2d gram{{1, a.dot(b)}, {a.dot(b), 1}};
@@ -140,7 +141,8 @@ Finding closing_finding(const Subject& subject) {
       const double apart = std::abs(end.dot(a) - end.dot(b));
       const double farthest = std::max(std::abs(end.dot(a)), std::abs(end.dot(b)));
       const double size = Vector3(state.x.col(i)).norm() + h * Vector3(state.v.col(i)).norm();
-      worst.observe((degrees > 120 ? apart : farthest) / (epsilon * size));
+      const double held = farthest > 1e-3 ? apart : nan;  // not led to both, either
+      worst.observe((degrees > 120 ? held : farthest) / (epsilon * size));
     }
     measured.row(std::to_string(int(degrees)) + " degrees", worst.value());
   }
@@ -152,13 +154,15 @@ Finding closing_finding(const Subject& subject) {
 /// steps: depth in either, at most.
 double depth_in_corner(const Subject& subject, double degrees) {
   const double h = 0.01, angle = degrees * pi / 180;
-  const Scene scene = wedge(degrees);
-  const Vector3 a = Vector3::UnitZ(), b(std::sin(angle), 0, std::cos(angle));
+  const Eigen::Quaterniond frame(Eigen::AngleAxisd(0.7, Vector3(0.2, 0.9, -0.3).normalized()));
+  const Scene scene = wedge(degrees, frame);
+  const Vector3 a = frame * Vector3::UnitZ(),
+                b = frame * Vector3(std::sin(angle), 0, std::cos(angle));
   const Vector3 out = (a + b).normalized(), aside = (a - b).normalized();
   State state = resting_state(scene.x);
   Random random(41);
   for (Eigen::Index i = 0; i < state.x.cols(); ++i)
-    state.x.col(i) = random.uniform(-1, 1) * Vector3::UnitY() +
+    state.x.col(i) = random.uniform(-1, 1) * (frame * Vector3::UnitY()) +
                      epsilon * (random.uniform(-1, 1) * out + random.uniform(-1, 1) * aside);
   Worst deepest;
   for (int step = 0; step < 100; ++step) {
