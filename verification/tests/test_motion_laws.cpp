@@ -95,8 +95,7 @@ TEST_CASE("subject: hinges that are wrong where sharp, on a side, or from a star
   require_own("hinges_slacken_when_sharp", {sharp});
   CHECK(failing_laws("hinges_know_their_front", {"bending"}) == Names{sides});
   require_own("hinges_rest_as_the_shape", {angles, "symmetry.rotation-with-bending"});
-  require_found({"hinges_crease"}, {"repeat"},
-                {"repeat.motion-with-bending-goes-on-from-its-state"});
+  require_own("hinges_crease", {"bending.bends-do-not-creep", "symmetry.units-with-bending"});
   require_law_fails("hinges_need_six_neighbours", "bending.every-pattern-resists");
   require_law_fails("hinges_are_alike", "bending.graded-rows-resist-alike");
   require_found({"hinges"}, {"together"}, {});

@@ -70,10 +70,14 @@ std::vector<PlantedBug> read_planted_bugs(const std::string& path) {
 
 std::vector<LikelyCause> likely_causes(const std::vector<PlantedBug>& bugs,
                                        const std::vector<Record>& records) {
-  std::vector<const Record*> decided;
+  const auto some_bug_fails = [&](const Record& record) {
+    return std::ranges::any_of(bugs,
+                               [&](const PlantedBug& bug) { return fails(bug, record.name); });
+  };
+  std::vector<const Record*> decided;  // laws that no planted bug fails tell nothing
   for (const Record& record : records)
-    if (is_decided(record)) decided.push_back(&record);
-  if (std::ranges::none_of(records, does_not_hold)) return {};
+    if (is_decided(record) && some_bug_fails(record)) decided.push_back(&record);
+  if (std::ranges::none_of(decided, [](const Record* r) { return does_not_hold(*r); })) return {};
   std::map<std::string, std::vector<const PlantedBug*>> kinds;
   for (const PlantedBug& bug : bugs)
     if (!bug.fails.empty()) kinds[bug.kind].push_back(&bug);  // others have no pattern

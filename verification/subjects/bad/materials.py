@@ -56,6 +56,8 @@ class Bends(Toy):
         self.given, material["bending_rigidity"] = material["bending_rigidity"], 0
         if self.given and np.any(scene.rest_angles):
             raise Declined("rest angles: it bends to flat")
+        if material["bending_damping"] > 0:
+            raise Declined("dampers of hinges")
         return {**super().prepare(scene), "bending": "B of the scene, by the squared Laplacian"}
 
     def alter(self, scene: Scene) -> None:

@@ -130,9 +130,11 @@ Oscillation fit(const std::vector<double>& s) {
   return {-std::log(root) / tau, std::acos(found[0] / (2 * root)) / tau};
 }
 
-/// At the coarsest step over `parts`.
+/// At the coarsest step over `parts`, or shorter ones that the solver does not divide itself.
 Oscillation oscillation(Trial& trial, const Oscillator& oscillator, long parts) {
-  const double dt = coarsest / oscillator.omega / double(parts);
+  const double longest = coarsest / oscillator.omega;  // s
+  parts *= parts_of_step(longest, trial.declaration());
+  const double dt = longest / double(parts);
   return fit(displacements(trial, oscillator, dt, multiples(parts, samples)));
 }
 
@@ -146,11 +148,13 @@ double extrapolated(double coarse, double fine, const Declaration& declared) {
 double released_frequency(Trial& trial, Oscillator oscillator) {
   oscillator.scene.material.stretch_damping = oscillator.scene.material.bending_damping = 0;
   constexpr double angle = 16 * coarsest;
+  const double duration = angle / oscillator.omega;  // s
+  const long own = parts_of_step(duration / 16, trial.declaration());
   const auto frequency = [&](long steps) {
-    const double dt = angle / oscillator.omega / double(steps);
+    const double dt = duration / double(steps);
     return std::acos(displacements(trial, oscillator, dt, {steps}).front() / amplitude) / angle;
   };
-  const double coarse = frequency(16), fine = frequency(32);
+  const double coarse = frequency(16 * own), fine = frequency(32 * own);
   if (!(coarse > 0 && fine > 0))
     throw FailedWithoutNumber("strained or bent triangles do not swing back when they are let go",
                               "a frequency: lengths and angles other than at rest must pull");

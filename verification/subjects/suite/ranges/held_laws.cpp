@@ -43,33 +43,57 @@ Finding neighbours_fall_at_once(Trial& trial) {
       slowest.observe(1 - speed), fastest.observe(speed - 1);
   }
   Table measured = table_of("particles | farthest from g t [g t] | allowed [g t] | over it [1]");
-  measured.row("slowest free", slowest.value(), 0.2, slowest.value() / 0.2);
+  const double slower = trial.declaration().has_consistent_mass ? 0.35 : 0.2;
+  measured.row("slowest free", slowest.value(), slower, slowest.value() / slower);
   measured.row("fastest free", fastest.value(), 0.5, fastest.value() / 0.5);
   measured.row("held", held.value(), 1e-3, held.value() / 1e-3);
   return judge_worst(measured, 1,
                      "in the rest shape no force but weight begins; (omega t)^2 is 0.03; where "
                      "neighbours share inertia, those beside held ones fall up to 1.3 times as "
-                     "fast, and the next ones slower by a tenth");
+                     "fast, and the next ones slower, by a quarter where the matrix is consistent");
 }
 
-/// Soft, so that steps may be long, with more weight than its springs bear at small strains.
-Finding stay_for_seconds(Trial& trial) {
+/// Soft, so that steps may be long, with more weight than its springs bear at small strains. All
+/// particles, held ones too, have a velocity at the start.
+PortableScene sheet_held_for_seconds() {
   PortableScene scene = sheet_of_cells(3);
   scene.name = "sheet held for seconds";
   scene.material.young = 0.6;
   scene.gravity = Vector3(0.3, -0.2, -1.6);
+  scene.v.colwise() = Vector3(0.05, 0.08, -0.06);
   scene.held = {13, 0, 3, 8};
   scene.dt = drawn("long held", 0.005, 0.006);
-  const std::vector<long> at = multiples(std::lround(0.62 / scene.dt), 4);
-  Table measured = table_of("time [s] | the others moved by [m] | held ones [roundings]");
-  for (const Snapshot& now : trial.motion(scene, at)) {
-    double most = 0;
-    for (const int i : scene.held) update_worst(most, (now.x.col(i) - scene.x.col(i)).norm());
-    const double moved = largest(now.x - scene.x);
-    if (!(moved > 0.01))
-      throw FailedWithoutNumber("the sheet stands still", "a sheet that hangs from what is held");
-    measured.row(double(at[size_t(measured.rows())]) * scene.dt, moved,
-                 most / largest(scene.x) / trial.declaration().rounding());
+  return scene;
+}
+
+/// The same motion in 0.4 of the time, of cloth of 4 kg/m^2 under 6.25 times the gravity: 3.7 N
+/// hang from four particles.
+PortableScene heavy_sheet_held() {
+  PortableScene scene = sheet_held_for_seconds();
+  scene.name = "heavy sheet that is held";
+  const double heavier = 20, faster = 2.5;
+  scene.material.density *= heavier, scene.mass *= heavier;
+  scene.material.young *= heavier * faster * faster;
+  scene.gravity *= faster * faster;
+  scene.v *= faster, scene.dt /= faster;
+  return scene;
+}
+
+Finding stay_for_seconds(Trial& trial) {
+  Table measured = table_of("sheet | time [s] | the others moved by [m] | held ones [roundings]");
+  for (const PortableScene& scene : {sheet_held_for_seconds(), heavy_sheet_held()}) {
+    const std::vector<long> at = multiples(112, 4);
+    const std::vector<Snapshot> states = trial.motion(scene, at);
+    for (size_t k = 0; k < at.size(); ++k) {
+      double most = 0;
+      for (const int i : scene.held)
+        update_worst(most, (states[k].x.col(i) - scene.x.col(i)).norm());
+      const double moved = largest(states[k].x - scene.x);
+      if (!(moved > 0.01))
+        throw FailedWithoutNumber("the sheet stands still", "a sheet that hangs from what is held");
+      measured.row(scene.name, double(at[k]) * scene.dt, moved,
+                   most / largest(scene.x) / trial.declaration().rounding());
+    }
   }
   return judge_worst(measured, 8, "a few roundings of a position");
 }
@@ -104,8 +128,8 @@ std::vector<Law> held_laws() {
        "protocol: array 'held'; Newton's second law", neighbours_fall_at_once, "held",
        "particles | farthest from g t"},
       {"held.particles-stay-for-seconds",
-       "Held particles stay for 2.5 s: none drifts or comes off.", "protocol: array 'held'",
-       stay_for_seconds, "held", "time | held ones"},
+       "Held particles stay for 2.5 s, and under 3.7 N, whatever their velocity at the start.",
+       "protocol: array 'held'", stay_for_seconds, "held", "sheet | time | held ones"},
       {"held.particles-stay-in-steps-of-a-state",
        "Held particles stay, and others fall, in steps from states that are set.",
        "protocol: 'step'", stay_in_steps_of_a_state, "L1 set_state held",

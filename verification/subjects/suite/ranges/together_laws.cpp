@@ -36,12 +36,12 @@ constexpr Part parts[] = {
     {"weight", [](PortableScene& scene) { scene.gravity.setZero(); }},
 };
 
-/// Half as heavy again, or half as heavy, and some held, where the solver can have that.
+/// From 0.8 to 2.4 times as heavy, and some held, where the solver can have that.
 PortableScene with_own_particles(PortableScene scene, const Declaration& declared) {
   if (declared.offers("masses")) {
     scene.own_masses = true;
     for (Eigen::Index i = 0; i < scene.mass.size(); ++i)
-      scene.mass[i] *= 1 + 0.5 * std::sin(1.9 * double(i) + 0.3);
+      scene.mass[i] *= 1.6 + 0.8 * std::sin(1.9 * double(i) + 0.3);
   }
   if (declared.offers("held") && !declared.has_consistent_mass) {
     scene.held = {30, 0, 17, 44};
