@@ -27,14 +27,16 @@ Nearness nearness_at(const Corners4& x, const Eigen::Vector4d& weights) {
   return {distance, distance > 0 ? Vector3(apart / distance) : Vector3::Zero(), weights};
 }
 
-void keep_nearer(Nearness& nearest, const Corners4& x, const Eigen::Vector4d& weights) {
-  const Nearness other = nearness_at(x, weights);
-  if (!(nearest.distance <= other.distance)) nearest = other;
-}
+/// The nearest of several pairs of points.
+struct NearestPoints {
+  double distance = std::numeric_limits<double>::quiet_NaN();  // m
+  Eigen::Vector4d weights = {};
 
-Nearness no_nearness() {
-  return {std::numeric_limits<double>::quiet_NaN(), Vector3(), Eigen::Vector4d()};
-}
+  void add(const Corners4& x, const Eigen::Vector4d& other) {
+    const double its_distance = (x * other).norm();
+    if (!(distance <= its_distance)) distance = its_distance, weights = other;
+  }
+};
 
 //      x3         The vertex x0 over the triangle. The foot of its perpendicular has the weights
 //     /  \        w2, w3 (and w1 = 1 - w2 - w3); a negative weight means that it lies beyond the
@@ -55,7 +57,7 @@ Nearness vertex_triangle(const Corners4& x) {
     w[0] = 1 - w[1] - w[2];
     if (w.minCoeff() >= 0) return nearness_at(x, {1, -w[0], -w[1], -w[2]});
   }
-  Nearness nearest = no_nearness();
+  NearestPoints nearest;
   for (int corner = 0; corner < 3; ++corner) {
     if (w[corner] >= 0) continue;
     const int a = (corner + 1) % 3, b = (corner + 2) % 3;
@@ -63,35 +65,21 @@ Nearness vertex_triangle(const Corners4& x) {
     Eigen::Vector4d weights(1, 0, 0, 0);
     weights[1 + a] = -(1 - along);
     weights[1 + b] = -along;
-    keep_nearer(nearest, x, weights);
+    nearest.add(x, weights);
   }
-  return nearest;
+  return nearness_at(x, nearest.weights);
 }
 
 Eigen::Vector4d edge_weights(double a, double b) { return {1 - a, a, -(1 - b), -b}; }
 
-/// Two edges x0 x1 and x2 x3: nearest inside both, or at an end of one of them. Inside, x0 + a d
-/// and x2 + b e are nearest across N = d x e, so a = (x2 - x0) x e . N / |N|^2. For nearly parallel
-/// edges rounding shifts a along them; projecting that point onto the other edge, and the result
-/// back, gives two points as close as the nearest ones.
-Nearness edge_edge(const Corners4& x) {
-  const Vector3 d = x.col(1) - x.col(0), e = x.col(3) - x.col(2), r = x.col(2) - x.col(0);
-  const Vector3 N = d.cross(e);  // m^2
-  const double size = N.squaredNorm();
-  if (size > nearly_parallel * d.squaredNorm() * e.squaredNorm()) {
-    const double a = r.cross(e).dot(N) / size, b = r.cross(d).dot(N) / size;
-    if (a >= 0 && a <= 1 && b >= 0 && b <= 1) {
-      const double foot = nearest_along(x.col(0) + a * d, x.col(2), x.col(3));
-      return nearness_at(
-          x, edge_weights(nearest_along(x.col(2) + foot * e, x.col(0), x.col(1)), foot));
-    }
-  }
-  Nearness nearest = no_nearness();
+/// Of two edges, at an end of one of them.
+Nearness nearest_at_ends(const Corners4& x) {
+  NearestPoints nearest;
   for (int end = 0; end < 2; ++end) {
-    keep_nearer(nearest, x, edge_weights(end, nearest_along(x.col(end), x.col(2), x.col(3))));
-    keep_nearer(nearest, x, edge_weights(nearest_along(x.col(2 + end), x.col(0), x.col(1)), end));
+    nearest.add(x, edge_weights(end, nearest_along(x.col(end), x.col(2), x.col(3))));
+    nearest.add(x, edge_weights(nearest_along(x.col(2 + end), x.col(0), x.col(1)), end));
   }
-  return nearest;
+  return nearness_at(x, nearest.weights);
 }
 
 }  // namespace
@@ -102,8 +90,24 @@ Corners4 corners_of(const FeaturePair& pair, const PerParticle3& of) {
   return columns;
 }
 
+/// x0 + a d and x2 + b e are nearest across N = d x e, so a = (x2 - x0) x e . N / |N|^2. For nearly
+/// parallel edges rounding shifts a along them; projecting that point onto the other edge, and the
+/// result back, gives two points as close as the nearest ones.
+std::optional<Nearness> nearness_inside_edges(const Corners4& x) {
+  const Vector3 d = x.col(1) - x.col(0), e = x.col(3) - x.col(2), r = x.col(2) - x.col(0);
+  const Vector3 N = d.cross(e);  // m^2
+  const double size = N.squaredNorm();
+  if (!(size > nearly_parallel * d.squaredNorm() * e.squaredNorm())) return {};
+  const double a = r.cross(e).dot(N) / size, b = r.cross(d).dot(N) / size;
+  if (!(a >= 0 && a <= 1 && b >= 0 && b <= 1)) return {};
+  const double foot = nearest_along(x.col(0) + a * d, x.col(2), x.col(3));
+  return nearness_at(x, edge_weights(nearest_along(x.col(2) + foot * e, x.col(0), x.col(1)), foot));
+}
+
 Nearness nearness(PairKind kind, const Corners4& x) {
-  return kind == PairKind::vertex_triangle ? vertex_triangle(x) : edge_edge(x);
+  if (kind == PairKind::vertex_triangle) return vertex_triangle(x);
+  if (const std::optional<Nearness> inside = nearness_inside_edges(x)) return *inside;
+  return nearest_at_ends(x);
 }
 
 }  // namespace foldproof

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "reference/types.h"
 
@@ -34,5 +35,8 @@ struct Nearness {
 
 /// Degenerate triangles and degenerate or parallel edges are handled through their sides and ends.
 Nearness nearness(PairKind kind, const Corners4& x);
+
+/// Of two edges that are nearest between their ends: x0 x1 and x2 x3, not parallel.
+std::optional<Nearness> nearness_inside_edges(const Corners4& x);
 
 }  // namespace foldproof

@@ -80,11 +80,14 @@ std::vector<ClosePair> load_bearing_pairs(const std::vector<FeaturePair>& pairs,
                                           const SelfCollisionSettings& settings,
                                           const LayerProperties& layers, const Team& team) {
   const auto close_pair = [&](const FeaturePair& pair) -> std::optional<ClosePair> {
-    const Nearness at = nearness(pair.kind, corners_of(pair, x));
-    const double thickness = layers.thickness_of(pair, at.weights, settings);
-    if (!(at.distance < thickness) || !(at.distance > 0)) return {};
-    if (pair.kind == PairKind::edge_edge && !inside_both(at.weights)) return {};
-    return ClosePair{pair, at, thickness};
+    const Corners4 corners = corners_of(pair, x);
+    const bool are_edges = pair.kind == PairKind::edge_edge;
+    const std::optional<Nearness> at =
+        are_edges ? nearness_inside_edges(corners) : nearness(pair.kind, corners);
+    if (!at || (are_edges && !inside_both(at->weights))) return {};
+    const double thickness = layers.thickness_of(pair, at->weights, settings);
+    if (!(at->distance < thickness) || !(at->distance > 0)) return {};
+    return ClosePair{pair, *at, thickness};
   };
   std::vector<ClosePair> close = found_among<ClosePair>(team, pairs, close_pair);
   // of each vertex to a triangle [m]
