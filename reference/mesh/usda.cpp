@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <map>
@@ -18,6 +19,14 @@ constexpr std::size_t most_numbers = 100'000'000;  // of a list
 
 [[noreturn]] void reject(const std::string& file, const std::string& reason) {
   throw InputError(file + ": " + reason);
+}
+
+/// For a message: its beginning, in one line.
+std::string shown(std::string_view word) {
+  std::string text(word.substr(0, 40));
+  std::ranges::replace_if(
+      text, [](unsigned char c) { return std::iscntrl(c) != 0; }, '?');
+  return text;
 }
 
 /// Words, strings and brackets of a layer; blanks, commas, semicolons and comments part them.
@@ -87,7 +96,7 @@ double number(const std::string& file, std::string_view word) {
   double value = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value))
-    reject(file, "'" + std::string(word.substr(0, 40)) + "' is no finite number");
+    reject(file, "'" + shown(word) + "' is no finite number");
   return value;
 }
 
@@ -137,7 +146,7 @@ Values values_of(std::string_view text, const std::string& file) {
     const std::string_view value = cursor.value();
     if (name.starts_with("xformOp:") &&
         (name.ends_with(".timeSamples") || !is_identity(file, name, value)))
-      reject(file, std::string(name) +
+      reject(file, shown(name) +
                        " moves the mesh, which is not read; apply all transforms before export");
     values[std::string(name)] = value;
   }
