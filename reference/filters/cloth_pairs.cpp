@@ -268,7 +268,9 @@ std::vector<FeaturePair> touching_pairs(const ClothTree& cloth, const PerParticl
 }
 
 PairsAhead pairs_ahead(const ClothTree& cloth, const PerParticle3& x, double margin) {
-  return {particle_boxes(x, x, margin, cloth.team), near_pairs(cloth, x, x, margin), cloth.team};
+  PairSearch search = counted_near_pairs(cloth, x, x, margin);
+  return {particle_boxes(x, x, margin, cloth.team), std::move(search.pairs), cloth.team,
+          search.box_tests};
 }
 
 bool is_inside(const PairsAhead& ahead, const PerParticle3& x, double margin) {

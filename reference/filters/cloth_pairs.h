@@ -48,6 +48,9 @@ struct PairsAhead {
   std::vector<Bounds> boxes;       // N: one per particle, widened by half that margin
   std::vector<FeaturePair> pairs;  // near_pairs of these boxes
   Team team = {};                  // selection runs on it
+  long box_tests = 0;              // that the search took
+  double spare = 0;                // of the margin, for the coming steps [m]
+  long steps = 0;                  // that asked for it
 };
 
 /// Is a particle of the pair marked?

@@ -15,7 +15,9 @@ namespace {
 
 // fraction of the thickness: the least distance that motions may leave
 constexpr double min_distance_share = 0.1;
-constexpr double spare_share = 0.12;  // of the mean edge: margin of a search for many steps
+// of the mean edge: margin of a search for many steps
+constexpr double least_spare = 0.12, most_spare = 0.3;
+constexpr long tests_of_a_pair = 4;  // of boxes, by a step that selects
 // s: the time in which a piercing edge moves one thickness relative to the pierced triangle
 constexpr double untangling_time = 0.01;
 
@@ -130,11 +132,17 @@ void Step::move_zones(ImpactZones& zones, std::vector<char>& is_off_its_path) {
 
 void SelfCollision::look_ahead(const State& s, const Work& work) const {
   if (!work.kept) return;
-  const double spare = spare_share * cloth.mean_edge;
   PairsAhead& latest = work.kept->of<PairsAhead>(*this);
+  ++latest.steps;
   // half of the margin is left for the coming step
-  if (is_inside(latest, s.x, settings.thickness + spare / 2)) return;
+  if (is_inside(latest, s.x, settings.thickness + latest.spare / 2)) return;
+  // wider while a search tests more boxes than the steps that select from its pairs
+  const bool was_dear =
+      latest.box_tests > tests_of_a_pair * latest.steps * long(latest.pairs.size());
+  const double spare = std::clamp(was_dear ? 1.3 * latest.spare : latest.spare / 1.3,
+                                  least_spare * cloth.mean_edge, most_spare * cloth.mean_edge);
   latest = pairs_ahead(cloth, s.x, settings.thickness + spare);
+  latest.spare = spare;
 }
 
 void SelfCollision::correct(const Span& span, const State& s, PerParticle3& v, Work& work) const {
