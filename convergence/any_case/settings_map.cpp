@@ -279,7 +279,7 @@ PairError pair_error(const SettingsMap& map, size_t quantity, const SettingsPair
                      const OwnLimit& limit) {
   PairError error;
   const SettingsRun* run = map.find(at);
-  if (!run || limit.value.size() == 0) return error;
+  if (!run || !run->stopped.empty() || limit.value.size() == 0) return error;
   error.all = error_of(*run, quantity, limit);
   const SettingsQuantity& q = map.quantities[quantity];
   if (q.truth.size() > 0) error.from_truth = size_of(run->seen[quantity] - q.truth) / limit.scale;

@@ -106,7 +106,7 @@ std::string price_in_words(const SettingsAnswer& answer, const PricedPair& pair)
 std::string distance_in_words(const SettingsAnswer& answer, const std::string& name, double error,
                               const char* is) {
   const std::string at = pair_text(answer.map, answer.in_use);
-  if (std::isnan(error)) return fmt::format("{}: {} was not run", name, at);
+  if (std::isnan(error)) return fmt::format("{}: no run of {} came to an end", name, at);
   if (error > blown_up)
     return fmt::format("at {} the run blows up: your {} {} off by {:.2g} times the motion", at,
                        name, is, error);

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from typing import Any
 
 from judge_case import SPRINGS, bad
-from program_case import SHEET, ProgramCase, run
+from program_case import PROGRAM, SHEET, ProgramCase, run
 
 SWING = ("--set", "time.end=0.1", "--set", "gravity.acceleration=[0, -6, -8]", "--set",
          "cloth.columns=3", "--set", "cloth.rows=2", *SPRINGS)
@@ -62,6 +62,14 @@ class SettingsTest(ProgramCase):
     def test_a_cap_on_substeps_is_named(self) -> None:
         told = self.mapped("caps_substeps")
         self.assertIn("substeps beyond 8 change nothing", told["quantities"][0]["ends"])
+
+    def test_settings_in_use_may_have_no_run(self) -> None:
+        told = self.told("converge", "hinge", "--solver", f"'{PROGRAM}' serve", "--over", "step",
+                         "--at", "1", "--set", "stretch.stiffness=4000", "--set",
+                         "stretch.damping=0", "--until", "1", "--errors", "1e-2", "--out", self.out)
+        self.assertTrue(told["runs"][0]["stopped"])
+        self.assertIn("no run of 1 came to an end", told["sentences"][0])
+        self.assertTrue(told["quantities"][0]["pairs"][0]["was_run"])
 
     def write_run(self, name: str, sag: float) -> str:
         """Two frames of a square of nine vertices, whose middle sags."""
