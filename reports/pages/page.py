@@ -54,6 +54,11 @@ class StudyView:
     maps: list[Plot] = field(default_factory=list)
     findings: list[Finding] = field(default_factory=list)
 
+    @property
+    def is_of_settings(self) -> bool:
+        """Of how far a solver's settings can be trusted."""
+        return self.study.name.startswith("converge.") and self.study.name.endswith(".settings")
+
 
 @dataclass
 class Page:
@@ -174,7 +179,14 @@ class Page:
         """All other studies, as the run lists them."""
         elsewhere = [view.study.name for view in self.validations()]
         elsewhere += [*FIRST_STUDIES, *HARD_STUDIES]
-        return [view for view in self.studies if view.study.name not in elsewhere]
+        return [
+            view for view in self.studies
+            if view.study.name not in elsewhere and not view.is_of_settings
+        ]
+
+    def settings_studies(self) -> list[StudyView]:
+        """What `converge --over` and `--runs` found."""
+        return [view for view in self.studies if view.is_of_settings]
 
     def errors_alone(self) -> bool:
         """Is this what `foldproof converge` found, and nothing else?"""
@@ -268,6 +280,7 @@ def _studies_title(page: Page) -> str:
 SECTIONS = (
     Section("claims", "Claims", lambda page: page.claims),
     Section("checks", _checks_title, lambda page: page.checks),
+    Section("settings", "Your settings", Page.settings_studies),
     Section(
         "studies", _studies_title,
         lambda page: page.first_studies() or page.other_studies() or page.other_findings

@@ -97,7 +97,12 @@ class SettingsTest(ProgramCase):
         self.assertLess(sag["limit_from_truth"], 1e-3)
         pair = sag["pairs"][0]  # of an error of 2 %, which a row reaches between two runs
         self.assertTrue(math.isnan(pair["error"] or math.nan) or pair["error"] <= 0.01)
-        self.assertIn("Error of positions over the settings", self.page_of(self.out))
+        page = self.page_of(self.out)
+        self.assertIn("<h2>Your settings</h2>", page)
+        self.assertIn("Error of positions over the settings", page)
+        for sentence in told["sentences"]:
+            self.assertIn(f"<li>{sentence}</li>", page)
+        self.assertNotIn("<h2>Studies</h2>", page)
 
     def test_a_table_without_a_limit_says_so(self) -> None:
         table = self.table(lambda s, n: 0.4 / n + 0.1 / s)

@@ -143,7 +143,7 @@ class MuJoCo(PythonEngine, unittest.TestCase):
 
 class Tables(unittest.TestCase):
     def test_pages_are_as_their_data(self) -> None:
-        for words in ("scripts/record_engines", "scripts/run_back"):
+        for words in ("scripts/record_engines", "scripts/run_back", "scripts/price"):
             done = run(words, "--check")
             self.assertEqual(done.returncode, 0, words + done.stderr)
 

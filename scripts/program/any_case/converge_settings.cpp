@@ -316,12 +316,16 @@ nlohmann::json to_json(const SettingsAnswer& answer, const Options& options) {
                          {"step_check", answer.step_check},
                          {"program", program_json(options.command)}};
   for (const SettingsAxis& axis : map.axes) told["over"].push_back(axis.name);
-  for (const SettingsRun& run : map.runs)
+  for (const SettingsRun& run : map.runs) {
     told["runs"].push_back({{"at", run.at},
                             {"cost", run.cost},
                             {"seconds", run.seconds},
                             {"error", error_of(run, 0, answer.quantities[0].limit)},
                             {"stopped", run.stopped}});
+    for (size_t q = 0; q < run.seen.size(); ++q)
+      if (run.seen[q].size() == 1)
+        told["runs"].back()["values"][map.quantities[q].name] = run.seen[q](0, 0);
+  }
   for (size_t q = 0; q < answer.quantities.size(); ++q) {
     const auto& [limit, pairs, in_use, ends, gap, gap_bar] = answer.quantities[q];
     nlohmann::json one = {{"name", map.quantities[q].name},
