@@ -17,8 +17,9 @@ constexpr double same_value = 1e-9;  // of two settings [1]
 // Of the change from one extrapolated limit to the next: if the next term is of half an order more,
 // 2.4 times the change is left. [1]
 constexpr double limit_safety = 3;
-constexpr double visible = 1e-3;         // distance of limits that matters, over the scale [1]
-constexpr double highest_order = 4;      // that is extrapolated with
+constexpr double much_larger = 4;    // than the smallest difference, where rounding has grown [1]
+constexpr double visible = 1e-3;     // distance of limits that matters, over the scale [1]
+constexpr double highest_order = 4;  // that is extrapolated with
 constexpr double single_floor = 1.2e-4;  // 1e3 roundings of single precision [1]
 
 bool are_same(double a, double b) { return std::abs(a - b) <= same_value * std::abs(b); }
@@ -96,7 +97,32 @@ ErrorBar read_chain(const std::vector<double>& d, double ratio, double floor) {
   return error_bar({{}, d, ratio, std::clamp(std::round(last), 1.0, highest_order), floor});
 }
 
-std::optional<ChainLimit> limit_of(const Chain& chain, size_t quantity, double floor) {
+/// The difference from which on rounding outgrows what refinement gains, as in single precision: the
+/// smallest, which ends a fall of runs that have not blown up, and which others exceed by far
+/// afterwards. None: 0, since a fall has two differences before it.
+size_t onset_of_rounding(const Chain& chain, size_t quantity) {
+  std::vector<double> d;
+  for (size_t k = 0; k + 1 < chain.runs.size(); ++k)
+    d.push_back(size_of(chain.runs[k + 1]->seen[quantity] - chain.runs[k]->seen[quantity]));
+  const auto least = std::ranges::min_element(d);
+  const size_t m = size_t(least - d.begin());
+  if (m < 2 || m + 2 >= d.size()) return 0;
+  const bool falls = d[m - 2] > d[m - 1] && d[m - 1] > d[m];
+  const bool is_stable = d[m - 2] <= size_of(chain.runs[m]->seen[quantity]);
+  return falls && is_stable && *std::max_element(least, d.end()) > much_larger * d[m] ? m : 0;
+}
+
+/// Of the runs before rounding outgrows refinement. Their last difference may be small only since
+/// both gains cancel in it: then the bar is at least twice the one before.
+std::optional<ChainLimit> limit_of(Chain chain, size_t quantity, double floor) {
+  if (const size_t last = onset_of_rounding(chain, quantity); last > 0) {
+    chain.runs.resize(last + 2);
+    auto limit = limit_of(chain, quantity, floor);
+    const Seen &fine = chain.runs[last]->seen[quantity],
+               &coarse = chain.runs[last - 1]->seen[quantity];
+    limit->bar = std::max(limit->bar, 2 * size_of(fine - coarse));
+    return limit;
+  }
   const size_t n = chain.runs.size();
   if (n < 3) return {};
   const auto seen = [&](size_t k) -> const Seen& { return chain.runs[k]->seen[quantity]; };
@@ -223,6 +249,10 @@ OwnLimit own_limit(const SettingsMap& map, size_t quantity) {
   return own;
 }
 
+bool is_lost_in_rounding(const SettingsMap& map, size_t quantity, double other) {
+  return onset_of_rounding(chain_of(row_of(map, 0, other), 0), quantity) > 0;
+}
+
 double error_of(const SettingsRun& run, size_t quantity, const OwnLimit& limit) {
   if (!run.stopped.empty()) return INFINITY;
   const double error = size_of(run.seen[quantity] - limit.value) / limit.scale;
@@ -231,7 +261,10 @@ double error_of(const SettingsRun& run, size_t quantity, const OwnLimit& limit) 
 
 PricedPair pair_in_row(const SettingsMap& map, size_t quantity, double other, const OwnLimit& limit,
                        double wanted) {
-  const Row row = row_of(map, 0, other);
+  Row row = row_of(map, 0, other);
+  const Chain chain = chain_of(row, 0);
+  if (const size_t last = onset_of_rounding(chain, quantity); last > 0)
+    row.erase(std::ranges::find(row, chain.runs[last + 1]) + 1, row.end());
   size_t first = row.size();  // from here on, all runs reach it
   while (first > 0 && error_of(*row[first - 1], quantity, limit) <= wanted) --first;
   if (first == row.size()) return {wanted};
@@ -313,6 +346,9 @@ std::string end_of_refinement(const SettingsMap& map, size_t quantity, const Own
   for (const double other : others_of(map)) {
     const Chain chain = chain_of(row_of(map, 0, other), 0);
     if (chain.runs.size() < 3) continue;
+    if (const size_t last = onset_of_rounding(chain, quantity); last > 0)
+      return fmt::format("beyond {:g} {}, rounding moves it more than refinement does",
+                         chain.runs[last + 1]->at[0], map.axes[0].name);
     std::vector<double> d;
     for (size_t k = 0; k + 1 < chain.runs.size(); ++k)
       d.push_back(size_of(chain.runs[k + 1]->seen[quantity] - chain.runs[k]->seen[quantity]));

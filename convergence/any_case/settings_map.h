@@ -81,7 +81,11 @@ struct OwnLimit {
 /// one ratio; the row with the smallest bar counts. Of iterations, rows must agree: as steps become
 /// short, an iteration that belongs to the same equations has less and less to do. Where rows
 /// settle elsewhere, beyond their bars, there is no limit. Of a tolerance, the finest row counts.
+/// Runs so fine that rounding moves them more than refinement does are left out.
 OwnLimit own_limit(const SettingsMap& map, size_t quantity);
+
+/// Whether a row has such runs.
+bool is_lost_in_rounding(const SettingsMap& map, size_t quantity, double other);
 
 /// Distance of a run from the limit, over its scale; infinite if the run came to no end.
 double error_of(const SettingsRun& run, size_t quantity, const OwnLimit& limit);
@@ -133,8 +137,8 @@ void run_column(SettingsMap& map, const SettingsPair& at, double most, const Run
 PairError pair_error(const SettingsMap& map, size_t quantity, const SettingsPair& at,
                      const OwnLimit& limit);
 
-/// Why refining the first tunable ends: that its values beyond one change nothing, or that
-/// differences have sunk to a floor of rounding; "" otherwise.
+/// Why refining the first tunable ends: that its values beyond one change nothing, that rounding
+/// grows, or that differences have sunk to a floor of rounding; "" otherwise.
 std::string end_of_refinement(const SettingsMap& map, size_t quantity, const OwnLimit& limit);
 
 }  // namespace foldproof

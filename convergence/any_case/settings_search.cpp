@@ -128,6 +128,7 @@ class Search {
         const double cost = forecast(next);
         const bool is_of_limit = limit.value.size() > 0 && row == limit.along;
         if (!is_of_limit && found.because.empty()) continue;
+        if (is_lost_in_rounding(map_, quantity_, row)) continue;
         if (!is_of_limit && least_price(row, limit, wanted) > found.cost) continue;
         if (cost < least && is_affordable(cost) && map_.axes[0].has(next[0]))
           least = cost, best = next;

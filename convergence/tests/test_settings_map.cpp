@@ -259,5 +259,25 @@ TEST_CASE("a solver in single precision has a floor that more substeps do not pa
   CHECK(said.find("a floor of rounding") != std::string::npos);
 }
 
+TEST_CASE("substeps beyond the onset of rounding do not spoil the limit") {
+  Random random(5);
+  for (int k = 0; k < 20; ++k) {
+    const double p = between(random, 0.9, 2), q = between(random, 1, 2), first = 0.3,
+                 rounding = std::exp2(between(random, -24, -18));
+    const RunSettings run = [&](const SettingsPair& at) {
+      const double s = at[0], value = 1 + first * std::pow(s, -p) + rounding * std::pow(s, q);
+      return SettingsRun{at, s, 0, 1, {Seen::Constant(1, 1, value)}};
+    };
+    SettingsMap map{{{"substeps", TunableKind::substeps, 1, 1, 1e6}}, {{"sag", "m", 1e-12}}};
+    find_pairs(map, 0, {0.05, 1e-5}, 1e6, run);
+    INFO(p << " " << q << " " << rounding << ", runs to " << map.runs.back().at[0]);
+    const OwnLimit limit = own_limit(map, 0);
+    CHECK(std::abs(limit.value(0, 0) - 1) <= limit.bar);
+    CHECK(cheapest_pair(map, 0, 0.05).because.empty());
+    CHECK(end_of_refinement(map, 0, limit).find("rounding") != std::string::npos);
+    CHECK(map.cost() < 2e5);
+  }
+}
+
 }  // namespace
 }  // namespace foldproof
