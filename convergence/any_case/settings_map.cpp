@@ -17,9 +17,9 @@ constexpr double same_value = 1e-9;  // of two settings [1]
 // Of the change from one extrapolated limit to the next: if the next term is of half an order more,
 // 2.4 times the change is left. [1]
 constexpr double limit_safety = 3;
-constexpr double much_larger = 4;    // than the smallest difference, where rounding has grown [1]
-constexpr double visible = 1e-3;     // distance of limits that matters, over the scale [1]
-constexpr double highest_order = 4;  // that is extrapolated with
+constexpr double much_larger = 4;        // than the smallest difference: rounding has grown [1]
+constexpr double visible = 1e-3;         // distance of limits that matters, over the scale [1]
+constexpr double highest_order = 4;      // that is extrapolated with
 constexpr double single_floor = 1.2e-4;  // 1e3 roundings of single precision [1]
 
 bool are_same(double a, double b) { return std::abs(a - b) <= same_value * std::abs(b); }
@@ -77,6 +77,7 @@ struct ChainLimit {
   Seen value;
   double bar = nan;
   ErrorBar read;
+  double motion = nan;  // m
   double along = 1;
   bool is_good() const { return read.reading == Reading::asymptotic; }
 };
@@ -97,8 +98,8 @@ ErrorBar read_chain(const std::vector<double>& d, double ratio, double floor) {
   return error_bar({{}, d, ratio, std::clamp(std::round(last), 1.0, highest_order), floor});
 }
 
-/// The difference from which on rounding outgrows what refinement gains, as in single precision: the
-/// smallest, which ends a fall of runs that have not blown up, and which others exceed by far
+/// The difference from which on rounding outgrows what refinement gains, as in single precision. It
+/// is the smallest, ends a fall of runs that have not blown up, and others exceed it by far
 /// afterwards. None: 0, since a fall has two differences before it.
 size_t onset_of_rounding(const Chain& chain, size_t quantity) {
   std::vector<double> d;
@@ -128,7 +129,7 @@ std::optional<ChainLimit> limit_of(Chain chain, size_t quantity, double floor) {
   const auto seen = [&](size_t k) -> const Seen& { return chain.runs[k]->seen[quantity]; };
   std::vector<double> d;
   for (size_t k = 0; k + 1 < n; ++k) d.push_back(difference(seen(k + 1), seen(k)));
-  ChainLimit limit{seen(n - 1), nan, read_chain(d, chain.ratio, floor)};
+  ChainLimit limit{seen(n - 1), nan, read_chain(d, chain.ratio, floor), chain.runs.back()->motion};
   limit.bar = limit.read.half_width;
   if (!(limit.read.order >= least_order)) return limit;
   limit.value = extrapolated(seen(n - 2), seen(n - 1), chain.ratio, limit.read.order);
@@ -152,12 +153,11 @@ std::vector<ChainLimit> limits_of_rows(const SettingsMap& map, size_t quantity) 
   return limits;
 }
 
-double scale_of(const SettingsMap& map, size_t quantity, const Seen& limit) {
-  if (map.quantities[quantity].unit != "m") return size_of(limit);
-  double motion = nan;
-  for (const SettingsRun& run : map.runs)
-    if (run.stopped.empty()) motion = run.motion;
-  return limit.size() == 1 ? std::max(motion, size_of(limit)) : motion;
+/// Of a length the motion, else the limit's own size. Runs that have blown up move farther: the
+/// motion is that of the limit's runs.
+double scale_of(const SettingsMap& map, size_t quantity, const ChainLimit& limit) {
+  if (map.quantities[quantity].unit != "m") return size_of(limit.value);
+  return limit.value.size() == 1 ? std::max(limit.motion, size_of(limit.value)) : limit.motion;
 }
 
 std::string value_text(const Seen& value) {
@@ -238,7 +238,7 @@ OwnLimit own_limit(const SettingsMap& map, size_t quantity) {
                                : *std::ranges::min_element(limits, {}, [](const ChainLimit& limit) {
                                    return std::isfinite(limit.bar) ? limit.bar : INFINITY;
                                  });
-  own.scale = scale_of(map, quantity, best.value);
+  own.scale = scale_of(map, quantity, best);
   own.none = rows_disagree(map, limits, own.scale);
   if (!own.none.empty()) return own;
   own.value = best.value, own.bar = best.bar, own.order = best.read.order, own.along = best.along;

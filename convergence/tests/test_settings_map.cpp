@@ -276,6 +276,8 @@ TEST_CASE("substeps beyond the onset of rounding do not spoil the limit") {
     CHECK(cheapest_pair(map, 0, 0.05).because.empty());
     CHECK(end_of_refinement(map, 0, limit).find("rounding") != std::string::npos);
     CHECK(map.cost() < 2e5);
+    map.runs.push_back({{1.5, 1}, 1.5, 0, 1e3, {Seen::Constant(1, 1, 1e3)}});  // blows up
+    CHECK(own_limit(map, 0).scale == limit.scale);
   }
 }
 
