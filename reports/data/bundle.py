@@ -3,8 +3,8 @@ checked, never run. A digest shows that a file was altered or damaged, not who w
 
 A bundle has a line for each part: about (engine, version, settings, what it declares and maps,
 machine, program, law set, seed), adapter (file, sha256, source), laws (by name: outcome, measured,
-bound, unit, seconds, note), yardstick (the same of the reference on that machine), and the sha256
-of each part's line."""
+bound, unit, seconds, note), yardstick (the same of the reference on that machine), evidence (tables
+of what some laws measured, of both), and the sha256 of each part's line."""
 from __future__ import annotations
 
 import hashlib
@@ -15,13 +15,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-FORM = 1                    # of the file
+FORM = 2                    # of the file
 MOST_BYTES = 2_000_000
 MOST_SECONDS = 1e7          # of a law
 LONGEST = 400               # characters of a text, but the adapter's source
 SPREAD = 0.05               # by which a second run may differ, of the larger number or the bound
 BOUND_SPREAD = 0.05         # likewise the reference's bounds from those of the law set
-PARTS = ("about", "adapter", "laws", "yardstick")
+MOST_COLUMNS, MOST_CELLS = 12, 200     # of a table of evidence
+PARTS = ("about", "adapter", "laws", "yardstick", "evidence")
 OUTCOMES = ("holds", "fails", "inconclusive", "not applicable", "did not run")
 NAME = re.compile(r"[\w .,()+=:/*'-]{1,120}")
 FILE = re.compile(r"[\w+-][\w.+-]{0,100}")
@@ -35,6 +36,7 @@ ABOUT: dict[str, type | tuple[type, ...]] = {
 }
 
 Row = list[Any]             # outcome, measured, bound, unit, seconds, note
+Tables = dict[str, list[Any]]   # by law: columns, each of name, unit and cells
 
 
 class Refused(Exception):
@@ -48,13 +50,23 @@ class Bundle:
     adapter: dict[str, Any]
     laws: dict[str, Row]
     yardstick: dict[str, Row]       # empty: recorded before there was one
+    evidence: dict[str, Tables]     # of "laws" and "yardstick"
 
     @property
     def identity(self) -> tuple[str, ...]:
-        """Bundles of one identity are runs of the same thing."""
-        about = self.about
+        """Bundles of one identity are runs of the same thing. An adapter that is compiled has other
+        bytes on each machine: its name counts."""
+        about, adapter = self.about, self.adapter
         return (about["engine"], about["version"], json.dumps(about["settings"], sort_keys=True),
-                about["law_set"], self.adapter["sha256"])
+                self.arguments, about["law_set"], adapter["file"],
+                adapter["sha256"] if adapter["source"] else "")
+
+    @property
+    def arguments(self) -> str:
+        """Of the adapter: what its command has behind its file."""
+        words = self.about["command"].split()
+        at = [k for k, word in enumerate(words) if Path(word).name == self.adapter["file"]]
+        return " ".join(words[at[-1] + 1:]) if at else ""
 
 
 def law_set(name: str) -> dict[str, float | None]:
@@ -113,13 +125,20 @@ def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     return found
 
 
+def _integer(word: str) -> int:
+    if len(word) > 18:
+        raise Refused(f"has {word[:18]}..., which is too large")
+    return int(word)
+
+
 def _no_number(word: str) -> None:
     raise Refused(f"has {word}, which is no number")
 
 
 def _parts_of(text: str) -> dict[str, Any]:
     try:
-        parts = json.loads(text, object_pairs_hook=_once, parse_constant=_no_number)
+        parts = json.loads(text, object_pairs_hook=_once, parse_constant=_no_number,
+                           parse_int=_integer)
     except RecursionError:
         raise Refused("is nested too deeply") from None
     except ValueError as error:
@@ -177,6 +196,9 @@ def _check_parts(parts: dict[str, Any]) -> None:
         _check_rows(parts[part], part, set(known))
     if not parts["laws"]:
         raise Refused("'laws' is empty")
+    _only(parts["evidence"], "'evidence'", {"laws", "yardstick"})
+    for part, tables in parts["evidence"].items():
+        _check_tables(tables, f"'evidence' of '{part}'", set(known))
 
 
 def _check_texts(value: Any, what: str, depth: int = 0) -> None:
@@ -209,6 +231,26 @@ def _check_rows(rows: Any, part: str, known: set[str]) -> None:
         if seconds is not None and not 0 <= seconds <= MOST_SECONDS:
             raise Refused(f"'{part}': {law} took {seconds:g} s")
         _check_outcome(f"'{part}': {law}", outcome, measured, bound)
+
+
+def _check_tables(tables: Any, what: str, known: set[str]) -> None:
+    if not isinstance(tables, dict):
+        raise Refused(f"{what} is no object")
+    for law, columns in tables.items():
+        if law not in known:
+            raise Refused(f"{what}: there is no law '{law[:80]}' in the set")
+        if not (isinstance(columns, list) and 0 < len(columns) <= MOST_COLUMNS
+                and all(map(_is_column, columns)) and len({len(one[2]) for one in columns}) == 1):
+            raise Refused(f"{what}: {law} has no table of up to {MOST_COLUMNS} columns of one "
+                          f"length, {MOST_CELLS} at most")
+
+
+def _is_column(one: Any) -> bool:
+    return (isinstance(one, list) and len(one) == 3 and isinstance(one[2], list)
+            and len(one[2]) <= MOST_CELLS and all(
+                cell is None or type(cell) in (int, float)
+                or isinstance(cell, str) and len(cell) <= LONGEST for cell in (*one[:2], *one[2]))
+            and all(isinstance(word, str) for word in one[:2]))
 
 
 def _check_outcome(what: str, outcome: str, measured: float | None, bound: float | None) -> None:
@@ -251,7 +293,15 @@ def differences(one: Bundle, other: Bundle, spread: float = 0) -> list[tuple[str
 
 
 def agrees(one: Bundle, other: Bundle) -> bool:
-    """Whether the other is a second run of the same, not a copy, and agrees within the spread."""
+    """Whether the other is a second run of the same, not a copy, and disagrees in nothing."""
     return (one.identity == other.identity and one.about["date"] != other.about["date"]
             and one.laws != other.laws and one.laws.keys() == other.laws.keys()
-            and not differences(one, other, min(one.about["spread"], other.about["spread"])))
+            and not disagreements(one, other))
+
+
+def disagreements(one: Bundle, other: Bundle) -> list[tuple[str, Row, Row]]:
+    """Laws whose outcomes differ, or whose numbers differ by more than the spread. Numbers of cost
+    are by a clock: their outcome alone counts."""
+    spread = min(one.about["spread"], other.about["spread"])
+    return [(law, a, b) for law, a, b in differences(one, other, spread)
+            if a[0] != b[0] or not law.startswith("cost.")]

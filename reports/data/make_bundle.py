@@ -10,7 +10,7 @@ import tempfile
 from pathlib import Path
 from typing import Any
 
-from data.bundle import LONGEST, SPREAD, Row, text_of
+from data.bundle import LONGEST, SPREAD, Row, Tables, text_of
 from data.unreadable import Unreadable
 
 DECLARED = ("level", "precision", "scheme", "order", "capabilities", "solve_tolerance",
@@ -28,11 +28,14 @@ def bundle_text(folder: Path, program: str) -> str:
              facts["laws"]["set"], "--out", f"{scratch}/out"], check=False,
             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         yardstick = rows_of(Path(scratch) / "out")
+        its_facts = json.loads((Path(scratch) / "out/solver.json").read_text())
     if facts["laws"]["changed"] or facts["laws"]["gone"]:
         raise Unreadable(f"{folder}: laws changed since {facts['laws']['set']} was frozen: "
                          "this program cannot make a bundle of it")
     return text_of({"about": about(folder, facts), "adapter": adapter_of(facts["command"]),
-                    "laws": rows_of(folder), "yardstick": yardstick})
+                    "laws": rows_of(folder), "yardstick": yardstick,
+                    "evidence": {"laws": tables_of(facts["calibration"] + facts["cost"]),
+                                 "yardstick": tables_of(its_facts["cost"])}})
 
 
 def rows_of(folder: Path) -> dict[str, Row]:
@@ -42,6 +45,16 @@ def rows_of(folder: Path) -> dict[str, Row]:
                       round(one["seconds"], 4), "" if one["outcome"] == "holds" else
                       one["note"][:LONGEST - len(one["unit"])]]
         for one in found
+    }
+
+
+def tables_of(evidence: list[dict[str, Any]]) -> Tables:
+    return {
+        table["law"]: [[one["name"], one["unit"], [cell if cell is None or isinstance(cell, str)
+                                                   else float(f"{cell:.5g}")
+                                                   for cell in one["values"]]]
+                       for one in table["columns"]]
+        for table in evidence
     }
 
 

@@ -7,16 +7,20 @@ import json
 import re
 from collections import Counter
 from dataclasses import dataclass, field
+from functools import cached_property
+from math import inf, log
 from pathlib import Path
 from typing import Any
 
 from jinja2 import FileSystemLoader
 from markupsafe import Markup
 
-from data.bundle import Bundle, Row, agrees, differences, law_set
+from data.bundle import Bundle, Row, agrees, differences, disagreements, law_set
 from data.quantities import ratio_of
 from data.whole_file import write_whole
 from pages.render import REPORTS, TEMPLATES, new_environment
+from standing.causes import Cause, Reproduction, causes_of
+from standing.measured import COLUMNS, MESHES, PARAMETERS, by_mesh, costs_of, is_in
 
 SCHEMA = 1                  # of results.json
 STYLES = ("pages/style.css", "pages/opening.css", "pages/site.css",
@@ -25,7 +29,7 @@ STYLES = ("pages/style.css", "pages/opening.css", "pages/site.css",
 GROUPS = {
     "rest, weight, momentum": "smoke rest inertia gravity momentum held time limits repeat"
                               " symmetry precision",
-    "forces": "forces bending damping",
+    "forces": "forces bending damping together",
     "order, stability": "order stability vibration game-step",
     "stiffness, mesh": "calibration size materials strain-limits",
     "hangs, folds, buckles": "cantilever buckling strip drape floor chain wrinkles",
@@ -63,8 +67,20 @@ class Standing:
 
     @property
     def settings(self) -> str:
-        settings = self.bundle.about["settings"]
-        return " ".join(f"{key}={value}" if value else key for key, value in settings.items())
+        """Words of the adapter's command that its name has are left out."""
+        about = self.bundle.about
+        words = [word for word in self.bundle.arguments.split() if word not in about["engine"]]
+        return " ".join(words + [f"{key}={value}" if value else key
+                                 for key, value in about["settings"].items()])
+
+    @cached_property
+    def causes(self) -> dict[str, Cause]:
+        return causes_of(self.bundle)
+
+    @property
+    def reproductions(self) -> dict[str, Reproduction]:
+        """By page."""
+        return {one.page: one for cause in self.causes.values() for one in cause.reproductions}
 
     @property
     def name(self) -> str:
@@ -87,6 +103,15 @@ class Standing:
                   if row[0] in ("holds", "fails", "inconclusive") and law in self.bundle.yardstick]
         return (sum(self.bundle.laws[law][4] or 0 for law in common),
                 sum(self.bundle.yardstick[law][4] or 0 for law in common))
+
+
+def by_how_much(found: list[tuple[str, Row, Row]]) -> list[tuple[str, Row, Row]]:
+    """Laws that differ: other outcomes first, then by the factor between the numbers."""
+    def rank(one: tuple[str, Row, Row]) -> tuple[bool, float]:
+        _, a, b = one
+        ratio = b[1] / a[1] if a[1] and b[1] is not None else 0.0
+        return a[0] == b[0], -abs(log(ratio)) if ratio > 0 else -inf
+    return sorted(found, key=rank)
 
 
 def group_of(law: str) -> str:
@@ -135,12 +160,12 @@ def standings_of(bundles: list[Bundle]) -> list[Standing]:
 def version_key(bundle: Bundle) -> tuple[Any, ...]:
     about = bundle.about
     numbers = [int(part) for part in re.findall(r"\d{1,9}", about["version"])]
-    return about["engine"].lower(), numbers, about["version"], str(about["settings"])
+    return about["engine"].lower(), numbers, about["version"], str(bundle.identity)
 
 
 def write_site(bundles: list[Bundle], folder: Path) -> Path:
-    """Writes index.html, the other pages and results.json; returns the first. All of one law set:
-    the newest that a bundle has."""
+    """Writes index.html, the other pages, table.svg and results.json; returns the first. All of one
+    law set: the newest that a bundle has."""
     newest = max(bundle.about["law_set"] for bundle in bundles)
     shown = standings_of([one for one in bundles if one.about["law_set"] == newest])
     laws = list(law_set(newest))
@@ -149,11 +174,17 @@ def write_site(bundles: list[Bundle], folder: Path) -> Path:
     style = "\n".join((REPORTS / file).read_text(encoding="utf-8") for file in STYLES)
     environment.globals.update(
         style=Markup(style), laws=laws, set_name=newest, groups=groups_of(laws),
-        group_of=group_of, older=len(bundles) - len(shown), differences=differences,
+        group_of=group_of, older=sum(one.about["law_set"] != newest for one in bundles),
+        differences=differences, by_how_much=by_how_much, meshes=MESHES, mesh_columns=COLUMNS,
+        by_mesh=by_mesh, is_in=is_in, disagreements=disagreements,
         outcomes_that_differ=lambda found: sum(a[0] != b[0] for _, a, b in found))
     engines = {engine: list(runs) for engine, runs in
                itertools.groupby(shown, key=lambda one: one.bundle.about["engine"])}
-    pages = {"index.html": ("standing.html.j2", {"engines": engines, "shown": shown})}
+    costs = costs_of([(one.name, one.bundle) for one in shown])
+    pages = {"index.html": ("standing.html.j2", {"engines": engines, "shown": shown}),
+             "table.svg": ("standing-table.svg.j2", {"shown": shown}),
+             "measured.html": ("standing-measured.html.j2",
+                               {"runs": shown, "parameters": PARAMETERS, "costs": costs})}
     files = engine_files(list(engines))
     environment.globals["engine_file"] = files.__getitem__
     for engine, runs in engines.items():
@@ -165,9 +196,11 @@ def write_site(bundles: list[Bundle], folder: Path) -> Path:
             pages[file] = ("standing-difference.html.j2", {"a": one, "b": other})
         for run in runs:
             pages[run.file] = ("standing-run.html.j2", {"run": run})
+            pages |= {page: ("standing-reproduction.html.j2", {"one": one})
+                      for page, one in run.reproductions.items()}
     folder.mkdir(parents=True, exist_ok=True)
     for old in folder.glob("*.html"):
-        if old.name.startswith(("run-", "engine-", "difference-")):
+        if old.name.startswith(("run-", "engine-", "difference-", "reproduction-")):
             old.unlink()
     for file, (template, values) in pages.items():
         text = environment.get_template(template).render(values)

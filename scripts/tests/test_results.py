@@ -20,13 +20,17 @@ from typing import Any
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "reports"))
-from data.bundle import PARTS, read_bundle, text_of  # noqa: E402
+from data.bundle import PARTS, Bundle, read_bundle, text_of  # noqa: E402
+from standing.measured import (  # noqa: E402
+    COLUMNS, COST_LAW, MESHES, PARAMETERS, by_mesh, columns_of, cost_rows
+)
 
 PROGRAM = ROOT / "build/foldproof"
 TOY = f"/usr/bin/python3 {ROOT}/verification/subjects/adapters/toy_solver.py"
 SET = "2026.1"
 MOST_BYTES, MOST_SECONDS = 500_000, 20
 LAW = "smoke.sheet-at-rest-stays"
+MODULUS = "calibration.modulus-survives-refinement"
 Parts = dict[str, Any]
 
 
@@ -84,6 +88,12 @@ HOSTILE: dict[str, tuple[Callable[[Parts], bytes], str]] = {
     "wider bounds": (set_in("yardstick", LAW, 2, 0.5), "has bound 0.5; the law set 0.01"),
     "no yardstick": (set_in("yardstick", LAW, None), "no row of outcome"),
     "another source": (set_in("adapter", "source", "print()"), "not that of its sha256"),
+    "an integer beyond all": (
+        lambda p: text(p).replace('"seed":0', f'"seed":{10**400}').encode(), "which is too large"),
+    "a table with a short column": (
+        set_in("evidence", "laws", MODULUS, [["a", "", [1]], ["b", "", []]]), "columns of one"),
+    "a table of 10^4 cells": (
+        set_in("evidence", "laws", MODULUS, [["a", "", [1] * 10**4]]), "columns of one"),
     "a text of a megabyte": (set_in("about", "mapping", {"a": "b" * 10**6}), "more than 400"),
     "ten thousand brackets": (lambda p: b'{"bundle":' + b"[" * 10**5, "nested too deeply"),
     "bytes that are no text": (lambda p: b"{\xff\xfe", "no UTF-8 text at byte 1"),
@@ -116,6 +126,9 @@ class Results(unittest.TestCase):
             raise AssertionError(cls.judged.stdout + cls.judged.stderr)
         whole = json.loads(cls.file.read_text())
         cls.parts = {name: whole[name] for name in PARTS}
+
+    def setUp(self) -> None:
+        self.bundle = Bundle(*copy.deepcopy(list(self.parts.values())))
 
     def add(self, content: bytes) -> subprocess.CompletedProcess[str]:
         sent = self.folder / "sent.json"
@@ -158,6 +171,7 @@ class Results(unittest.TestCase):
         again["about"]["date"] = "2030-01-01T00:00:00Z"
         for row in again["laws"].values():
             row[4] = row[4] * 1.1
+        again["laws"]["cost.growth-is-below-quadratic"][1] *= 0.7
         worse = copy.deepcopy(again)
         row = worse["laws"]["gravity.speed-grows-by-g-t"]
         row[1] = 0.9 * row[2]
@@ -171,6 +185,25 @@ class Results(unittest.TestCase):
             self.assertEqual(run("results", "site", folder / "pages", "--in", folder).returncode, 0)
             rows = json.loads((folder / "pages/results.json").read_text())["runs"]
             self.assertEqual([row["status"] for row in rows], wanted)
+
+    def test_moduli_by_mesh_are_over_those_of_the_scene(self) -> None:
+        for parameter, law, name in zip(
+                PARAMETERS, ("young-s-modulus", "bending-rigidity"),
+                ("Young's modulus", "bending rigidity")):
+            table = columns_of(self.bundle, f"calibration.{law}-is-the-scene-s")
+            for value, differs in zip(table[name], table["difference from the scene's"]):
+                self.assertAlmostEqual(abs(value / parameter.scale - 1), differs, places=4)
+            cells = by_mesh(self.bundle, parameter)
+            self.assertEqual(len(cells), len(MESHES) * len(COLUMNS))
+            self.assertTrue(all(0.5 < cell < 1.5 for cell in cells), cells)
+
+    def test_cost_is_in_steps_of_the_reference(self) -> None:
+        steps, _, seconds, cost = cost_rows(self.bundle, "yardstick")[-1]
+        self.assertAlmostEqual(cost, steps, places=6)
+        mine = cost_rows(self.bundle)[0]
+        self.assertAlmostEqual(mine[3] / mine[2], steps / seconds, delta=1e-6 * steps / seconds)
+        self.bundle.laws[COST_LAW][0] = "fails"
+        self.assertEqual(cost_rows(self.bundle), [])
 
     def test_ten_runs_become_pages_in_time(self) -> None:
         many = self.folder / "many"
@@ -203,12 +236,17 @@ class Results(unittest.TestCase):
                 if anchor:
                     self.assertIn(anchor, links.ids, name)
 
-    def test_shipped_bundles_are_those_of_the_engines_data(self) -> None:
-        shipped = ROOT / "reports/standing"
-        with tempfile.TemporaryDirectory() as scratch:
-            done = run("results", "site", Path(scratch) / "pages")
-            self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertGreaterEqual(len(list(shipped.glob("*.json"))), 6)
+    def test_shipped_bundles_have_pages_and_the_picture_of_the_readme(self) -> None:
+        pages = self.folder / "shipped"
+        done = run("results", "site", pages)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.check_pages(pages, {file.name: file.read_text() for file in pages.glob("*.html")})
+        table = (pages / "table.svg").read_text()
+        self.assertEqual(table, (ROOT / "reports/standing/table.svg").read_text(),
+                         "type: scripts/record_standing --picture")
+        self.assertLess(len(table), 60_000)
+        xpbd = (pages / "run-newton-xpbd-1.8.0.html").read_text()
+        self.assertIn('shown by <a href="reproduction-newton-hinges.py.html">', xpbd)
 
 
 class TheirCi(unittest.TestCase):

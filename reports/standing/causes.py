@@ -1,0 +1,69 @@
+"""Why an engine's laws fail, as far as the project knows: causes.toml beside each adapter, and the
+scripts that show a fault by the engine alone."""
+from __future__ import annotations
+
+import tomllib
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from data.bundle import Bundle
+
+ADAPTERS = Path(__file__).resolve().parents[2] / "verification/subjects/adapters"
+FOLDERS = ("reproductions", "repro")
+
+
+@dataclass(frozen=True)
+class Reproduction:
+    """A script that uses the engine alone."""
+    name: str
+    page: str       # its file on the site
+    source: str
+
+
+@dataclass(frozen=True)
+class Cause:
+    """Why a law fails."""
+    words: str
+    reproductions: list[Reproduction]
+
+
+@cache
+def _known(folder: Path) -> dict[str, Any]:
+    file = folder / "causes.toml"
+    return tomllib.loads(file.read_text()) if file.is_file() else {}
+
+
+def _folder_of(bundle: Bundle) -> Path | None:
+    """Of the adapter in this project; None for another's."""
+    stem = Path(bundle.adapter["file"]).stem
+    return next((file.parent for file in sorted(ADAPTERS.glob("*/*.*")) if file.stem == stem), None)
+
+
+def causes_of(bundle: Bundle) -> dict[str, Cause]:
+    """By the law that fails; of versions that were looked into."""
+    folder = _folder_of(bundle)
+    known = _known(folder) if folder else {}
+    settings = " ".join([bundle.arguments or Path(bundle.adapter["file"]).stem,
+                         *(f"{k}={v}" for k, v in sorted(bundle.about["settings"].items()) if v)])
+    return {
+        law: _cause_of(folder, cause)
+        for cause in known.get("cause", []) if settings in cause["settings"]
+        and bundle.about["version"] in cause.get("versions", known.get("versions", []))
+        for law in cause["laws"] if bundle.laws.get(law, [""])[0] == "fails"
+    }
+
+
+def _cause_of(folder: Path, said: dict[str, Any]) -> Cause:
+    scripts = _reproductions(folder, said.get("by", ""))
+    by = "shown by" if scripts else said.get("by", "").replace("`", "")
+    return Cause(", ".join(filter(None, (said["cause"], by))), scripts)
+
+
+def _reproductions(folder: Path, words: str) -> list[Reproduction]:
+    """Those whose file the words name."""
+    files = [file for name in FOLDERS for file in sorted((folder / name).glob("*.*"))]
+    return [Reproduction(f"{folder.name}/{file.name}",
+                         f"reproduction-{folder.name}-{file.name}.html", file.read_text())
+            for file in files if file.name in words]
