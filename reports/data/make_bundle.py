@@ -66,7 +66,8 @@ def about(folder: Path, facts: dict[str, Any]) -> dict[str, Any]:
         "declared": {name: facts[name] for name in DECLARED},
         "mapping": {key: value[:LONGEST] for key, value in facts["mapping"].items()},
         "command": facts["command"][:LONGEST],
-        "machine": {"cpu": program["cpu"], "cores": os.cpu_count()},
+        "machine": {"cpu": program["cpu"], "cores": os.cpu_count(),
+                    "load at the end": round(os.getloadavg()[0], 1)},
         "program": {name: program[name] for name in PROGRAM},
         "law_set": facts["laws"]["set"], "seed": program["seed"], "spread": SPREAD,
         "date": program["date"]

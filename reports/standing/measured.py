@@ -68,8 +68,8 @@ def cost_rows(bundle: Bundle, part: str = "laws") -> list[tuple[float, float, fl
     reference = _points(bundle, "yardstick")
     if row[0] != "holds" or not reference:
         return []
-    steps, _, seconds = max(reference)
-    return [(*point, point[2] * steps / seconds) for point in _points(bundle, part)]
+    step = min(seconds / steps for steps, _, seconds in reference)  # what disturbs adds to it
+    return [(*point, point[2] / step) for point in _points(bundle, part)]
 
 
 def _points(bundle: Bundle, part: str) -> list[tuple[float, float, float]]:

@@ -15,7 +15,7 @@ from typing import Any
 from jinja2 import FileSystemLoader
 from markupsafe import Markup
 
-from data.bundle import Bundle, Row, agrees, differences, disagreements, law_set
+from data.bundle import SPREAD, Bundle, Row, agrees, differences, disagreements, law_set
 from data.quantities import ratio_of
 from data.whole_file import write_whole
 from pages.render import REPORTS, TEMPLATES, new_environment
@@ -38,6 +38,7 @@ GROUPS = {
     "moving, air, cost": "moving air cost",
 }
 OTHER = "others"
+CHANGES = ("Decided otherwise", "Decided in one of the two alone", "Same outcome, another number")
 NOT_ASKED: Row = ["not asked", None, None, "", None, ""]
 
 
@@ -105,13 +106,23 @@ class Standing:
                 sum(self.bundle.yardstick[law][4] or 0 for law in common))
 
 
-def by_how_much(found: list[tuple[str, Row, Row]]) -> list[tuple[str, Row, Row]]:
-    """Laws that differ: other outcomes first, then by the factor between the numbers."""
-    def rank(one: tuple[str, Row, Row]) -> tuple[bool, float]:
-        _, a, b = one
-        ratio = b[1] / a[1] if a[1] and b[1] is not None else 0.0
-        return a[0] == b[0], -abs(log(ratio)) if ratio > 0 else -inf
-    return sorted(found, key=rank)
+def changes(one: Bundle, other: Bundle) -> dict[str, list[tuple[str, Row, Row]]]:
+    """Laws that differ by more than the spread, by the heading under which they stand; the largest
+    factors between numbers first."""
+    found: dict[str, list[tuple[str, Row, Row]]] = {heading: [] for heading in CHANGES}
+    for law, a, b in differences(one, other, SPREAD):
+        decided = sum(row[0] in ("holds", "fails") for row in (a, b))
+        if decided:
+            same = a[0] == b[0]
+            found[CHANGES[1 if decided == 1 else 2 if same else 0]].append((law, a, b))
+    return {heading: sorted(rows, key=_factor, reverse=True) for heading, rows in found.items()}
+
+
+def _factor(change: tuple[str, Row, Row]) -> float:
+    _, a, b = change
+    if not a[1] or not b[1]:
+        return inf
+    return abs(log(b[1] / a[1])) if b[1] / a[1] > 0 else inf
 
 
 def group_of(law: str) -> str:
@@ -175,9 +186,8 @@ def write_site(bundles: list[Bundle], folder: Path) -> Path:
     environment.globals.update(
         style=Markup(style), laws=laws, set_name=newest, groups=groups_of(laws),
         group_of=group_of, older=sum(one.about["law_set"] != newest for one in bundles),
-        differences=differences, by_how_much=by_how_much, meshes=MESHES, mesh_columns=COLUMNS,
-        by_mesh=by_mesh, is_in=is_in, disagreements=disagreements,
-        outcomes_that_differ=lambda found: sum(a[0] != b[0] for _, a, b in found))
+        changes=changes, change_headings=CHANGES, meshes=MESHES, mesh_columns=COLUMNS,
+        by_mesh=by_mesh, is_in=is_in, disagreements=disagreements, spread=SPREAD)
     engines = {engine: list(runs) for engine, runs in
                itertools.groupby(shown, key=lambda one: one.bundle.about["engine"])}
     costs = costs_of([(one.name, one.bundle) for one in shown])

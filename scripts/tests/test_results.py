@@ -187,21 +187,23 @@ class Results(unittest.TestCase):
             self.assertEqual([row["status"] for row in rows], wanted)
 
     def test_moduli_by_mesh_are_over_those_of_the_scene(self) -> None:
+        bundle = read_bundle(ROOT / "reports/standing/jolt-1.1.0.json")
         for parameter, law, name in zip(
                 PARAMETERS, ("young-s-modulus", "bending-rigidity"),
                 ("Young's modulus", "bending rigidity")):
-            table = columns_of(self.bundle, f"calibration.{law}-is-the-scene-s")
+            table = columns_of(bundle, f"calibration.{law}-is-the-scene-s")
             for value, differs in zip(table[name], table["difference from the scene's"]):
                 self.assertAlmostEqual(abs(value / parameter.scale - 1), differs, places=4)
-            cells = by_mesh(self.bundle, parameter)
+            cells = by_mesh(bundle, parameter)
             self.assertEqual(len(cells), len(MESHES) * len(COLUMNS))
             self.assertTrue(all(0.5 < cell < 1.5 for cell in cells), cells)
 
     def test_cost_is_in_steps_of_the_reference(self) -> None:
-        steps, _, seconds, cost = cost_rows(self.bundle, "yardstick")[-1]
-        self.assertAlmostEqual(cost, steps, places=6)
+        ratios = [cost / steps for steps, _, _, cost in cost_rows(self.bundle, "yardstick")]
+        self.assertAlmostEqual(min(ratios), 1)  # of the reference itself
+        _, _, seconds, cost = cost_rows(self.bundle, "yardstick")[0]
         mine = cost_rows(self.bundle)[0]
-        self.assertAlmostEqual(mine[3] / mine[2], steps / seconds, delta=1e-6 * steps / seconds)
+        self.assertAlmostEqual(mine[3] / mine[2] * seconds / cost, 1)
         self.bundle.laws[COST_LAW][0] = "fails"
         self.assertEqual(cost_rows(self.bundle), [])
 
@@ -224,17 +226,19 @@ class Results(unittest.TestCase):
         self.check_pages(many / "pages", pages)
 
     def check_pages(self, folder: Path, pages: dict[str, str]) -> None:
+        read: dict[str, Links] = {}
+        for name, page in pages.items():
+            read[name] = Links()
+            read[name].feed(page)
         for name, page in pages.items():
             self.assertLess(len(page.encode()), MOST_BYTES, name)
             self.assertNotIn("<script>", page, name)
-            links = Links()
-            links.feed(page)
-            for link in links.found:
+            for link in read[name].found:
                 self.assertNotRegex(link, "^[a-z]+:", name)
                 file, _, anchor = link.partition("#")
                 self.assertTrue((folder / (file or name)).is_file(), f"{name}: {link}")
                 if anchor:
-                    self.assertIn(anchor, links.ids, name)
+                    self.assertIn(anchor, read[file or name].ids, name)
 
     def test_shipped_bundles_have_pages_and_the_picture_of_the_readme(self) -> None:
         pages = self.folder / "shipped"
