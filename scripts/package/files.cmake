@@ -12,8 +12,8 @@ function(install_data prefix)
     DESTINATION ${to}/verification FILES_MATCHING PATTERN *.toml PATTERN outcomes.json)
   install(FILES ${tree}/verification/subjects/planted_bugs.jsonl
     DESTINATION ${to}/verification/subjects)
-  install(DIRECTORY ${tree}/verification/subjects/law_sets
-    DESTINATION ${to}/verification/subjects)
+  install(DIRECTORY ${tree}/verification/subjects/law_sets ${tree}/verification/subjects/adapters
+    DESTINATION ${to}/verification/subjects PATTERN __pycache__ EXCLUDE)
   install(DIRECTORY ${tree}/reports DESTINATION ${to} FILES_MATCHING
     PATTERN *.py PATTERN *.j2 PATTERN *.css PATTERN *.js PATTERN *.json
     PATTERN tests EXCLUDE PATTERN __pycache__ EXCLUDE)
