@@ -20,6 +20,7 @@ class BackwardEuler(Toy):
         self.by_end = np.argsort(ends, kind="stable")
         self.first_of = np.searchsorted(ends[self.by_end], np.arange(len(self.x)))
         self.is_free = ~np.isin(np.arange(len(self.x)), self.held)
+        self.v = self.v * self.is_free[:, None]
 
     def blocks(self) -> np.ndarray:
         """(E, 3, 3): change of the pull of each edge; without what compression takes from it, so
