@@ -1,5 +1,5 @@
-// The readers of caches, PC2, NPZ and USD as the first byte says: whatever the bytes, frames whose
-// indices, coordinates and times are sound, or an InputError in one line.
+// The readers of caches. The first byte of an input chooses one: PC2, NPZ or USD. It must return
+// frames whose indices, coordinates and times are sound, or throw an InputError in one line.
 #include <cmath>
 #include <cstdint>
 #include <string_view>

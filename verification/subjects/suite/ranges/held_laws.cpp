@@ -128,7 +128,7 @@ std::vector<Law> held_laws() {
        "protocol: array 'held'; Newton's second law", neighbours_fall_at_once, "held",
        "particles | farthest from g t"},
       {"held.particles-stay-for-seconds",
-       "Held particles stay for 2.5 s, and under 3.7 N, whatever their velocity at the start.",
+       "Held particles stay for 2.5 s, and under 3.7 N, even if the scene gives them a velocity.",
        "protocol: array 'held'", stay_for_seconds, "held", "sheet | time | held ones"},
       {"held.particles-stay-in-steps-of-a-state",
        "Held particles stay, and others fall, in steps from states that are set.",
