@@ -11,7 +11,7 @@ namespace foldproof {
 
 namespace {
 
-using Eigen::Matrix2d;
+using Eigen::Matrix2d, Eigen::Matrix3d, Eigen::SelfAdjointEigenSolver, Eigen::Vector3d;
 using Matrix32 = Eigen::Matrix<double, 3, 2>;
 using Matrix23 = Eigen::Matrix<double, 2, 3>;
 
@@ -27,12 +27,19 @@ struct Stiffness {
         2 * shear * E(0, 1), c12 * E(0, 0) + c22 * E(1, 1);
     return S;
   }
-  /// The largest of |S|/|E| [N/m].
-  double largest() const {
-    const double mean = (c11 + c22) / 2;
-    return std::max(mean + std::hypot((c11 - c22) / 2, c12), 2 * shear);
+  /// The root of C as a matrix for (E11, E22, sqrt(2) E12) [sqrt(N/m)].
+  Matrix3d root() const {
+    Matrix3d C;
+    C << c11, c12, 0, c12, c22, 0, 0, 0, 2 * shear;
+    return SelfAdjointEigenSolver<Matrix3d>(C).operatorSqrt();
   }
 };
+
+template <class Matrix>
+auto eigenvalues_of(const Matrix& symmetric) {
+  SelfAdjointEigenSolver<Matrix> modes;
+  return modes.computeDirect(symmetric, Eigen::EigenvaluesOnly).eigenvalues().eval();
+}
 
 /// A triangle at rest. Column k of `gradients` is the gradient of corner k's share [1/m]:
 /// F = sum of x_k gradients_k^T.
@@ -41,6 +48,10 @@ struct RestTriangle {
   Matrix23 gradients;
   double area;  // m^2
   Stiffness material;
+  // For its bounds: parts of the corners, and the sum of g_k g_k^T over them [1/m^2].
+  Vector3d parts = gradients.colwise().norm() / gradients.colwise().norm().sum();
+  Matrix2d spread = gradients * parts.cwiseInverse().asDiagonal() * gradients.transpose();
+  Matrix3d root = material.root();
 
   Matrix32 gradient_of(const PerParticle3& x) const {
     Matrix32 F = Matrix32::Zero();
@@ -49,6 +60,28 @@ struct RestTriangle {
   }
   void push(const Matrix32& P, PerParticle3& f) const {
     for (int k = 0; k < 3; ++k) f.col(corners[size_t(k)]) -= area * (P * gradients.col(k));
+  }
+
+  // The stiffness matrix of the triangle is at most A size on the corners' parts a_k: for any dx,
+  // A dE:C:dE <= A size sum a_k |dx_k|^2, dE = sym(F^T dF). The least such size is the largest
+  // eigenvalue of C^1/2 (sum B_k B_k^T/a_k) C^1/2, B_k the derivative of dE by dx_k.
+
+  /// With FF = F^T F [N/m^3].
+  double size_of_material(const Matrix2d& FF) const {
+    const Matrix2d& G = spread;
+    Matrix3d N;
+    N << FF(0, 0) * G(0, 0), FF(0, 1) * G(0, 1),
+        (FF(0, 0) * G(0, 1) + FF(0, 1) * G(0, 0)) * M_SQRT1_2,                         //
+        0, FF(1, 1) * G(1, 1), (FF(0, 1) * G(1, 1) + FF(1, 1) * G(0, 1)) * M_SQRT1_2,  //
+        0, 0, (FF(0, 0) * G(1, 1) + FF(1, 1) * G(0, 0)) / 2 + FF(0, 1) * G(0, 1);
+    return eigenvalues_of(Matrix3d(root * N.selfadjointView<Eigen::Upper>() * root)).maxCoeff();
+  }
+  /// Of A dF S : dF, with either sign of S [N/m^3].
+  double size_of_stress(const Matrix2d& S) const {
+    return eigenvalues_of(S).cwiseAbs().maxCoeff() * eigenvalues_of(spread).maxCoeff();
+  }
+  void add_rows(double size, PerParticle& rows) const {
+    for (int k = 0; k < 3; ++k) rows[corners[size_t(k)]] += area * size * parts[k];
   }
 };
 
@@ -63,7 +96,7 @@ Matrix2d strain_of(const Matrix32& F) { return (F.transpose() * F - Matrix2d::Id
 
 /// The symmetric matrix with its negative eigenvalues set to zero.
 Matrix2d positive_part(const Matrix2d& S) {
-  const Eigen::SelfAdjointEigenSolver<Matrix2d> modes(S);
+  const SelfAdjointEigenSolver<Matrix2d> modes(S);
   return modes.eigenvectors() * modes.eigenvalues().cwiseMax(0).asDiagonal() *
          modes.eigenvectors().transpose();
 }
@@ -102,16 +135,12 @@ struct Membrane {
     return shapes;
   }
 
-  /// With S : a bound on a row is A |g_i| sum |g_j| (|S| + |F|^2 |C|), norms of matrices.
   void add_stiffness_bound(const PerParticle3& x, PerParticle& rows) const {
     for (const RestTriangle& t : triangles) {
       const Matrix32 F = t.gradient_of(x);
-      const Matrix2d FF = F.transpose() * F;
-      const double size =
-          t.material.stress(strain_of(F)).norm() + FF.trace() * t.material.largest();
-      const Eigen::RowVector3d norms = t.gradients.colwise().norm();
-      for (int k = 0; k < 3; ++k)
-        rows[t.corners[size_t(k)]] += t.area * norms[k] * norms.sum() * size;
+      t.add_rows(
+          t.size_of_material(F.transpose() * F) + t.size_of_stress(t.material.stress(strain_of(F))),
+          rows);
     }
   }
 };
@@ -183,11 +212,8 @@ CustomForce make_membrane(const TriangleMesh& mesh, const std::vector<MembraneMa
               [all, shapes](PerParticle& rows) {
                 for (size_t k = 0; k < shapes->size(); ++k) {
                   const RestTriangle& t = all->triangles[k];
-                  const Eigen::RowVector3d norms = t.gradients.colwise().norm();
-                  const double size =
-                      t.material.damping * (*shapes)[k].F.squaredNorm() * t.material.largest();
-                  for (int i = 0; i < 3; ++i)
-                    rows[t.corners[size_t(i)]] += t.area * norms[i] * norms.sum() * size;
+                  const Matrix32& F = (*shapes)[k].F;
+                  t.add_rows(t.material.damping * t.size_of_material(F.transpose() * F), rows);
                 }
               }};
     };
