@@ -66,7 +66,7 @@ double elements(const Scene& scene) {
                 (scene.air ? scene.mesh.triangles.size() : 0) + 1);
 }
 
-LevelRun tried_run(const Level& trial, const BuiltScene& built) {
+LevelRun tried_run(const Level& trial, const BuiltScene& built, const Progress& progress) {
   const Scene& scene = trial.input_case.scene;
   const PerParticle free_mass =
       (built.system.inverse_mass.array() > 0).select(built.system.mass.array(), 0.0);
@@ -91,7 +91,9 @@ LevelRun tried_run(const Level& trial, const BuiltScene& built) {
   observer.checkpoint = [&](const Checkpoint& at) {
     run.work = at.work;
     run.steps = at.steps;
-    if (visits(scene, at.work) > trial.budget) throw OverBudget{};
+    const double spent = visits(scene, at.work) / trial.budget;
+    progress(std::min(1.0, std::max(spent, reached / schedule.end)));
+    if (spent > 1) throw OverBudget{};
   };
   try {
     const RunResult result =
@@ -111,8 +113,8 @@ LevelRun tried_run(const Level& trial, const BuiltScene& built) {
   return run;
 }
 
-LevelRun timed_trial(const Level& trial, const BuiltScene& built) {
-  auto [run, seconds] = timed_run([&] { return tried_run(trial, built); });
+LevelRun timed_trial(const Level& trial, const BuiltScene& built, const Progress& progress) {
+  auto [run, seconds] = timed_run([&] { return tried_run(trial, built, progress); });
   run.seconds = seconds;
   return run;
 }
@@ -179,7 +181,7 @@ LevelRun run_level(const Level& level, const LevelSetProvider& level_sets,
   LevelRun run;
   try {
     const BuiltScene built = build(level.input_case.scene, level_sets);
-    if (level.budget > 0) return timed_trial(level, built);
+    if (level.budget > 0) return timed_trial(level, built, progress);
     run = measured_run(level, built, progress);
   } catch (const std::exception& error) {
     run.stopped = error.what();

@@ -211,11 +211,20 @@ PriceList price_list(const PrecisionPlan& plan, const CaseTruth& truth,
 /// The methods that win, or tie, by work or by seconds.
 std::vector<const MethodPrice*> winners(const PriceList& list);
 
+/// A run that the budget ended.
+struct EndedRun {
+  std::string method = "";
+  int parts = 0;       // steps a frame; 0: there is none
+  double part = 0;     // of the time that it was to reach [1]
+  double seconds = 0;  // of the processor
+};
+
 struct PrecisionAnswer {
   PrecisionPlan plan;
   CaseTruth truth;
   std::vector<MethodCurve> curves;
   std::vector<PriceList> lists;
+  EndedRun furthest = {};  // where no method has a price
 };
 
 PrecisionAnswer precision_answer(const PrecisionPlan& plan, const Trials& trials);
@@ -228,6 +237,9 @@ std::vector<std::string> precision_sentences(const PrecisionAnswer& answer);
 
 /// How the truth is known, in a sentence.
 std::string truth_in_words(const PrecisionAnswer& answer);
+
+/// What would do where the budget ended the runs before any method told its order; "" elsewhere.
+std::string budget_in_words(const PrecisionAnswer& answer);
 
 /// Why methods appear that nobody requested; "" if none does.
 std::string for_truth_in_words(const PrecisionAnswer& answer);

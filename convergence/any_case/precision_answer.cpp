@@ -114,6 +114,16 @@ MethodPrice price_of_method(const MethodCurve& curve, const PrecisionPlan& plan,
   return best;
 }
 
+/// Of the runs that the budget ended.
+EndedRun furthest_of(const TrialRuns& runs) {
+  EndedRun furthest;
+  for (const auto& [method, levels] : runs)
+    for (const auto& [parts, run] : levels)
+      if (run.over_budget > 0 && run.part > furthest.part)
+        furthest = {method, parts, run.part, run.seconds};
+  return furthest;
+}
+
 }  // namespace
 
 int parts_of(const PrecisionPlan& plan, double step) {
@@ -188,6 +198,10 @@ PrecisionAnswer precision_answer(const PrecisionPlan& plan, const Trials& trials
   answer.curves = method_curves(plan, trials, answer.truth);
   for (const double wanted : plan.wanted)
     answer.lists.push_back(price_list(plan, answer.truth, answer.curves, wanted));
+  const auto is_priced = [](const PriceList& list) {
+    return !std::isnan(list.prices.front().price.applications);
+  };
+  if (std::ranges::none_of(answer.lists, is_priced)) answer.furthest = furthest_of(trials.runs);
   return answer;
 }
 

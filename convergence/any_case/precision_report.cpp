@@ -6,11 +6,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "convergence/any_case/ladder_cost.h"
+
 namespace foldproof {
 
 namespace {
 
 constexpr double percent = 100, milli = 1e-3;
+constexpr double levels_wanted_over_first = 4;  // work of the third of three halved steps [1]
 
 /// A step that is printed to be used: whether it lasts, and how far it is beyond the limit that the
 /// automatic step keeps.
@@ -153,6 +156,18 @@ std::string for_truth_in_words(const PrecisionAnswer& answer) {
       "{} no price",
       fmt::join(methods, " and "), is_one ? "was" : "were", is_one ? "it serves" : "they serve",
       is_one ? "gets" : "get");
+}
+
+std::string budget_in_words(const PrecisionAnswer& answer) {
+  const EndedRun& run = answer.furthest;
+  if (run.parts == 0) return "";
+  const double more = levels_wanted_over_first / std::max(run.part, 1e-3);
+  const double end = answer.plan.input_case.scene.schedule.end;
+  return fmt::format(
+      "the budget ended the runs: {} with {} steps a frame came furthest, to {:.2g} s of {:.3g} s; "
+      "three halved steps take about --until {:.1g}, or {:.2g} times the --effort: {} a method",
+      run.method, run.parts, run.part * end, end, end / more, more,
+      duration_text(run.seconds * more));
 }
 
 std::string truth_in_words(const PrecisionAnswer& answer) {

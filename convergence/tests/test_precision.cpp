@@ -257,6 +257,22 @@ TEST_CASE("a method is not refined beyond sixteen times the cheapest or the budg
       CHECK(visits(poor.plan.input_case.scene, run.work) <= 2.5 * 3e3);
 }
 
+TEST_CASE("where the budget ends every run, it says what would do") {
+  const MadeUp made({}, {1e-2});
+  CHECK(budget_in_words(made.answer).empty());
+  LevelRun ended;
+  ended.over_budget = made.plan.budget;
+  ended.part = 0.1;
+  ended.seconds = 30;
+  Trials trials;
+  trials.runs = {{"B", {{4, ended}}}, {"RK4", {{8, LevelRun(ended)}}}};
+  trials.runs["RK4"][8].part = 0.05;
+  // 4/.1 of the work, 4/.1 of 30 s
+  CHECK_THAT(budget_in_words(precision_answer(made.plan, trials)),
+             Catch::StartsWith("the budget ended the runs: B with 4 steps a frame came furthest") &&
+                 Catch::EndsWith("--until 0.02, or 40 times the --effort: 20 min a method"));
+}
+
 TEST_CASE("forward Euler's error in free fall is the step over the time") {
   MadeUp made({}, {0.02});
   made.plan = precision_plan(falling(), {"forward-euler", "B"}, {0.02}, 1e8, computing_provider());
