@@ -2,6 +2,7 @@
 scripts that show a fault by the engine alone."""
 from __future__ import annotations
 
+import itertools
 import tomllib
 from dataclasses import dataclass
 from functools import cache
@@ -56,9 +57,12 @@ def causes_of(bundle: Bundle) -> dict[str, Cause]:
 
 
 def _cause_of(folder: Path, said: dict[str, Any]) -> Cause:
-    scripts = _reproductions(folder, said.get("by", ""))
-    by = "shown by" if scripts else said.get("by", "").replace("`", "")
-    return Cause(", ".join(filter(None, (said["cause"], by))), scripts)
+    """What `by` says, a script's name as the link that stands behind the words."""
+    parts = said.get("by", "").split("; ") if "by" in said else []
+    scripts = {part: _reproductions(folder, part) for part in parts}
+    words = [said["cause"], *(part for part in parts if not scripts[part])]
+    found = list(itertools.chain(*scripts.values()))
+    return Cause(", ".join([*words, "shown by"] if found else words), found)
 
 
 def _reproductions(folder: Path, words: str) -> list[Reproduction]:

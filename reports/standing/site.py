@@ -39,6 +39,19 @@ GROUPS = {
 }
 OTHER = "others"
 CHANGES = ("Decided otherwise", "Decided in one of the two alone", "Same outcome, another number")
+# What choosers ask, and the law that answers.
+QUESTIONS = {
+    "stretches as the scene says": "calibration.young-s-modulus-is-the-scene-s",
+    "bends as the scene says": "calibration.bending-rigidity-is-the-scene-s",
+    "bending survives refinement": "calibration.rigidity-survives-refinement",
+    "stretches alike at steps of 1/60 s": "game-step.static-stretch-is-that-of-short-steps",
+    "keeps its speed": "inertia.free-sheet-keeps-its-velocity",
+    "keeps angular momentum": "momentum.angular-drift-falls-with-the-step",
+    "slides as Coulomb says": "contact.slides-as-coulomb-says",
+    "sticks until Coulomb's slope": "contact.slips-at-coulomb-s-slope",
+    "stops at a thin box": "tunnelling.thin-box-stops-a-slow-sheet",
+    "does not pass through itself": "self-collision.folded-sheet-never-passes-through-itself",
+}
 NOT_ASKED: Row = ["not asked", None, None, "", None, ""]
 
 
@@ -187,7 +200,7 @@ def write_site(bundles: list[Bundle], folder: Path) -> Path:
         style=Markup(style), laws=laws, set_name=newest, groups=groups_of(laws),
         group_of=group_of, older=sum(one.about["law_set"] != newest for one in bundles),
         changes=changes, change_headings=CHANGES, meshes=MESHES, mesh_columns=COLUMNS,
-        by_mesh=by_mesh, is_in=is_in, disagreements=disagreements, spread=SPREAD)
+        by_mesh=by_mesh, is_in=is_in, questions=answered(shown), disagreements=disagreements, spread=SPREAD)
     engines = {engine: list(runs) for engine, runs in
                itertools.groupby(shown, key=lambda one: one.bundle.about["engine"])}
     costs = costs_of([(one.name, one.bundle) for one in shown])
@@ -217,6 +230,12 @@ def write_site(bundles: list[Bundle], folder: Path) -> Path:
         write_whole(folder / file, text.encode("utf-8"))
     write_whole(folder / "results.json", json_of(shown, laws, newest).encode("utf-8"))
     return folder / "index.html"
+
+
+def answered(shown: list[Standing]) -> dict[str, str]:
+    """The questions that a run answers."""
+    return {question: law for question, law in QUESTIONS.items()
+            if any(run.row(law)[0] in ("holds", "fails") for run in shown)}
 
 
 def engine_files(engines: list[str]) -> dict[str, str]:
