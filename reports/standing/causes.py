@@ -12,7 +12,6 @@ from typing import Any
 from data.bundle import Bundle
 
 ADAPTERS = Path(__file__).resolve().parents[2] / "verification/subjects/adapters"
-FOLDERS = ("reproductions", "repro")
 
 
 @dataclass(frozen=True)
@@ -67,7 +66,7 @@ def _cause_of(folder: Path, said: dict[str, Any]) -> Cause:
 
 def _reproductions(folder: Path, words: str) -> list[Reproduction]:
     """Those whose file the words name."""
-    files = [file for name in FOLDERS for file in sorted((folder / name).glob("*.*"))]
+    files = sorted((folder / "reproductions").glob("*.*"))
     return [Reproduction(f"{folder.name}/{file.name}",
                          f"reproduction-{folder.name}-{file.name}.html", file.read_text())
             for file in files if file.name in words]

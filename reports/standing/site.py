@@ -200,7 +200,8 @@ def write_site(bundles: list[Bundle], folder: Path) -> Path:
         style=Markup(style), laws=laws, set_name=newest, groups=groups_of(laws),
         group_of=group_of, older=sum(one.about["law_set"] != newest for one in bundles),
         changes=changes, change_headings=CHANGES, meshes=MESHES, mesh_columns=COLUMNS,
-        by_mesh=by_mesh, is_in=is_in, questions=answered(shown), disagreements=disagreements, spread=SPREAD)
+        by_mesh=by_mesh, is_in=is_in, disagreements=disagreements, spread=SPREAD,
+        questions=answered(shown))
     engines = {engine: list(runs) for engine, runs in
                itertools.groupby(shown, key=lambda one: one.bundle.about["engine"])}
     costs = costs_of([(one.name, one.bundle) for one in shown])

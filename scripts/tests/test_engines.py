@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """Tests of the adapters of other engines, of those that are installed:
-`scripts/engines bullet jolt mujoco blender calculix` installs them."""
+`scripts/engines bullet jolt blender calculix` installs them."""
 from __future__ import annotations
 
 import json
@@ -18,8 +18,6 @@ MODULUS = "calibration.young-s-modulus-is-the-scene-s"
 MODULI = {MODULUS, "calibration.modulus-survives-refinement"}
 ADAPTERS = ROOT / "verification/subjects/adapters"
 JOLT = "exec node build/engines/jolt/jolt.mjs"
-MUJOCO_3 = ("--version", "3.14.0", "mujoco")
-MUJOCO = "exec node build/engines/mujoco-3.14.0/mujoco.mjs"
 BLENDER = f"exec blender -b --factory-startup --python {ADAPTERS}/blender/cloth.py"
 SMOKE = {"smoke.sheet-at-rest-stays", "smoke.free-fall-within-5-percent"}
 
@@ -103,7 +101,7 @@ class Bullet(Engine):
         libraries = ("BulletSoftBody", "BulletDynamics", "BulletCollision", "LinearMath")
         built = run(
             "g++", "-std=c++17", "-w", "-DBT_USE_DOUBLE_PRECISION", "-isystem",
-            "/usr/include/bullet", "verification/subjects/adapters/bullet/repro/laws.cpp", "-o",
+            "/usr/include/bullet", ADAPTERS / "bullet/reproductions/laws.cpp", "-o",
             program, *(f"-l{name}-float64" for name in libraries)
         )
         self.assertEqual(built.returncode, 0, built.stderr)
@@ -179,46 +177,6 @@ class Jolt(Engine):
     }
 
 
-class MuJoCo(Engine):
-    engine, version = MUJOCO_3, "3.14.0"
-    recorded = {
-        (MUJOCO, ""): {MODULUS, "capstan.slips-at-euler-s-ratio"},
-        (MUJOCO, "integrator=RK4"): {MODULUS, "tunnelling.thin-box-stops-a-slow-sheet"},
-        (MUJOCO, "integrator=discrete"): {
-            MODULUS, "momentum.linear-is-conserved",
-            "momentum.linear-of-unequal-masses-is-conserved",
-            "momentum.linear-under-damping-is-conserved", "contact.resting-sheet-is-still",
-            "tunnelling.thin-box-stops-a-slow-sheet", "capstan.slips-at-euler-s-ratio"
-        },
-    }
-
-    ADAPTER = ADAPTERS / "mujoco"
-
-    def lines_without_the_adapter(self, name: str) -> list[str]:
-        """What a script of MuJoCo alone prints, below its heading."""
-        copy = ROOT / "build" / "engines" / "mujoco-3.14.0" / f"{name}.mjs"
-        copy.write_bytes((self.ADAPTER / "repro" / copy.name).read_bytes())
-        return run("node", copy).stdout.splitlines()[1:]
-
-    def test_the_modulus_is_as_recorded_without_the_adapter(self) -> None:
-        """The script of its page, and the numbers there."""
-        rows = [line.split() for line in self.lines_without_the_adapter("uniaxial")[1:]]
-        self.assertEqual(len(rows), 6)
-        page = (self.ADAPTER / "FINDINGS.md").read_text(encoding="utf-8")
-        told = [[float(cell) for cell in line.strip("|").split("|")]
-                for line in page.splitlines() if line.startswith("| 0")]
-        for row, expected in zip(rows, 2 * told, strict=True):
-            for cell, value in zip(row[1:], expected, strict=True):
-                self.assertAlmostEqual(float(cell), value, delta=0.0011)
-
-    def test_bending_is_as_recorded_without_the_adapter(self) -> None:
-        lines = self.lines_without_the_adapter("bending")
-        rigidity, lower, upper = (float(line.split(": ")[1].split()[0]) for line in lines)
-        self.assertAlmostEqual(rigidity, 0.5, delta=1e-3)
-        self.assertAlmostEqual(lower, 0.77, delta=1e-3)
-        self.assertEqual(upper, 0)
-
-
 del Engine  # only the engines are run
 
 
@@ -249,7 +207,7 @@ class Blender(unittest.TestCase):
         self.assertEqual(weighed, {rings: "holds"})
 
     def lines_without_the_adapter(self, name: str) -> list[list[str]]:
-        script = self.ADAPTER / "repro" / f"{name}.py"
+        script = self.ADAPTER / "reproductions" / f"{name}.py"
         ran = run("blender", "-b", "--factory-startup", "--python", script)
         return [line.split() for line in ran.stdout.splitlines()]
 

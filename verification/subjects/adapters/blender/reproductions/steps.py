@@ -2,7 +2,7 @@
 falls from rest for a frame. In n steps of 1/quality of a frame it falls n (n + 1)/2 times gravity
 over a thousand and over the square of the quality, by symplectic Euler and backward Euler alike.
 
-blender -b --factory-startup --python verification/subjects/adapters/blender/repro/steps.py
+blender -b --factory-startup --python verification/subjects/adapters/blender/reproductions/steps.py
 """
 import bpy
 import numpy as np

@@ -2,8 +2,9 @@
 // `friction`, how far a position based sheet slides on a slope.
 //
 //   g++ -std=c++17 -O2 -DBT_USE_DOUBLE_PRECISION -isystem /usr/include/bullet \
-//     verification/subjects/adapters/bullet/repro/laws.cpp -o laws -lBulletSoftBody-float64 \
-//     -lBulletDynamics-float64 -lBulletCollision-float64 -lLinearMath-float64
+//     verification/subjects/adapters/bullet/reproductions/laws.cpp -o laws \
+//     -lBulletSoftBody-float64 -lBulletDynamics-float64 -lBulletCollision-float64 \
+//     -lLinearMath-float64
 //   ./laws && ./laws friction
 #include <BulletSoftBody/btDeformableBodySolver.h>
 #include <BulletSoftBody/btDeformableGravityForce.h>

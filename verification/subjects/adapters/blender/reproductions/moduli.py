@@ -1,7 +1,7 @@
 """What Blender's unitless settings mean, without foldproof: a square stretched on four meshes, a
 hinge of three sizes, a hinge of unequal triangles, and the momentum of a sheet that is let go.
 
-blender -b --factory-startup --python verification/subjects/adapters/blender/repro/moduli.py
+blender -b --factory-startup --python verification/subjects/adapters/blender/reproductions/moduli.py
 """
 import tempfile
 from pathlib import Path
