@@ -48,10 +48,6 @@ struct RestTriangle {
   Matrix23 gradients;
   double area;  // m^2
   Stiffness material;
-  // For its bounds: parts of the corners, and the sum of g_k g_k^T over them [1/m^2].
-  Vector3d parts = gradients.colwise().norm() / gradients.colwise().norm().sum();
-  Matrix2d spread = gradients * parts.cwiseInverse().asDiagonal() * gradients.transpose();
-  Matrix3d root = material.root();
 
   Matrix32 gradient_of(const PerParticle3& x) const {
     Matrix32 F = Matrix32::Zero();
@@ -60,28 +56,6 @@ struct RestTriangle {
   }
   void push(const Matrix32& P, PerParticle3& f) const {
     for (int k = 0; k < 3; ++k) f.col(corners[size_t(k)]) -= area * (P * gradients.col(k));
-  }
-
-  // The stiffness matrix of the triangle is at most A size on the corners' parts a_k: for any dx,
-  // A dE:C:dE <= A size sum a_k |dx_k|^2, dE = sym(F^T dF). The least such size is the largest
-  // eigenvalue of C^1/2 (sum B_k B_k^T/a_k) C^1/2, B_k the derivative of dE by dx_k.
-
-  /// With FF = F^T F [N/m^3].
-  double size_of_material(const Matrix2d& FF) const {
-    const Matrix2d& G = spread;
-    Matrix3d N;
-    N << FF(0, 0) * G(0, 0), FF(0, 1) * G(0, 1),
-        (FF(0, 0) * G(0, 1) + FF(0, 1) * G(0, 0)) * M_SQRT1_2,                         //
-        0, FF(1, 1) * G(1, 1), (FF(0, 1) * G(1, 1) + FF(1, 1) * G(0, 1)) * M_SQRT1_2,  //
-        0, 0, (FF(0, 0) * G(1, 1) + FF(1, 1) * G(0, 0)) / 2 + FF(0, 1) * G(0, 1);
-    return eigenvalues_of(Matrix3d(root * N.selfadjointView<Eigen::Upper>() * root)).maxCoeff();
-  }
-  /// Of A dF S : dF, with either sign of S [N/m^3].
-  double size_of_stress(const Matrix2d& S) const {
-    return eigenvalues_of(S).cwiseAbs().maxCoeff() * eigenvalues_of(spread).maxCoeff();
-  }
-  void add_rows(double size, PerParticle& rows) const {
-    for (int k = 0; k < 3; ++k) rows[corners[size_t(k)]] += area * size * parts[k];
   }
 };
 
@@ -101,8 +75,42 @@ Matrix2d positive_part(const Matrix2d& S) {
          modes.eigenvectors().transpose();
 }
 
+/// A bound on the stiffness matrix of a triangle: A size on the corners' parts a_k. For any dx
+/// A dE:C:dE <= A size sum a_k |dx_k|^2, dE = sym(F^T dF). The least such size is the largest
+/// eigenvalue of C^1/2 (sum B_k B_k^T/a_k) C^1/2, B_k the derivative of dE by dx_k.
+struct TriangleBound {
+  Vector3d parts;   // times A [m^2]
+  Matrix2d spread;  // sum of g_k g_k^T/a_k [1/m^2]
+  Matrix3d root;    // of C [sqrt(N/m)]
+
+  explicit TriangleBound(const RestTriangle& t) : root(t.material.root()) {
+    const Vector3d norms = t.gradients.colwise().norm(), shares = norms / norms.sum();
+    parts = t.area * shares;
+    spread = t.gradients * shares.cwiseInverse().asDiagonal() * t.gradients.transpose();
+  }
+
+  /// Of the material, with FF = F^T F [N/m^3].
+  double size_of_material(const Matrix2d& FF) const {
+    const Matrix2d& G = spread;
+    Matrix3d N;
+    N << FF(0, 0) * G(0, 0), FF(0, 1) * G(0, 1),
+        (FF(0, 0) * G(0, 1) + FF(0, 1) * G(0, 0)) * M_SQRT1_2,                         //
+        0, FF(1, 1) * G(1, 1), (FF(0, 1) * G(1, 1) + FF(1, 1) * G(0, 1)) * M_SQRT1_2,  //
+        0, 0, (FF(0, 0) * G(1, 1) + FF(1, 1) * G(0, 0)) / 2 + FF(0, 1) * G(0, 1);
+    return eigenvalues_of(Matrix3d(root * N.selfadjointView<Eigen::Upper>() * root)).maxCoeff();
+  }
+  /// Of A dF S : dF, with either sign of S [N/m^3].
+  double size_of_stress(const Matrix2d& S) const {
+    return eigenvalues_of(S).cwiseAbs().maxCoeff() * eigenvalues_of(spread).maxCoeff();
+  }
+  void add_rows(const Triangle& corners, double size, PerParticle& rows) const {
+    for (int k = 0; k < 3; ++k) rows[corners[size_t(k)]] += size * parts[k];
+  }
+};
+
 struct Membrane {
   std::vector<RestTriangle> triangles;
+  std::vector<TriangleBound> bounds;  // of each
 
   void add_elastic(const PerParticle3& x, PerParticle3& f) const {
     for (const RestTriangle& t : triangles) {
@@ -136,11 +144,12 @@ struct Membrane {
   }
 
   void add_stiffness_bound(const PerParticle3& x, PerParticle& rows) const {
-    for (const RestTriangle& t : triangles) {
+    for (size_t k = 0; k < triangles.size(); ++k) {
+      const RestTriangle& t = triangles[k];
       const Matrix32 F = t.gradient_of(x);
-      t.add_rows(
-          t.size_of_material(F.transpose() * F) + t.size_of_stress(t.material.stress(strain_of(F))),
-          rows);
+      const double size = bounds[k].size_of_material(F.transpose() * F) +
+                          bounds[k].size_of_stress(t.material.stress(strain_of(F)));
+      bounds[k].add_rows(t.corners, size, rows);
     }
   }
 };
@@ -178,6 +187,7 @@ CustomForce make_membrane(const TriangleMesh& mesh, const std::vector<MembraneMa
   for (size_t t = 0; t < corners.size(); ++t)
     all->triangles.push_back(rest_triangle(mesh.triangles[t], corners[t],
                                            materials[of_triangle.empty() ? 0 : of_triangle[t]]));
+  for (const RestTriangle& t : all->triangles) all->bounds.emplace_back(t);
 
   CustomForce force;
   force.energy_term = &Energies::stretch;
@@ -213,7 +223,10 @@ CustomForce make_membrane(const TriangleMesh& mesh, const std::vector<MembraneMa
                 for (size_t k = 0; k < shapes->size(); ++k) {
                   const RestTriangle& t = all->triangles[k];
                   const Matrix32& F = (*shapes)[k].F;
-                  t.add_rows(t.material.damping * t.size_of_material(F.transpose() * F), rows);
+                  const TriangleBound& bound = all->bounds[k];
+                  bound.add_rows(t.corners,
+                                 t.material.damping * bound.size_of_material(F.transpose() * F),
+                                 rows);
                 }
               }};
     };
