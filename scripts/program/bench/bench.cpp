@@ -160,12 +160,15 @@ RunRecord bench(int most_particles) {
   std::vector<Speeds> all;
   double megabytes = 0;
   std::vector<Record> contact;
-  ProgressLine progress("bench");
+  std::vector<int> cells = {31, 99, 315, 999};  // 1k, 10k, 100k, 1M particles
+  std::erase_if(cells, [&](int n) { return (n + 1) * (n + 1) > most_particles; });
+  auto begin = [stage = 0, of = cells.size() + 4](const std::string& what) mutable {
+    show_line(fmt::format("bench {} of {}: {}", ++stage, of, what));
+  };
   forget_peak();
-  const std::vector<int> cells = {31, 99, 315, 999};  // 1k, 10k, 100k, 1M particles
   const double seconds = seconds_of([&] {
     for (const int n : cells) {
-      if ((n + 1) * (n + 1) > most_particles) break;
+      begin(fmt::format("{} particles", (n + 1) * (n + 1)));
       const Load load = make_load(n);
       all.push_back(measure(load));
       if (n == 315) {
@@ -173,10 +176,11 @@ RunRecord bench(int most_particles) {
         contact.push_back(contact_rate(load.scene, load.limit / 2, all.back().step));
         contact.push_back(strain_rate(load.scene, load.limit / 2, all.back().step));
       }
-      progress.show(double(n + 1) * (n + 1) / most_particles);
     }
   });
+  begin("threads");
   const std::vector<ThreadScaling> scalings = thread_scalings();
+  begin("threads on level sets");
   std::vector<ThreadScaling> timed = scalings;
   for (ThreadScaling& scaling : level_set_scalings()) timed.push_back(std::move(scaling));
   RunRecord run;
@@ -188,10 +192,13 @@ RunRecord bench(int most_particles) {
   for (const ThreadScaling& scaling : scalings) run.records.push_back(serial_share(scaling));
   for (const ThreadScaling& scaling : timed)
     if (!scaling.on_two.empty()) run.records.push_back(on_two_threads(scaling));
+  begin("growth");
   for (Record& record : growth_rates(most_particles)) run.records.push_back(std::move(record));
+  begin("level sets");
   for (Record& record : level_set_rates()) run.records.push_back(std::move(record));
   for (Record& record : octree_rates()) run.records.push_back(std::move(record));
   run.records.push_back(crossing_rate());
+  end_line();
   run.studies.push_back(
       {"bench",
        "How time and memory grow with the number of particles.",
