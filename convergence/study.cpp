@@ -25,6 +25,11 @@ void require_headline_findings(const Study& study, const std::vector<NamedFindin
   }
 }
 
+/// Of each curve, as where the quick tier has two meshes: its table says as much.
+bool shows_two_points(const Figure& figure) {
+  return std::ranges::all_of(figure.curves, [](const Curve& one) { return one.x.size() <= 2; });
+}
+
 }  // namespace
 
 std::pair<std::vector<Record>, StudyRecord> run_study(const Study& study, const Subject& subject,
@@ -50,6 +55,7 @@ std::pair<std::vector<Record>, StudyRecord> run_study(const Study& study, const 
     record.finding = std::move(named.finding);
     records.push_back(std::move(record));
   }
+  std::erase_if(result.figures, shows_two_points);
   whole.figures = std::move(result.figures);
   whole.maps = std::move(result.maps);
   whole.tables = std::move(result.tables);

@@ -28,7 +28,7 @@ struct NamedFinding {
 
 struct StudyResult {
   std::vector<NamedFinding> findings = {};
-  std::vector<Figure> figures = {};
+  std::vector<Figure> figures = {};  // shown if a curve has three points
   std::vector<Map> maps = {};
   std::vector<Table> tables = {};
 
