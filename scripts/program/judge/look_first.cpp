@@ -7,6 +7,7 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "reference/types.h"
 
@@ -36,14 +37,38 @@ double likeness(const PlantedBug& bug, const std::vector<const Record*>& decided
   return either > 0 ? both / either : 0;
 }
 
-double log_likelihood(const std::vector<const PlantedBug*>& bugs,
-                      const std::vector<const Record*>& decided) {
+using Words = std::set<std::string>;
+
+/// Those of a law's name: "box.lets-go" has box, lets, go.
+void add_words(const std::string& law, Words& words) {
+  std::string word;
+  for (const char c : law + "-") {
+    if (c != '.' && c != '-') {
+      word += c;
+    } else {
+      words.insert(word);
+      word.clear();
+    }
+  }
+}
+
+/// Of the decided laws that the bug fails.
+Words words_of(const PlantedBug& bug, const std::vector<const Record*>& decided) {
+  Words words;
+  for (const Record* record : decided)
+    if (fails(bug, record->name)) add_words(record->name, words);
+  return words;
+}
+
+/// Naive Bayes: each word stands in the names of laws that do not hold, or not, as often as with
+/// the bugs of this kind. Laws with common words say alike things, also those that no bug fails.
+double log_likelihood(const std::vector<Words>& bugs, const Words& all, const Words& seen) {
   const double count = double(bugs.size());
   double sum = std::log(count);
-  for (const Record* record : decided) {
-    const auto has = [&](const PlantedBug* bug) { return fails(*bug, record->name); };
+  for (const std::string& word : all) {
+    const auto has = [&](const Words& of_bug) { return of_bug.contains(word); };
     const double share = (double(std::ranges::count_if(bugs, has)) + 0.5) / (count + 1);
-    sum += std::log(does_not_hold(*record) ? share : 1 - share);
+    sum += std::log(seen.contains(word) ? share : 1 - share);
   }
   return sum;
 }
@@ -70,22 +95,28 @@ std::vector<PlantedBug> read_planted_bugs(const std::string& path) {
 
 std::vector<LikelyCause> likely_causes(const std::vector<PlantedBug>& bugs,
                                        const std::vector<Record>& records) {
-  const auto some_bug_fails = [&](const Record& record) {
-    return std::ranges::any_of(bugs,
-                               [&](const PlantedBug& bug) { return fails(bug, record.name); });
-  };
-  std::vector<const Record*> decided;  // laws that no planted bug fails tell nothing
-  for (const Record& record : records)
-    if (is_decided(record) && some_bug_fails(record)) decided.push_back(&record);
-  if (std::ranges::none_of(decided, [](const Record* r) { return does_not_hold(*r); })) return {};
+  std::vector<const Record*> decided;
+  Words seen, all;
+  for (const Record& record : records) {
+    if (!is_decided(record)) continue;
+    decided.push_back(&record);
+    if (does_not_hold(record)) add_words(record.name, seen);
+  }
   std::map<std::string, std::vector<const PlantedBug*>> kinds;
-  for (const PlantedBug& bug : bugs)
-    if (!bug.fails.empty()) kinds[bug.kind].push_back(&bug);  // others have no pattern
+  std::map<std::string, std::vector<Words>> words;
+  for (const PlantedBug& bug : bugs) {
+    if (bug.fails.empty()) continue;  // it has no pattern
+    kinds[bug.kind].push_back(&bug);
+    words[bug.kind].push_back(words_of(bug, decided));
+    for (const std::string& word : words[bug.kind].back()) all.insert(word);
+  }
+  if (std::ranges::none_of(seen, [&](const std::string& word) { return all.contains(word); }))
+    return {};
   std::vector<LikelyCause> causes;
   for (const auto& [kind, of_kind] : kinds) {
     const auto alike = [&](const PlantedBug* bug) { return likeness(*bug, decided); };
     causes.push_back({kind, (*std::ranges::max_element(of_kind, {}, alike))->name,
-                      log_likelihood(of_kind, decided)});
+                      log_likelihood(words[kind], all, seen)});
   }
   std::ranges::sort(causes, std::greater(), &LikelyCause::odds);
   double sum = 0;

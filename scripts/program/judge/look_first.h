@@ -22,9 +22,10 @@ struct LikelyCause {
   double odds;                // of the class, among all [1]
 };
 
-/// Classes of bugs, the likeliest first. Naive Bayes over the laws that were decided: a law fails
-/// with a class as often as it does with its bugs, counted with one more bug that fails half of it;
-/// classes are as frequent as their bugs. Empty if no law fails, or there are no bugs.
+/// Classes of bugs, the likeliest first. Naive Bayes over the words in the names of laws that do
+/// not hold: a word is as frequent with a class as with its bugs, counted with one more bug that
+/// has half of it; classes are as frequent as their bugs. Laws that were not decided do not count.
+/// Empty if no law fails that has a word in common with one that a bug fails.
 std::vector<LikelyCause> likely_causes(const std::vector<PlantedBug>& bugs,
                                        const std::vector<Record>& records);
 
