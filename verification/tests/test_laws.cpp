@@ -128,8 +128,42 @@ TEST_CASE("subject: stated forces and energies that are not those of the motion 
   require_found({"sharp_hinges_have_no_energy"}, laws,
                 {"forces.of-a-sharply-bent-sheet-are-minus-the-energy-gradient"});
   require_found({"energy_without_weight"}, laws, {"forces.are-minus-the-energy-gradient"});
-  require_found({"states_stale_forces", "forgets_what_is_set"}, laws,
-                {"forces.are-those-of-the-present-state"});
+  require_found({"energy_beside_held"}, laws,
+                {"forces.energy-of-a-held-sheet-is-that-of-a-free-one"});
+  require_found({"hinge_dampers_go_unsaid"}, {"damping"},
+                {"damping.stated-forces-of-hinges-are-those-of-the-motion"});
+  require_found({"states_stale_forces"}, laws, {"forces.are-those-of-the-present-state"});
+  require_found(
+      {"forgets_what_is_set"}, laws,
+      {"forces.are-those-of-the-present-state", "forces.of-two-states-at-one-time-differ"});
+}
+
+TEST_CASE("subject: what a small scene, its first step or a free one does not show, is found") {
+  require_found({"energy_of_the_first"}, {"size", "forces"}, {"size.energies-of-many-add-up"});
+  require_found({"angles_of_the_first"}, {"size"},
+                {"size.sheet-with-rest-angles-moves-alike-among-many"});
+  require_found({"dampers_of_prepare"}, {"time"}, {"time.dt-of-advance-counts-for-dampers"});
+  require_found({"held_move_for_dampers"}, {"damping.stated"},
+                {"damping.stated-velocities-of-held-particles-do-not-count"});
+  require_law_fails("scaled_springs_are_stiffer", "rest.scaled-lengths-keep-their-stiffness");
+  require_found({"forces_of_the_time"}, {"forces.of-t"},
+                {"forces.of-two-states-at-one-time-differ"});
+  require_found({"slender_hinges_are_lost"}, {"bending.hinges", "bending.every"},
+                {"bending.hinges-of-all-shapes-have-their-weights"});
+  require_found({"folds_are_not_damped"}, {"vibration", "damping.folded"},
+                {"damping.folded-hinges-are-damped"});
+  require_law_fails("boxes_have_no_edge", "box.what-slides-off-falls");
+  require_law_fails("layers_inside_alone", "self-collision.aligned-layers-stop");
+  require_outcome({"layers"}, "self-collision.aligned-layers-stop", Outcome::holds);
+  require_law_fails("counts_parts_once", "time.long-steps-follow-short-ones");
+  require_outcome({"divides_steps"}, "time.long-steps-follow-short-ones", Outcome::holds);
+  require_law_fails("thickness_stays", "self-collision.thickness-goes-with-its-scene");
+  require_law_fails("gravity_where_it_is_set", "together.steps-of-a-state-go-as-advance");
+  require_law_fails("dampers_spare_contact", "contact.springs-and-dampers-act-in-contact");
+  const std::vector<std::string> obstacles{"obstacles.f", "obstacles.many"};
+  require_found({"first_at_each_place"}, obstacles, {"obstacles.many-keep-cloth-out"});
+  require_found({"friction_above_one_glues"}, obstacles,
+                {"obstacles.friction-above-one-is-coulomb-s"});
 }
 
 TEST_CASE("subject: springs that tear beyond a strain of a tenth are found") {

@@ -65,7 +65,8 @@ TEST_CASE("subject: held particles that are not, and what is wrong beside them, 
 
 TEST_CASE("subject: rest lengths, creep, stiffening and hypotenuses of another kind are found",
           "[long]") {
-  require_own("rest_is_never_scaled", {"rest.scaled-lengths-are-at-rest"});
+  require_own("rest_is_never_scaled",
+              {"rest.scaled-lengths-are-at-rest", "rest.scaled-lengths-keep-their-stiffness"});
   require_found({"creeps"}, {"repeat.motion"}, {"repeat.motion-goes-on-from-its-state"});
   require_found({"stiffens_beyond_a_tenth"}, {"calibration"},
                 {"calibration.tension-does-not-jump-with-strain"});
@@ -81,7 +82,7 @@ TEST_CASE("subject: dampers along edges at rest, and wrong dampers of hinges, ar
                     linear = "momentum.linear-under-damping-of-hinges-is-conserved",
                     decay = "vibration.damped-hinge-decays-as-its-damping-says";
   require_own("damps_along_rest", {damping, "symmetry.start-turned-from-rest-with-damping"});
-  require_own("hinges_are_not_damped", {decay});
+  require_own("hinges_are_not_damped", {decay, "damping.folded-hinges-are-damped"});
   CHECK(failing_laws("hinge_dampers_push", {"momentum"}) == Names{linear, of_hinges});
   CHECK(failing_laws("hinge_dampers_of_velocity", {"momentum"}) == Names{of_hinges});
   require_own("hinges_are_damped_unasked",
@@ -93,7 +94,8 @@ TEST_CASE("subject: hinges that are wrong where sharp, on a side, or from a star
   const std::string sharp = "bending.sharp-folds-resist", sides = "bending.both-sides-resist-alike",
                     angles = "bending.rest-angles-are-those-of-the-scene";
   require_own("hinges_slacken_when_sharp", {sharp});
-  CHECK(failing_laws("hinges_know_their_front", {"bending"}) == Names{sides});
+  CHECK(failing_laws("hinges_know_their_front", {"bending"}) ==
+        Names{sides, "bending.hinges-of-all-shapes-have-their-weights"});
   require_own("hinges_rest_as_the_shape", {angles, "symmetry.rotation-with-bending"});
   require_own("hinges_crease", {"bending.bends-do-not-creep", "symmetry.units-with-bending"});
   require_law_fails("hinges_need_six_neighbours", "bending.every-pattern-resists");

@@ -163,3 +163,48 @@ class HingesNeedSixNeighbours(Hinges):
         odd = np.bincount(self.edges.ravel()) != 6
         odd[np.unique(border)] = False
         self.moments = self.moments * ~odd[self.corners[:, 2:]].any(axis=1)
+
+
+class AnglesOfTheFirst(Hinges):
+    """Rest angles of the first 300 hinges."""
+
+    def alter(self, scene: Scene) -> None:
+        super().alter(scene)
+        self.rest_angles = self.rest_angles * (np.arange(len(self.rest_angles)) < 300)
+
+
+class HingeDampersGoUnsaid(Hinges):
+    """States the dampers of edges alone."""
+
+    level, is_moving = "L2", False
+
+    def step(self, dt: float) -> None:
+        self.is_moving = True
+        super().step(dt)
+        self.is_moving = False
+
+    def damping(self) -> np.ndarray:
+        return super().damping() if self.is_moving else Damped.damping(self)
+
+
+class GravityWhereItIsSet(Hinges):
+    """Once a state is set, gravity points down."""
+
+    def set_state(self, x: np.ndarray, v: np.ndarray, time: float) -> None:
+        super().set_state(x, v, time)
+        self.gravity = np.array([0, 0, -np.linalg.norm(self.gravity)])
+
+
+class SlenderHingesAreLost(Hinges):
+    """Those of triangles that are less than a fifth as high as their edge."""
+
+    def alter(self, scene: Scene) -> None:
+        super().alter(scene)
+        self.moments = np.where(scene.hinge_weights > 2.5, 0, self.moments)
+
+
+class FoldsAreNotDamped(Hinges):
+    """No damper beyond 90 degrees."""
+
+    def rate(self, gradient: np.ndarray) -> np.ndarray:
+        return super().rate(gradient) * (np.abs(self.turned()[0]) < np.pi / 2)

@@ -236,6 +236,19 @@ class DampsInTheFirstPart(DividesSteps):
         self.c = given
 
 
+class CountsPartsOnce(DividesSteps):
+    """Each step has as many parts as the first one of its scene."""
+
+    def alter(self, scene: Scene) -> None:
+        super().alter(scene)
+        self.count = 0
+
+    def advance(self, dt: float, steps: int) -> None:
+        self.count = self.count or int(np.ceil(dt / self.substep))
+        for _ in range(self.count * steps):
+            self.step(dt / self.count)
+
+
 class Tires(Toy):
     """After a thousand steps velocities decay by 1/s."""
 
@@ -289,3 +302,74 @@ class SharpHingesHaveNoEnergy(Bends):
         f, _ = super().bending()
         blunt = (self.angles() < 1) * self.stiffness()
         return f, 0.5 * np.sum(blunt[:, None] * sums**2)
+
+
+class EnergyOfTheFirst(Toy):
+    """States the energy of 512 springs at most."""
+
+    def energy(self) -> float:
+        _, elongation = self.springs()
+        stored = (0.5 * self.k * elongation**2)[:512]
+        return float(np.sum(stored) - np.sum(self.mass * (self.x @ self.gravity)))
+
+
+class EnergyBesideHeld(Toy):
+    """States no energy of springs at held particles."""
+
+    def energy(self) -> float:
+        given, self.k = self.k, self.k * ~np.isin(self.edges, self.held).any(axis=1)
+        stated, self.k = super().energy(), given
+        return stated
+
+
+class DampersOfPrepare(Damped):
+    """Dampers act for the step of `prepare`."""
+
+    def alter(self, scene: Scene) -> None:
+        super().alter(scene)
+        self.prepared = scene.header["scene"]["dt"]
+
+    def damp(self, dt: float) -> None:
+        super().damp(self.prepared)
+
+
+class HeldMoveForDampers(Damped):
+    """Dampers see the velocities that the scene gives held particles."""
+
+    def alter(self, scene: Scene) -> None:
+        super().alter(scene)
+        self.seen = scene.v[self.held]
+
+    def damp(self, dt: float) -> None:
+        self.v[self.held] = self.seen
+        super().damp(dt)
+
+
+class ScaledSpringsAreStiffer(Toy):
+    """Stiffness over the rest length, as of a yarn, where rest lengths are scaled."""
+
+    def alter(self, scene: Scene) -> None:
+        super().alter(scene)
+        self.k = self.k / scene.header["scene"]["material"]["rest_length_scale"]
+
+
+class ForcesOfTheTime(Toy):
+    """States the forces that it last stated at that time."""
+
+    def alter(self, scene: Scene) -> None:
+        super().alter(scene)
+        self.stated: dict[float, np.ndarray] = {}
+        self.is_moving, self.time = False, 0.0
+
+    def set_state(self, x: np.ndarray, v: np.ndarray, time: float) -> None:
+        super().set_state(x, v, time)
+        self.time = time
+
+    def advance(self, dt: float, steps: int) -> None:
+        self.is_moving = True
+        super().advance(dt, steps)
+        self.is_moving = False
+
+    def forces(self) -> np.ndarray:
+        return super().forces() if self.is_moving else \
+            self.stated.setdefault(self.time, super().forces())

@@ -4,6 +4,7 @@ from __future__ import annotations
 import numpy as np
 from contact import OnPlanes
 from foldproof_solver import Scene
+from materials import Damped
 from toy_solver import ToySolver
 
 KINDS = ("planes", "boxes", "spheres", "capsules")
@@ -335,3 +336,69 @@ class NeighboursRepel(Layers):
         push = np.maximum(0, self.thickness - distance) / distance
         self.v = self.v + np.sum(push[:, :, None] * apart, axis=1) / self.dt / 10
         super().meet_obstacles()
+
+
+class FirstAtEachPlace(OnObstacles):
+    """What is above or below another obstacle is left out, as if it were the same."""
+
+    def alter(self, scene: Scene) -> None:
+        super().alter(scene)
+        places: set[tuple[float, ...]] = set()
+        for one in self.bodies.copy():
+            body = one[1]
+            centre = body.get("centre", body.get("point")) or np.add(body["a"], body["b"]) / 2
+            place = tuple(np.round(centre[:2], 6))
+            if place in places:
+                self.bodies.remove(one)
+            places.add(place)
+
+
+class FrictionAboveOneGlues(OnObstacles):
+    def friction(self, kind: str, body: dict, normals: np.ndarray) -> float | np.ndarray:
+        return body["friction"] if body["friction"] < 1 else 1e9
+
+
+class DampersSpareContact(OnObstacles, Damped):
+    """Edges with an end on an obstacle are not damped."""
+
+    capabilities = (*OnObstacles.capabilities, "damping")
+
+    def alter(self, scene: Scene) -> None:
+        super().alter(scene)
+        self.touched = np.zeros(len(self.x), bool)
+
+    def touch(self, normals: np.ndarray, gap: np.ndarray, friction: float) -> None:
+        self.touched = gap < 0
+        super().touch(normals, gap, friction)
+
+    def damp(self, dt: float) -> None:
+        given, self.c = self.c, self.c * ~self.touched[self.edges].any(axis=1)
+        super().damp(dt)
+        self.c = given
+
+
+class BoxesHaveNoEdge(OnObstacles):
+    """The top of a box goes on where it ends, for what came from there."""
+
+    def to_boxes(self, body: dict, p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        height = p[:, 2] - body["centre"][2] - body["half_extents"][2]
+        return np.tile([0.0, 0.0, 1.0], (len(p), 1)), height
+
+
+class LayersInsideAlone(Layers):
+    """A particle that lies over another one's corner or edge is not found."""
+
+    def push_apart(self, i: int, t: np.ndarray, weights: np.ndarray, normal: np.ndarray,
+                   distance: float) -> None:
+        if weights.min() > 1e-3:
+            super().push_apart(i, t, weights, normal, distance)
+
+
+class ThicknessStays(Layers):
+    """A scene without a thickness has that of the scene before."""
+
+    kept = 0.0
+
+    def alter(self, scene: Scene) -> None:
+        super().alter(scene)
+        self.kept = self.thickness = self.thickness or self.kept

@@ -124,6 +124,28 @@ Finding are_of_the_present_state(Trial& trial) {
                      "forces of the same positions; rounding of the springs at a particle");
 }
 
+/// One after the other, at one time.
+Finding two_states_have_their_forces(Trial& trial) {
+  const PortableScene scene = moving_sheet();
+  PerParticle3 other = scene.x;
+  for (Eigen::Index i = 0; i < other.size(); ++i)
+    other.data()[i] += 2e-3 * std::sin(2.9 * double(i));
+  PortableScene alone = scene;
+  alone.x = other;
+  trial.prepare(alone);
+  const PerParticle3 right = trial.solver().forces({other, scene.v}, 0);
+  trial.prepare(scene);
+  const PerParticle3 first = trial.solver().forces({scene.x, scene.v}, 0),
+                     second = trial.solver().forces({other, scene.v}, 0);
+  Table measured = table_of(
+      "forces of the first state [N] | of the second [N] | error of the second [of the largest k "
+      "times the size]");
+  measured.row(largest(first), largest(right),
+               largest(second - right) / (edge_stiffness(scene).maxCoeff() * largest(scene.x)));
+  return judge_worst(measured, roundings * trial.declaration().rounding(),
+                     "forces of the same positions; rounding of the springs at a particle");
+}
+
 /// So bent that hinges turn by up to two thirds of a straight angle.
 PortableScene sharply_bent_sheet() {
   PortableScene scene = bent_sheet();
@@ -147,6 +169,27 @@ Finding held_particles_change_no_force(Trial& trial) {
                largest(apart) / (edge_stiffness(scene).maxCoeff() * largest(scene.x)));
   return judge_worst(measured, roundings * trial.declaration().rounding(),
                      "forces of the same positions; rounding of the springs at a particle");
+}
+
+/// What free particles gain by going back to their rest shape; what is between held ones alone may
+/// be left out.
+Finding held_particles_change_no_energy(Trial& trial) {
+  const PortableScene free = moving_sheet();
+  PortableScene held = free;
+  held.name = "moving sheet that is held, for its energy";
+  held.held = {8, 0, 25, 51};
+  PerParticle3 other = free.mesh.rest;
+  for (const int i : held.held) other.col(i) = free.x.col(i);
+  const auto gained = [&](const PortableScene& scene) {
+    trial.prepare(scene);
+    return trial.solver().energy({scene.x, scene.v}, 0) -
+           trial.solver().energy({other, scene.v}, 0);
+  };
+  const double alone = gained(free), beside = gained(held);
+  Table measured = table_of("energy gained [J] | beside held ones [J] | difference [of it]");
+  measured.row(alone, beside, std::abs(beside - alone) / std::abs(alone));
+  return judge_worst(measured, 1e-3 + 1e4 * trial.declaration().rounding(),
+                     "the same springs in the same places; strains lose some digits");
 }
 
 /// Dampers, where there are some, are no part of either.
@@ -185,6 +228,9 @@ std::vector<Law> force_laws() {
       {"forces.are-those-of-the-present-state",
        "Forces after a motion, or of a state that is set, are those of a scene that starts there.",
        "forces depend on positions alone", are_of_the_present_state, "L2"},
+      {"forces.of-two-states-at-one-time-differ",
+       "Forces are those of the state that is given, not of another one of the same time.",
+       "forces depend on positions alone", two_states_have_their_forces, "L2 set_state"},
       {"forces.of-a-bent-sheet-sum-to-zero",
        "Forces of a free sheet that resists bending sum to zero.", "Newton's third law",
        in_scene(sum_to_zero, bent_sheet), "L2 bending"},
@@ -202,6 +248,9 @@ std::vector<Law> force_laws() {
       {"forces.of-a-held-sheet-are-those-of-a-free-one",
        "Held particles change no force that is stated for others.", "locality of forces",
        held_particles_change_no_force, "L2 held"},
+      {"forces.energy-of-a-held-sheet-is-that-of-a-free-one",
+       "Held particles change no energy that others gain.", "locality of forces",
+       held_particles_change_no_energy, "L2 set_state held", "energy gained | beside held ones"},
       {"forces.and-energy-are-those-of-positions",
        "The forces and the energy that are stated do not depend on velocities.",
        "protocol: 'forces', 'energy'", are_of_positions_alone, "L2 set_state"},

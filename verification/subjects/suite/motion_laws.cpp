@@ -61,6 +61,26 @@ Finding scaled_lengths_are_at_rest(Trial& trial) {
   return judge_worst(measured, 1, "rounding of rest lengths, enlarged by elastic forces");
 }
 
+/// Slightly deformed about scaled rest lengths: springs of the stiffness that the scene gives.
+Finding scaled_lengths_keep_their_stiffness(Trial& trial) {
+  const auto gained = [&](double scale) {
+    PortableScene scene = sheet_at_rest();
+    scene.name = "deformed sheet of scaled rest lengths";
+    scene.material.rest_length_scale = scale;
+    for (Eigen::Index i = 0; i < scene.x.cols(); ++i)
+      scene.x.col(i) = scale * scene.mesh.rest.col(i) +
+                       1e-3 * Vector3(std::sin(2.3 * double(i)), std::cos(1.7 * double(i)), 0);
+    return trial.after(scene, few).v;
+  };
+  const PerParticle3 right = gained(1);
+  Table measured = table_of("rest_length_scale [1] | velocity gained [m/s] | difference [of it]");
+  for (const double scale : {drawn("much shorter", 0.7, 0.8), 1.3}) {
+    const PerParticle3 v = gained(scale);
+    measured.row(scale, largest(v), (v - right).norm() / right.norm());
+  }
+  return judge_worst(measured, 0.05, "displacements turn edges by a hundredth");
+}
+
 /// The angle of a hinge as the protocol defines it [rad].
 double angle(const PerParticle3& x, const std::array<int, 4>& hinge) {
   const Vector3 x1 = x.col(hinge[0]), x2 = x.col(hinge[1]), x3 = x.col(hinge[2]),
@@ -259,6 +279,10 @@ std::vector<Law> motion_laws() {
       {"rest.scaled-lengths-are-at-rest", "A sheet scaled as its `rest_length_scale` says stays.",
        "protocol: 'rest_length_scale'", scaled_lengths_are_at_rest, "still",
        "rest_length_scale | largest displacement"},
+      {"rest.scaled-lengths-keep-their-stiffness",
+       "Springs of scaled rest lengths have the stiffness of the others.",
+       "protocol: 'rest_length_scale', 'edge_stiffness'", scaled_lengths_keep_their_stiffness, "",
+       "rest_length_scale | velocity gained"},
       {"rest.curved-sheet-keeps-its-rest-angles",
        "A curved sheet that resists bending stays in its rest shape.", "equilibrium", stays_curved,
        "bending still", "largest displacement"},

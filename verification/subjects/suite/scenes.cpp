@@ -58,7 +58,7 @@ PortableScene together(std::string name, const std::vector<PortableScene>& sheet
   for (const PortableScene& sheet : sheets) particles += sheet.x.cols();
   PortableScene all = sheets.front();
   all.name = std::move(name);
-  all.held.clear();
+  all.held.clear(), all.rest_angles.clear();
   PerParticle3 rest(3, particles);
   all.x.resize(3, particles), all.v.resize(3, particles), all.mass.resize(particles);
   std::vector<Triangle> triangles;
@@ -72,6 +72,8 @@ PortableScene together(std::string name, const std::vector<PortableScene>& sheet
     for (const Triangle& t : sheet.mesh.triangles)
       triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
     for (const int i : sheet.held) all.held.push_back(i + first);
+    all.rest_angles.insert(all.rest_angles.end(), sheet.rest_angles.begin(),
+                           sheet.rest_angles.end());  // hinges are numbered by their particles
     first += int(count);
   }
   all.mesh = make_triangle_mesh(rest, triangles);

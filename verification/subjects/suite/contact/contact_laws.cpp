@@ -145,6 +145,39 @@ Finding slips_at_coulomb_s_slope(Trial& trial) {
       "first order method, 0.5 %; the sheet's own waves, 1 %; half of the last bracket, 0.5 %");
 }
 
+/// Rattled in the plane on which it lies, without friction; the rattle is over before the slightest
+/// height matters.
+Finding springs_and_dampers_act_in_contact(Trial& trial) {
+  constexpr long count = 10;
+  PortableScene scene = sheet_on_a_plane({0, 0}, 0);
+  scene.name = "sheet that is rattled on a plane";
+  const bool is_damped = trial.declaration().offers("damping");
+  const double tau = is_damped ? 1.5e-3 : 0;  // s
+  scene.material.stretch_damping = tau * scene.material.young;
+  scene.dt = 1e-4;
+  const Vector3 normal = scene.planes[0].normal, one = normal.unitOrthogonal();
+  for (Eigen::Index i = 0; i < scene.v.cols(); ++i)
+    scene.v.col(i) = 0.3 * (std::sin(2.7 * double(i)) * one +
+                            std::sin(1.9 * double(i) + 0.4) * normal.cross(one));
+  PortableScene free = scene;
+  free.planes.clear();
+  free.gravity.setZero();
+  const PerParticle3 alone = trial.after(free, count).v, there = trial.after(scene, count).v;
+  const PerParticle3 across = normal * (normal.transpose() * (there - alone));
+  const double falls = largest(across) / (weight * double(count) * scene.dt);
+  if (!(falls < 0.5))
+    throw FailedWithoutNumber("the sheet falls through the plane", "a sheet that lies on it");
+  Table measured = table_of(
+      "forces | change of velocities without the plane [m/s] | on the plane [m/s] | difference [of "
+      "the change]");
+  measured.row(is_damped ? "springs and dampers" : "springs", (alone - scene.v).norm(),
+               (there - scene.v - across).norm(),
+               (there - alone - across).norm() / (alone - scene.v).norm());
+  return judge_worst(measured, 0.02,
+                     "a plane without friction does nothing along itself; depths of g dt^2 turn an "
+                     "edge by a millionth; rounding of single precision is less");
+}
+
 }  // namespace
 
 std::vector<Law> contact_laws() {
@@ -156,6 +189,10 @@ std::vector<Law> contact_laws() {
       {"contact.resting-sheet-states-no-velocity",
        "The velocities of a sheet at rest on a plane are zero, not those before contact.",
        "equilibrium", resting_sheet_states_no_velocity, "planes still"},
+      {"contact.springs-and-dampers-act-in-contact",
+       "On a plane without friction springs and dampers act as they do elsewhere.",
+       "superposition of forces", springs_and_dampers_act_in_contact, "planes",
+       "forces | on the plane"},
       {"contact.slides-as-coulomb-says",
        "On slopes that face all ways, a sheet sticks, or slides straight down, as Coulomb's law "
        "says.",

@@ -88,6 +88,56 @@ Finding part_freely(Trial& trial) {
                      "nothing holds layers together; nearer than the thickness they may be pushed");
 }
 
+/// Layers that pass through each other where a scene has no thickness, after one that has.
+Finding thickness_goes_with_its_scene(Trial& trial) {
+  PortableScene thick = two_layers("layers that may not pass", 0), thin = thick;
+  upper_of(thick.x).row(2).array() += 1.5 * thick.thickness;
+  thin.name = "layers that may pass, after a scene with a thickness";
+  upper_of(thin.x).row(2).array() += 1.5 * thick.thickness;
+  thin.thickness = 0;
+  const double speed = 0.4;  // m/s
+  const long steps = 30;     // through the other one
+  trial.motion(thick, {3});
+  upper_of(thin.v).row(2).setConstant(-speed);
+  const PerParticle3 moved = trial.after(thin, steps).x - thin.x;
+  const double way = lower_of(moved).row(2).mean() - upper_of(moved).row(2).mean(),
+               free = speed * double(steps) * thin.dt;
+  Table measured = table_of("way of one past the other [m] | free way [m] | difference [of it]");
+  measured.row(way, free, std::abs(way - free) / free);
+  return judge_worst(measured, 0.05, "without a thickness nothing holds layers apart");
+}
+
+/// Particle over particle, edge over edge, with and without a second upper layer.
+Finding aligned_layers_stop(Trial& trial) {
+  Table measured = table_of(
+      "layers [1] | speed [m/s] | crossings [1] | least gap of neighbours' particles [thickness]");
+  const PortableScene sheet = limp_sheet(3, cell);
+  const Eigen::Index count = sheet.x.cols();
+  const double thickness = drawn("thickness of aligned layers", 0.007, 0.009);
+  for (const auto& [layers, speed] :
+       {std::pair(2, 0.4), {3, 0.4}, {2, drawn("speed of aligned layers", 30, 40)}}) {
+    std::vector<PortableScene> all;
+    for (int k = 0; k < layers; ++k) all.push_back(shifted(sheet, {0, 0, 2.5 * k * thickness}));
+    PortableScene scene = together("layers that meet, particle over particle", all);
+    scene.thickness = thickness;
+    for (int k = 0; k < layers; ++k)
+      scene.v.middleCols(k * count, count).row(2).setConstant(-speed * k);
+    for (const Snapshot& now : trial.motion(scene, {20, 40, 60})) {
+      double gap = INFINITY;
+      for (int k = 1; k < layers; ++k)
+        for (Eigen::Index i = 0; i < count; ++i)
+          gap = std::min(gap, now.x(2, k * count + i) - now.x(2, (k - 1) * count + i));
+      const auto crossings = oracles::exact_crossings(now.x, scene.mesh.triangles).size();
+      measured.row(layers, speed, double(crossings), gap / thickness);
+    }
+  }
+  Worst passed;
+  for (const double gap : measured.numbers("least gap of neighbours' particles"))
+    passed.observe(-gap);
+  for (const double crossings : measured.numbers("crossings")) passed.observe(crossings);
+  return {{passed.value(), 0, 0, "1", "no layer passes another"}, measured, ""};
+}
+
 PortableScene layers_on_a_plane(const char* name) {
   PortableScene scene = two_layers(name, 0);
   upper_of(scene.x).row(2).array() += 1.2 * scene.thickness;
@@ -346,6 +396,13 @@ std::vector<Law> layer_laws() {
       {"self-collision.thickness-is-not-kept-from-planes",
        "A sheet that has a thickness against itself lies on a plane.", "PROTOCOL.md",
        thickness_does_not_lift, "self_collision planes still", "highest particle"},
+      {"self-collision.thickness-goes-with-its-scene",
+       "Layers of a scene without a thickness pass, whatever the scene before had.",
+       "protocol: 'thickness'", thickness_goes_with_its_scene, "self_collision",
+       "way of one past the other | free way"},
+      {"self-collision.aligned-layers-stop",
+       "Layers whose particles and edges lie over each other's do not pass through, slow or fast.",
+       "impenetrability", aligned_layers_stop, "self_collision"},
       {"self-collision.vertices-and-edges-stop",
        "A vertex that meets a triangle, and an edge that meets an edge, inside or on a border, "
        "stop "

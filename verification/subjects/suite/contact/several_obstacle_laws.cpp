@@ -225,6 +225,105 @@ Finding both_act_in_a_crease(Trial& trial) {
                      "across the crease, and the ball's curvature; a depth of 1 mm cannot be seen");
 }
 
+/// Obstacles that fit into the cell around this place: of the solver's kinds, of any size and way.
+/// Planes are left out, since they reach everywhere.
+void add_in_cell(PortableScene& scene, const std::vector<ObstacleKind>& kinds, int cell,
+                 const Vector3& place) {
+  const auto any = [&](const char* what, double least, double most) {
+    return drawn(fmt::format("{} in cell {}", what, cell), least, most);
+  };
+  const ObstacleKind& kind = kinds[size_t(cell) % kinds.size()];
+  const double friction = any("friction", 0.1, 0.7);
+  if (kind.group == "box") {
+    scene.boxes.push_back(
+        {place, {any("x", 0.012, 0.04), any("y", 0.012, 0.04), any("z", 0.01, 0.03)}, friction});
+  } else if (kind.group == "ball") {
+    scene.spheres.push_back({place, any("radius", 0.015, 0.045), friction});
+  } else {
+    const double heading = any("heading", 0, 2 * pi), length = any("length", 0.02, 0.035);
+    const Vector3 axis(std::cos(heading), std::sin(heading), any("rise", -0.5, 0.5));
+    scene.capsules.push_back(
+        {place - length * axis, place + length * axis, any("radius", 0.012, 0.02), friction});
+  }
+}
+
+/// On a floor of 4 x 4 cells of 13 cm, a second one 0.5 m below it, which the cloth does not reach.
+PortableScene sheet_above_obstacles(const std::vector<ObstacleKind>& kinds) {
+  constexpr double cell = 0.13;  // m
+  PortableScene scene = limp_sheet(22, 0.024);
+  scene.name = "sheet that falls on many obstacles";
+  for (int k = 0; k < 32; ++k) {
+    const Vector3 place(cell * (0.5 + k % 4), cell * (0.5 + k / 4 % 4), k < 16 ? -0.5 : 0.0);
+    add_in_cell(scene, kinds, k % 16 + 16 * (k / 16), place);
+  }
+  scene.x.row(2).array() += 0.055;
+  scene.mesh.rest = scene.x;
+  scene.gravity = Vector3(0.4, -0.3, -9.7);
+  scene.v.colwise() = Vector3(0.1, 0.2, -1.2);
+  return scene;
+}
+
+Finding many_keep_cloth_out(Trial& trial) {
+  std::vector<ObstacleKind> kinds = declared_kinds(trial, 1);
+  std::erase_if(kinds, [](const ObstacleKind& kind) { return kind.group == "contact"; });
+  if (kinds.empty()) throw NotOffered{"boxes, spheres or capsules"};
+  const PortableScene scene = sheet_above_obstacles(kinds);
+  Table measured = table_of(
+      "steps [1] | deepest [m] | particles inside by a millimetre [1] | over what is allowed [1]");
+  const std::vector<long> counts = multiples(3, 14);
+  const std::vector<Snapshot> states = trial.motion(scene, counts);
+  for (size_t k = 0; k < counts.size(); ++k) {
+    double deepest = 0;
+    int inside = 0;
+    for (Eigen::Index i = 0; i < scene.x.cols(); ++i) {
+      const double depth = -clearance(scene, states[k].x.col(i));
+      deepest = std::max(deepest, depth);
+      inside += depth > 1e-3;
+    }
+    const double speed = 1.2 + weight * double(counts[k]) * scene.dt;  // m/s
+    measured.row(counts[k], deepest, inside,
+                 deepest / (speed * scene.dt + allowance(trial.declaration(), scene).depth));
+  }
+  return judge_worst(measured, 1,
+                     "a contact that is found after the step lets a particle in by what it travels "
+                     "in a step; a depth of 1 mm cannot be seen");
+}
+
+/// Beyond the edge of a box, over which it slides without friction at 2 m/s.
+Finding falls_beyond_the_edge(Trial& trial) {
+  constexpr long steps = 60;
+  Table measured = table_of("way out | fall [m] | least [m] | most [m] | over what is allowed [1]");
+  for (const Vector3& out : {Vector3(1, 0, 0), Vector3(0, -1, 0)}) {
+    PortableScene scene = limp_sheet(2, 0.02);
+    scene.name = "sheet that slides off a box";
+    const Vector3 half(0.12, 0.12, 0.05), top(0.3, -0.2, half.z());
+    scene.boxes = {{top - half.z() * Vector3::UnitZ(), half, 0}};
+    lay(scene, {"top", top + 0.06 * out, Vector3::UnitZ(), out}, 0);
+    const double speed = 2, time = double(steps) * scene.dt;  // m/s, s
+    scene.v.colwise() = speed * out;
+    const Vector3 mean = (trial.after(scene, steps).x - scene.x).rowwise().mean();
+    // its last particle leaves 0.02 m after its middle, the first as much before
+    const double most = weight / 2 * std::pow(time - 0.04 / speed, 2),
+                 least = weight / 2 * std::pow(time - 0.08 / speed, 2);
+    measured.row(out.x() > 0.5 ? "along x" : "against y", -mean.z(), least, most,
+                 std::max(0.9 * least / std::max(-mean.z(), 1e-9), -mean.z() / (1.1 * most)));
+  }
+  return judge_worst(measured, 1,
+                     "from when the first and the last particle are beyond the edge; a tenth for "
+                     "steps of first order and for what pulls the cloth");
+}
+
+/// On the first side of each kind, steep enough to slide.
+Finding friction_above_one(Trial& trial) {
+  Slides slides;
+  for (const ObstacleKind& kind : declared_kinds(trial, 1)) {
+    const double mu = drawn("friction above one on a " + kind.name, 1.2, 1.5);
+    const Side side = kind.sides(0)[0];
+    slides.measure(trial, sheet_on(kind, side, 2.5, mu), side, mu);
+  }
+  return slides.judged();
+}
+
 }  // namespace
 
 std::vector<Law> several_obstacle_laws() {
@@ -240,6 +339,15 @@ std::vector<Law> several_obstacle_laws() {
        "friction of both.",
        "Coulomb; impenetrability", both_act_in_a_crease, "",
        "crease of | acceleration along it | by Coulomb's law | deepest"},
+      {"obstacles.many-keep-cloth-out",
+       "Of 32 obstacles of any size and direction, some above others, each keeps cloth out.",
+       "impenetrability", many_keep_cloth_out, "", "steps | deepest"},
+      {"box.what-slides-off-falls",
+       "A sheet that slides over the edge of a box falls freely beyond it.", "gravity",
+       falls_beyond_the_edge, "boxes", "way out | fall | least | most"},
+      {"obstacles.friction-above-one-is-coulomb-s",
+       "Cloth slides where the slope is steeper than a friction above one.", "Coulomb",
+       friction_above_one, "", slides_headline},
       {"obstacles.far-ones-change-nothing", "Obstacles that touch nothing do nothing.", "locality",
        far_ones_change_nothing},
       {"obstacles.go-with-their-scene", "A scene without obstacles has none of the scene before.",

@@ -180,8 +180,7 @@ Finding steps_last_as_long_as_asked(Trial& trial) {
 }
 
 /// Of steps of `dt`, after a preparation that names other ones.
-Finding dt_of_advance_counts(Trial& trial) {
-  const PortableScene scene = moving_sheet();
+Finding dt_of_advance_counts(Trial& trial, const PortableScene& scene) {
   Table measured = table_of(
       "step in prepare [s] | in advance [s] | difference of positions [m] | over rounding [1]");
   for (const double times : {drawn("another step", 0.4, 0.7), 1.4}) {
@@ -216,6 +215,32 @@ Finding each_call_has_its_step(Trial& trial) {
   return judge_worst(measured, free_enough, "no force of note acts: the way is v t");
 }
 
+/// A stiff sheet in long steps, where the solver bears them: it does so after short ones, too.
+Finding long_steps_follow_short_ones(Trial& trial) {
+  constexpr long few = 6;
+  Table measured = table_of(
+      "long step [s] | speed of parts by long steps [m/s] | after short ones, too [m/s] | over "
+      "what "
+      "is allowed [1]");
+  for (const double dt : {0.001, 0.004, drawn("long steps after short ones", 0.015, 0.02)}) {
+    PortableScene scene = deforming_sheet(1, 2);
+    scene.name = "stiff sheet in steps of two lengths";
+    scene.material.young = 200;
+    const auto speed = [&](long before) {
+      scene.dt = before > 0 ? 1e-5 : dt;
+      trial.prepare(scene);
+      if (before > 0) trial.solver().advance(scene.dt, before);
+      return largest(trial.solver().advance(dt, few).v);
+    };
+    const double alone = speed(0), start = largest(scene.v);
+    if (!(alone < 10 * start)) continue;  // it needs shorter steps
+    const double after = speed(3);
+    measured.row(dt, alone, after, after / (10 * start));
+  }
+  if (measured.rows() == 0) throw NotOffered{"steps of 1 ms for a sheet of 200 N/m"};
+  return judge_worst(measured, 1, "empirical: what is stable does not grow to ten times its speed");
+}
+
 }  // namespace
 
 std::vector<Law> limit_laws() {
@@ -245,7 +270,14 @@ std::vector<Law> limit_laws() {
        "protocol: 'advance'", steps_last_as_long_as_asked, "", "Young's modulus | step | steps"},
       {"time.dt-of-advance-counts",
        "The step is that of `advance`, where `prepare` had another one.", "protocol: 'advance'",
-       dt_of_advance_counts, "L1"},
+       in_scene(dt_of_advance_counts, moving_sheet), "L1"},
+      {"time.dt-of-advance-counts-for-dampers",
+       "Dampers act for the step of `advance`, where `prepare` had another one.",
+       "protocol: 'advance'", in_scene(dt_of_advance_counts, damped_moving_sheet), "L1 damping"},
+      {"time.long-steps-follow-short-ones",
+       "Long steps that are stable are stable after short ones, too.", "protocol: 'advance'",
+       long_steps_follow_short_ones, "L1",
+       "long step | speed of parts by long steps | after short ones, too"},
       {"time.each-call-has-its-step",
        "After steps of one length, `advance` by another, or by none, goes as far as it says.",
        "protocol: 'advance'", each_call_has_its_step, "L1"},

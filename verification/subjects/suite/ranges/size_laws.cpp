@@ -25,6 +25,14 @@ PortableScene moving_sheet_that_bends() {
   return scene;
 }
 
+PortableScene moving_sheet_with_rest_angles() {
+  PortableScene scene = moving_sheet_that_bends();
+  scene.name = "moving sheet with rest angles";
+  for (size_t k = 0; k < scene.mesh.hinges.size(); ++k)
+    scene.rest_angles.push_back(0.6 * std::sin(1.7 * double(k) + 0.2));
+  return scene;
+}
+
 /// From its first place to that of copy k [m].
 Vector3 place_of(int k) {
   return {0.8 * (k % aside), 0.75 * (k / aside % aside), 0.3 * (k / (aside * aside))};
@@ -57,6 +65,25 @@ Finding many_move_as_one(Trial& trial, const PortableScene& one) {
   return judge_worst(measured, 1, "sheets that do not touch; both runs round differently");
 }
 
+double energy_of(Trial& trial, const PortableScene& scene) {
+  trial.prepare(scene);
+  return trial.solver().energy({scene.x, scene.v}, 0);
+}
+
+/// Without gravity, so that it does not matter where the copies are.
+Finding energies_add_up(Trial& trial) {
+  const PortableScene one = moving_sheet();
+  const double alone = energy_of(trial, one);
+  Table measured = table_of("sheets [1] | energy [J] | of one [J] | difference [roundings]");
+  for (const int count : {7, int(std::lround(drawn("sheets with energy", 35, 45)))}) {
+    const double all = energy_of(trial, copies_of(one, count));
+    const double size = largest(place_of(count)) / 0.1;  // places over lengths of edges
+    measured.row(count, all, alone,
+                 std::abs(all / count - alone) / alone / (size * trial.declaration().rounding()));
+  }
+  return judge_worst(measured, 64, "strains of some percent lose two digits of an edge's length");
+}
+
 }  // namespace
 
 std::vector<Law> size_laws() {
@@ -76,6 +103,13 @@ std::vector<Law> size_laws() {
       {"size.held-sheet-moves-alike-among-many", "A sheet that is held" + among,
        "locality of forces", in_scene(many_move_as_one, moving_sheet_that_is_held), "held",
        "particles | largest difference from one sheet"},
+      {"size.sheet-with-rest-angles-moves-alike-among-many",
+       "A sheet that is curved at rest" + among, "locality of forces",
+       in_scene(many_move_as_one, moving_sheet_with_rest_angles), "bending",
+       "particles | largest difference from one sheet"},
+      {"size.energies-of-many-add-up",
+       "The energy of many sheets is that of one, times their number.", "locality of forces",
+       energies_add_up, "L2 set_state", "sheets | energy | of one"},
   };
 }
 

@@ -91,10 +91,44 @@ Finding each_part_acts_as_alone(Trial& trial) {
       "what rounding explains is taken off");
 }
 
+/// By `step`, each from the state that the one before gave, against `advance`. One part at a time,
+/// and springs that hardly act, so that none hides another.
+Finding steps_of_a_state_go_as_advance(Trial& trial) {
+  Table measured = table_of(
+      "part | change of velocities by advance [m/s] | by steps of a state [m/s] | largest "
+      "difference [of the change]");
+  for (const Part& part : parts) {
+    PortableScene scene = whole_sheet();
+    scene.name = fmt::format("sheet with {} alone, by single steps", part.name);
+    for (const Part& other : parts)
+      if (&other != &part) other.remove(scene);
+    scene.material.young = 1e-3;
+    for (size_t k = 0; k < scene.mesh.hinges.size(); ++k)
+      scene.rest_angles.push_back(0.5 * std::sin(1.3 * double(k)));
+    for (Eigen::Index i = 0; i < scene.v.size(); ++i)
+      scene.v.data()[i] += 0.3 * std::sin(2.7 * double(i));
+    const PerParticle3 advanced = trial.after(scene, steps).v - scene.v;
+    trial.prepare(scene);
+    Snapshot now{scene.x, scene.v};
+    for (long k = 0; k < steps; ++k)
+      now = trial.solver().step({now}, {double(k) * scene.dt}, scene.dt);
+    const PerParticle3 stepped = now.v - scene.v;
+    measured.row(part.name, largest(advanced), largest(stepped),
+                 largest(stepped - advanced) / largest(advanced));
+  }
+  return judge_worst(
+      measured, 0.25,
+      "a scheme that looks back on several states begins anew in each step, of four");
+}
+
 }  // namespace
 
 std::vector<Law> together_laws() {
   return {
+      {"together.steps-of-a-state-go-as-advance",
+       "Bending, dampers and weight act in steps from given states as they do in `advance`.",
+       "protocol: 'step'", steps_of_a_state_go_as_advance, "L1 set_state damping bending",
+       "part | change of velocities by advance | by steps of a state"},
       {"together.each-part-acts-as-it-does-alone",
        "Bending, dampers of edges and of hinges, and weight give each particle the same impulse "
        "together, beside held particles and with any masses, as alone.",
