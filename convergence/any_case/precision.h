@@ -238,7 +238,8 @@ std::vector<std::string> precision_sentences(const PrecisionAnswer& answer);
 /// How the truth is known, in a sentence.
 std::string truth_in_words(const PrecisionAnswer& answer);
 
-/// What would do where the budget ended the runs before any method told its order; "" elsewhere.
+/// Where no method has a price because the budget ended the runs: which --until or --effort to try.
+/// "" elsewhere.
 std::string budget_in_words(const PrecisionAnswer& answer);
 
 /// Why methods appear that nobody requested; "" if none does.

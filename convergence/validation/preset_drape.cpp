@@ -27,11 +27,10 @@ constexpr double wanted_error = 0.02;  // of a coefficient: two points of drape 
 /// The drapes of a bending with a stretch on one mesh, from several starts.
 struct Rests {
   double least = INFINITY, most = -INFINITY, sum = 0;
-  int stable = 0, starts = 0;
+  int stable = 0;
 
   double mean() const { return stable > 0 ? sum / stable : nan; }
   void add(const Drape& one) {
-    ++starts;
     if (!one.stable) return;
     ++stable;
     sum += one.coefficient;

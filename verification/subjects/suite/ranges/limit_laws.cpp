@@ -219,9 +219,8 @@ Finding each_call_has_its_step(Trial& trial) {
 Finding long_steps_follow_short_ones(Trial& trial) {
   constexpr long few = 6;
   Table measured = table_of(
-      "long step [s] | speed of parts by long steps [m/s] | after short ones, too [m/s] | over "
-      "what "
-      "is allowed [1]");
+      "long step [s] | speed of parts by long steps [m/s] | after short ones, too [m/s] | "
+      "over what is allowed [1]");
   for (const double dt : {0.001, 0.004, drawn("long steps after short ones", 0.015, 0.02)}) {
     PortableScene scene = deforming_sheet(1, 2);
     scene.name = "stiff sheet in steps of two lengths";
