@@ -165,7 +165,8 @@ std::string budget_in_words(const PrecisionAnswer& answer) {
   const double end = answer.plan.input_case.scene.schedule.end;
   return fmt::format(
       "the budget ended the runs: {} with {} steps a frame came furthest, to {:.2g} s of {:.3g} s; "
-      "three halved steps take about --until {:.1g}, or {:.2g} times the --effort: {} a method",
+      "for three halved steps try --until {:.1g}, or more than {:.2g} times the --effort, {} a "
+      "method",
       run.method, run.parts, run.part * end, end, end / more, more,
       duration_text(run.seconds * more));
 }

@@ -268,9 +268,10 @@ TEST_CASE("where the budget ends every run, it says what would do") {
   trials.runs = {{"B", {{4, ended}}}, {"RK4", {{8, LevelRun(ended)}}}};
   trials.runs["RK4"][8].part = 0.05;
   // 4/.1 of the work, 4/.1 of 30 s
-  CHECK_THAT(budget_in_words(precision_answer(made.plan, trials)),
-             Catch::StartsWith("the budget ended the runs: B with 4 steps a frame came furthest") &&
-                 Catch::EndsWith("--until 0.02, or 40 times the --effort: 20 min a method"));
+  CHECK_THAT(
+      budget_in_words(precision_answer(made.plan, trials)),
+      Catch::StartsWith("the budget ended the runs: B with 4 steps a frame came furthest") &&
+          Catch::EndsWith("--until 0.02, or more than 40 times the --effort, 20 min a method"));
 }
 
 TEST_CASE("forward Euler's error in free fall is the step over the time") {
