@@ -17,9 +17,8 @@ class ToySolver(Solver):
     def prepare(self, scene: Scene) -> dict[str, str]:
         if scene.header["scene"]["material"]["bending_rigidity"] > 0:
             raise Declined("bending")
-        self.x, self.v, self.mass = scene.x, scene.v.copy(), scene.mass
+        self.x, self.v, self.mass, self.held = scene.x, scene.v.copy(), scene.mass, scene.held
         self.edges, self.k, self.length = scene.edges, scene.edge_stiffness, scene.rest_lengths
-        self.held = scene.held
         self.v[self.held] = 0  # whatever the scene says
         self.gravity = np.array(scene.header["scene"]["gravity"])
         return {
