@@ -147,7 +147,7 @@ int show_crossings(const CrossingsOptions& options) {
 constexpr const char* below_crossings =
     R"(Examples:
   foldproof crossings results/fast.h5
-  foldproof crossings cases/skirt.obj cases/robe.obj
+  foldproof crossings cases/skirt.obj cases/robe.ply
 
 Exit codes:
   0    nothing crosses

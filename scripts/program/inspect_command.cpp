@@ -74,7 +74,7 @@ int inspect(const InspectOptions& options) {
 
 constexpr const char* below_inspect =
     R"(Examples:
-  foldproof inspect cases/limb.obj --cells 100 --json
+  foldproof inspect cases/limb.ply --cells 100 --json
   foldproof inspect cases/skirt.obj --cloth            its rigidity by direction, its elastic limit
 
 Exit codes:

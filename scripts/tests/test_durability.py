@@ -198,7 +198,7 @@ class FullDisk(FileTest):
             self.assertFalse(list(out.glob("*.partial")))
 
     def test_level_sets_and_reports_too(self) -> None:
-        shutil.copy(ROOT / "cases/statue.obj", self.path)
+        shutil.copy(ROOT / "cases/statue.ply", self.path)
         case = self.write("draped.toml", (ROOT / "cases/drape_statue.toml").read_text())
         kept, page = self.path / "kept", self.path / "out/report.html"
         self.assert_cannot_write(1000, "simulate", case, "--set", "time.end=0.01", "--set",

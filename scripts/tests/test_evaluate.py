@@ -19,7 +19,7 @@ HINGE_ROW = [0.03, 0.12, 0.01, 0.05, -0.09, 0.04, 0, 0, 0, 0.11, 0.005, -0.003] 
 
 class EvaluateTest(ProgramCase):
     def test_inspect_says_what_a_mesh_is_good_for(self) -> None:
-        done = run("inspect", str(ROOT / "cases/statue.obj"))
+        done = run("inspect", str(ROOT / "cases/statue.ply"))
         self.assert_holds(done)
         self.assertIn("a solid: closed, oriented, without intersections; pieces 1", done.stdout)
         told = self.told("inspect", str(ROOT / "cases/skirt.obj"), codes=(1,))

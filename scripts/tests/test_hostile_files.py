@@ -77,7 +77,7 @@ class DamagedFiles(FileTest):
             self.trials(first / name, out / name, self.TRIALS // 20, ["report", str(out)])
 
     def test_level_sets_that_are_kept(self) -> None:
-        shutil.copy(ROOT / "cases/statue.obj", self.path)
+        shutil.copy(ROOT / "cases/statue.ply", self.path)
         case = self.write("draped.toml", (ROOT / "cases/drape_statue.toml").read_text())
         command = ["simulate", case, "--set", "time.end=0.001", "--set", "object.cells=10",
                    "--cache", str(self.path / "kept"), "--out", self.out]
@@ -225,7 +225,7 @@ class Names(FileTest):
                                         f"cloth.mesh={outside}"))
 
     def test_animations_too(self) -> None:
-        shutil.copy(ROOT / "cases/statue.obj", self.path / "outside.obj")
+        shutil.copy(ROOT / "cases/skirt.obj", self.path / "outside.obj")
         for name in ("frames", "case/linked"):
             (self.path / name).mkdir(parents=True)
         (self.path / "case/linked/0.obj").symlink_to(self.path / "outside.obj")

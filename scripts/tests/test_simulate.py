@@ -65,8 +65,8 @@ class SimulateTest(ProgramCase):
             self.assertEqual(len(file["mesh/triangles"]), 16 * len(coarse["mesh/triangles"]))
 
     def test_a_body_of_ones_own_is_kept_deformed_and_projected_beside_its_case(self) -> None:
-        shutil.copy(ROOT / "cases/statue.obj", self.path / "body.obj")
-        text = (ROOT / "cases/deforming_body.toml").read_text().replace("statue.obj", "body.obj")
+        shutil.copy(ROOT / "cases/statue.ply", self.path / "body.ply")
+        text = (ROOT / "cases/deforming_body.toml").read_text().replace("statue.ply", "body.ply")
         case = self.write("mine.toml", text)
         options = ("--set", "time.end=0.1", "--set", "object.cells=12", "--cache",
                    str(self.path / "kept"))
