@@ -62,6 +62,8 @@ void Table::add(Column column) {
   if (!columns_.empty() && length_of(column) != rows())
     reject(fmt::format("{} values in column '{}' for {} rows", length_of(column), column.name,
                        rows()));
+  for (const Column& other : columns_)
+    if (other.name == column.name) reject(fmt::format("two columns '{}'", column.name));
   columns_.push_back(std::move(column));
 }
 

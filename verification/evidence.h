@@ -80,7 +80,7 @@ class Table {
     return std::move(*this);
   }
 
-  /// Adds a column as long as the existing ones.
+  /// Adds a column as long as the existing ones, of a name that none of them has.
   void add(Column column);
 
   const std::vector<Column>& columns() const { return columns_; }

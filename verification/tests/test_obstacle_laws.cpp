@@ -63,4 +63,24 @@ TEST_CASE("subject: slips in contact of layers are found, each by its law", "[lo
                 {"self-collision.fine-mesh-stays-at-rest"});
 }
 
+TEST_CASE("subject: one of several obstacles, pieces or questions is not taken for all") {
+  require_found({"sums_what_pushes"}, {"obstacles.l", "contact.stops"},
+                {"obstacles.listed-twice-is-one"});
+  require_found({"large_reach_out"}, {"obstacles.cloth", "obstacles.f"},
+                {"obstacles.cloth-is-free-until-it-meets-one"});
+  require_found({"loose_pieces_freeze"}, {"mixed", "held"}, {"mixed.pieces-move-as-they-do-alone"});
+  require_found({"calls_begin_without_friction"}, {"mixed"}, {"mixed.calls-may-be-divided"});
+  require_law_fails("held_stay_held", "mixed.scenes-leave-nothing");
+  require_found({"rough_on_top_alone"}, {"mixed"}, {"mixed.turned-scene-moves-alike"});
+  require_found({"holds_in_order_alone"}, {"mixed"}, {"mixed.lists-have-no-order"});
+  require_found({"sixty_four_contacts"}, {"size.sheet-slides"},
+                {"size.sheet-slides-alike-among-many"});
+  require_found({"hit_triangles_are_held"}, {"self-collision.pairs", "self-collision.what"},
+                {"self-collision.what-is-hit-turns-about-what-is-held"});
+  require_law_fails("layers_rub", "self-collision.layers-slide-where-no-friction-is-stated");
+  require_outcome({"layers"}, "self-collision.layers-slide-where-no-friction-is-stated",
+                  Outcome::holds);
+  require_found({"forces_kick"}, {"repeat", "forces"}, {"repeat.questions-change-nothing"});
+}
+
 }  // namespace foldproof

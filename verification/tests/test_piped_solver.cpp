@@ -277,12 +277,13 @@ TEST_CASE("subject: wrong forces and loosely held particles are found") {
   const std::string short_steps = "stability.small-steps-gain-no-energy",
                     drape = "drape.heavier-limp-ring-hangs-lower",
                     many_held = "held.many-in-any-order-and-no-other";
-  require_found(
-      {"held_loosely"}, {""},
-      {"held.particles-stay", many_held, "held.particles-stay-for-seconds", short_steps, drape,
-       "chain.limp-strip-sags-as-a-catenary", "game-step.static-stretch-is-that-of-short-steps"});
+  require_found({"held_loosely"}, {""},
+                {"held.particles-stay", many_held, "held.particles-stay-for-seconds", short_steps,
+                 drape, "chain.limp-strip-sags-as-a-catenary",
+                 "game-step.static-stretch-is-that-of-short-steps", "mixed.calls-may-be-divided"});
   require_found({"held_sheets_weigh_twice"}, {""},
-                {many_held, short_steps, drape, "forces.of-a-held-sheet-are-those-of-a-free-one"});
+                {many_held, short_steps, drape, "forces.of-a-held-sheet-are-those-of-a-free-one",
+                 "mixed.pieces-move-as-they-do-alone"});
   require_found({"energy_halved"}, {""}, {"forces.are-minus-the-energy-gradient"});
   require_found({"pre_stressed"}, {"rest"},
                 {"rest.no-force-no-motion", "rest.no-force-no-motion-on-any-pattern",

@@ -32,6 +32,7 @@ import moving  # noqa: E402, F401
 import obstacles  # noqa: E402
 import processes  # noqa: E402
 import scaled  # noqa: E402
+import several  # noqa: E402, F401
 import stated  # noqa: E402
 from foldproof_solver import Scene, serve  # noqa: E402
 from materials import Bends  # noqa: E402

@@ -180,10 +180,6 @@ Finding falls_as_its_order_says(Trial& trial) {
   return judge_worst(measured, 1, "order 1: g t dt/2; order 2 and more: exact, rounding is left");
 }
 
-Vector3 momentum_of(const PortableScene& scene, const PerParticle3& v) {
-  return (v * scene.mass.asDiagonal()).rowwise().sum();
-}
-
 Finding keeps_momentum(Trial& trial, const PortableScene& scene) {
   const Snapshot end = trial.after(scene, few);
   const double scale =

@@ -209,6 +209,40 @@ Finding halved_steps_approach_a_limit(Trial& trial) {
   return finding;
 }
 
+/// A question on the way, against none. A scheme that looks back on several states may begin anew
+/// there: it errs by its step at most.
+Finding questions_change_nothing(Trial& trial) {
+  const bool is_damped = trial.declaration().offers("damping");
+  const PortableScene scene = is_damped ? damped_moving_sheet() : moving_sheet();
+  using Question = std::function<void(const Snapshot& now, double time)>;
+  const auto asked = [&](const Question& question) {
+    trial.prepare(scene);
+    const Snapshot half = trial.solver().advance(scene.dt, steps / 2);
+    question(half, double(steps / 2) * scene.dt);
+    return trial.solver().advance(scene.dt, steps - steps / 2).x;
+  };
+  const PerParticle3 unasked = asked([](const Snapshot&, double) {});
+  std::vector<std::pair<const char*, Question>> questions{
+      {"state", [&](const Snapshot&, double) { trial.solver().get_state(); }},
+      {"energy", [&](const Snapshot& now, double time) { trial.solver().energy(now, time); }},
+      {"forces", [&](const Snapshot& now, double time) { trial.solver().forces(now, time); }}};
+  if (is_damped)
+    questions.emplace_back(
+        "damping", [&](const Snapshot& now, double time) { trial.solver().damping(now, time); });
+  const double rounding = largest(scene.x) * narrow_rounding(trial, scene, steps);
+  Table measured = table_of(
+      "asked for | difference of positions [m] | rounding [m] | error of the step [m] | beyond "
+      "both [1]");
+  for (const auto& [name, question] : questions) {
+    const double off = largest(asked(question) - unasked),
+                 error = off <= rounding
+                             ? 0
+                             : largest(positions_after(trial, scene, 2 * steps) - unasked);
+    measured.row(name, off, rounding, error, off / (error + 2 * rounding));
+  }
+  return judge_worst(measured, 1, "forces, energy and state are read, not changed");
+}
+
 bool is_float(double number) { return double(float(number)) == number; }
 
 /// A sheet of large strains and folds, whose elastic law has no memory.
@@ -269,6 +303,9 @@ std::vector<Law> repeat_laws() {
        "determinism", second_scene_starts_afresh},
       {"repeat.step-depends-on-its-state-alone", "A state that is set again gives the same step.",
        "determinism", step_depends_on_its_state_alone, "L1 set_state"},
+      {"repeat.questions-change-nothing",
+       "Who asks for state, energy and forces on the way changes no motion.", "protocol: 'forces'",
+       questions_change_nothing, "L2", "asked for | difference of positions"},
       {"repeat.motion-goes-on-from-its-state",
        "A scene that starts from a state on the way goes on as the first did: nothing creeps.",
        "elastic cloth has no memory", in_scene(continues_from_its_state, crumpled_sheet)},

@@ -266,6 +266,12 @@ Vector3 torque_of(const PerParticle3& x, const PerParticle3& f) {
   return torque;
 }
 
+Vector3 momentum_of(const PortableScene& scene, const PerParticle3& v) { return v * scene.mass; }
+
+Vector3 spin_of(const PortableScene& scene, const Snapshot& now) {
+  return torque_of(now.x.colwise() - middle_of(scene.x), now.v * scene.mass.asDiagonal());
+}
+
 double middle(const Interval& interval) { return (interval[0] + interval[1]) / 2; }
 
 Interval bisected(Interval tried, double width, const std::function<bool(double)>& is_beyond) {

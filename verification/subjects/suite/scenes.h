@@ -109,6 +109,11 @@ double gained_energy(const PortableScene& scene, const PerParticle3& from, const
 /// About the origin [N m].
 Vector3 torque_of(const PerParticle3& x, const PerParticle3& f);
 
+Vector3 momentum_of(const PortableScene& scene, const PerParticle3& v);  // kg m/s
+
+/// About the middle of its start [N m s].
+Vector3 spin_of(const PortableScene& scene, const Snapshot& now);
+
 using Interval = std::array<double, 2>;
 
 /// The interval, halved until it is no wider than that: `is_beyond` begins to be true in it.

@@ -1,6 +1,6 @@
 // The number of particles: a sheet moves as it does in a scene with many others, far apart.
 
-#include "verification/subjects/suite/laws.h"
+#include "verification/subjects/suite/contact/obstacle_scenes.h"
 
 namespace foldproof {
 
@@ -84,6 +84,40 @@ Finding energies_add_up(Trial& trial) {
   return judge_worst(measured, 64, "strains of some percent lose two digits of an edge's length");
 }
 
+/// One alone, and hundreds beside each other, on a plane or a box with friction.
+Finding many_slide_as_one(Trial& trial) {
+  const bool has_planes = trial.declaration().offers("planes");
+  if (!has_planes && !trial.declaration().offers("boxes")) throw NotOffered{"planes or boxes"};
+  PortableScene one = limp_sheet(2, 0.03);
+  one.name = "sheet that slides";
+  const double friction = drawn("friction under many", 0.25, 0.35);
+  const Vector3 point(0.2, -0.3, 0.4), normal = Vector3::UnitZ(), down = Vector3::UnitX();
+  if (has_planes)
+    one.planes = {{point, normal, friction}};
+  else
+    one.boxes = {{point - 0.2 * normal, {4, 4, 0.2}, friction}};
+  lay(one, {"", point, normal, down}, 0.9);
+  one.v.colwise() = Vector3(0.1, 0.2, 0);
+  constexpr long count = 20;
+  const PerParticle3 alone = trial.after(one, count).x;
+  const Eigen::Index particles = one.x.cols();
+  Table measured = table_of(
+      "sheets [1] | particles [1] | way [m] | largest difference from one sheet [of the way]");
+  for (const int row : {9, int(std::lround(drawn("sheets in a row", 18, 20)))}) {
+    std::vector<PortableScene> sheets;
+    for (int k = 0; k < row * row; ++k)
+      sheets.push_back(shifted(one, {0.1 * (k % row), 0.1 * (k / row), 0}));
+    const PortableScene all = together(fmt::format("{} {}s", row * row, one.name), sheets);
+    const PerParticle3 moved = trial.after(all, count).x - all.x;
+    double most = 0;
+    for (int k = 0; k < row * row; ++k)
+      update_worst(most, largest(moved.middleCols(k * particles, particles) - (alone - one.x)));
+    const double way = largest(alone - one.x);
+    measured.row(row * row, all.x.cols(), way, most / way);
+  }
+  return judge_worst(measured, 0.03, "sheets that do not touch, each on the same ground");
+}
+
 }  // namespace
 
 std::vector<Law> size_laws() {
@@ -107,6 +141,9 @@ std::vector<Law> size_laws() {
        "A sheet that is curved at rest" + among, "locality of forces",
        in_scene(many_move_as_one, moving_sheet_with_rest_angles), "bending",
        "particles | largest difference from one sheet"},
+      {"size.sheet-slides-alike-among-many",
+       "A sheet slides on an obstacle as it does among many others.", "locality of contact",
+       many_slide_as_one, "touches", "particles | way | largest difference from one sheet"},
       {"size.energies-of-many-add-up",
        "The energy of many sheets is that of one, times their number.", "locality of forces",
        energies_add_up, "L2 set_state", "sheets | energy | of one"},

@@ -1,0 +1,128 @@
+// Obstacles that cloth comes near to: of any size, and listed twice.
+
+#include "verification/subjects/suite/contact/obstacle_scenes.h"
+
+namespace foldproof {
+
+namespace {
+
+using namespace suite;
+
+/// Some centimetres, or some metres, a box, a ball and a capsule, with a point of the surface.
+struct Approached {
+  std::string name, capability;
+  Vector3 point, normal;
+  std::function<void(PortableScene& scene)> add;
+};
+
+std::vector<Approached> approached(double size) {
+  const Vector3 at(0.3, -0.2, 0.4), slant(0.48, -0.6, 0.64), axis(0.6, 0.8, 0);
+  const Vector3 half = size * Vector3(1.1, 0.9, 0.7), across = axis.cross(Vector3::UnitZ());
+  const double radius = 0.8 * size;
+  const std::string of_size = fmt::format("of {:g} m", size);
+  return {
+      {"side of a box " + of_size, "boxes", at + half.y() * Vector3::UnitY(), Vector3::UnitY(),
+       [=](PortableScene& scene) {
+         scene.boxes = {{at, half, 0.3}};
+       }},
+      {"top of a box " + of_size, "boxes", at + half.z() * Vector3::UnitZ(), Vector3::UnitZ(),
+       [=](PortableScene& scene) {
+         scene.boxes = {{at, half, 0.3}};
+       }},
+      {"ball " + of_size, "spheres", at + radius * slant, slant,
+       [=](PortableScene& scene) {
+         scene.spheres = {{at, radius, 0.3}};
+       }},
+      {"capsule " + of_size, "capsules", at + radius * across, across, [=](PortableScene& scene) {
+         scene.capsules = {{at - size * axis, at + size * axis, radius, 0.3}};
+       }}};
+}
+
+/// Flies at the surface, and is asked where it is shortly before it meets it.
+Finding is_free_until_it_meets(Trial& trial) {
+  Table measured =
+      table_of("obstacle | gap that is left [m] | free way [m] | difference from it [of the way]");
+  constexpr double speed = 0.5, way = 0.03;  // m/s, m
+  for (const double size : {0.05, 0.3, drawn("a large obstacle", 8, 14)})
+    for (const Approached& one : approached(size)) {
+      if (!trial.declaration().offers(one.capability)) continue;
+      PortableScene scene = limp_sheet(2, 0.01);
+      scene.name = "sheet that flies at the " + one.name;
+      one.add(scene);
+      lay(scene, {one.name, one.point, one.normal, one.normal.unitOrthogonal()}, 0);
+      scene.gravity.setZero();
+      const long steps = std::lround(way / speed / scene.dt);
+      const double left = drawn("gap before a " + one.capability, 0.0015, 0.0025);  // m
+      scene.x = scene.mesh.rest.colwise() + (way + left) * one.normal;
+      scene.v.colwise() = -speed * one.normal;
+      const PerParticle3 moved = trial.after(scene, steps).x - scene.x;
+      const PerParticle3 off = moved.colwise() + way * one.normal;
+      measured.row(one.name, left, way, largest(off) / way);
+    }
+  if (measured.rows() == 0) throw NotOffered{"boxes, spheres or capsules"};
+  return judge_worst(measured, 0.02, "what has not met the cloth does nothing to it");
+}
+
+constexpr long count = 12;
+
+/// What a sheet does on an obstacle on which it slides, and to which it is thrown.
+struct Touch {
+  double slid = 0, rebound = 0, deepest = 0;  // of what gravity alone would do, of the free way, m
+};
+
+Touch touch_of(Trial& trial, PortableScene scene, const Side& side) {
+  Touch touch;
+  const double time = double(count) * scene.dt, speed = 0.8;  // s, m/s
+  const std::vector<Snapshot> states = trial.motion(scene, {count, 2 * count});
+  const Vector3 bent = (states[1].x - 2 * states[0].x + scene.x).rowwise().mean();
+  touch.slid = bent.dot(side.down) / (scene.gravity.dot(side.down) * time * time);
+  scene.gravity.setZero();
+  scene.v.colwise() = -speed * side.normal;
+  const PerParticle3 after = trial.after(scene, count).x;
+  touch.rebound = (after - scene.x).rowwise().mean().dot(side.normal) / (speed * time);
+  for (Eigen::Index i = 0; i < scene.x.cols(); ++i)
+    touch.deepest = std::max(touch.deepest, -clearance(scene, after.col(i)));
+  return touch;
+}
+
+Finding twice_is_once(Trial& trial) {
+  Table measured = table_of(
+      "obstacle | slides by [of that without friction] | slides by, listed twice [of it] | "
+      "rebounds "
+      "by [of the free way] | rebounds by, listed twice [of it] | deepest [m] | deepest, listed "
+      "twice [m] | largest part of what is allowed [1]");
+  for (const ObstacleKind& kind : obstacle_kinds()) {
+    if (!trial.declaration().offers(kind.capability)) continue;
+    const double mu = drawn("friction of a " + kind.name + " twice", 0.35, 0.45);
+    const Side side = kind.sides(0)[0];
+    PortableScene scene = sheet_on(kind, side, 0.9, mu);
+    const Touch once = touch_of(trial, scene, side);
+    scene.name = "sheet on a " + kind.name + " that is listed twice";
+    kind.add(scene, 0, mu);
+    const Touch twice = touch_of(trial, scene, side);
+    measured.row(
+        kind.name, once.slid, twice.slid, once.rebound, twice.rebound, once.deepest, twice.deepest,
+        std::max({std::abs(twice.slid - once.slid) / 0.06, (twice.rebound - once.rebound) / 0.1,
+                  (twice.deepest - once.deepest) / allowance(trial.declaration(), scene).depth}));
+  }
+  if (measured.rows() == 0) throw NotOffered{"obstacles"};
+  return judge_worst(measured, 1,
+                     "two obstacles in one place are that obstacle; empirical: 6 % of what slides, "
+                     "a tenth of the way, and a millimetre, which cannot be seen");
+}
+
+}  // namespace
+
+std::vector<Law> approach_laws() {
+  return {
+      {"obstacles.cloth-is-free-until-it-meets-one",
+       "Cloth that flies at an obstacle, small or large, flies freely until it meets it.",
+       "inertia", is_free_until_it_meets, "", "obstacle | gap that is left | difference from it"},
+      {"obstacles.listed-twice-is-one",
+       "An obstacle that is listed twice has its friction once, and throws nothing back.",
+       "Coulomb; impenetrability", twice_is_once, "",
+       "obstacle | slides by | slides by, listed twice | rebounds by, listed twice"},
+  };
+}
+
+}  // namespace foldproof
