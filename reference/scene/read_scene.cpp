@@ -171,30 +171,23 @@ std::optional<Fabric> read_fabric(const KeyTable& cloth, const std::string& fold
   return fabric_named(read_fabrics(path), cloth.text("fabric"), cloth.where("fabric"));
 }
 
-}  // namespace
-
-Scene scene_from(const CaseKeys& of, const SceneLimits& limits) {
-  const std::filesystem::path file(of.path);
-  const std::string folder = file.parent_path().string();
-  const KeyTable& keys = *of.keys;
-  const auto cloth = keys.table("cloth"), time = keys.table("time");
-  if (!cloth || !time)
-    throw InputError(keys.where() + ": a case needs the tables [cloth] and [time]");
-  PlacedMesh placed = read_cloth_mesh(*cloth, folder, limits);
-  const std::optional<Fabric> fabric = read_fabric(*cloth, folder);
+/// The mesh at its start, with masses, title and text; nothing acts on it yet.
+Scene read_cloth(const KeyTable& keys, const KeyTable& cloth, const std::optional<Fabric>& fabric,
+                 PlacedMesh& placed) {
   const double density =
-      fabric && !cloth->has("density") ? fabric->density : positive(*cloth, "density");
+      fabric && !cloth.has("density") ? fabric->density : positive(cloth, "density");
   Scene scene = scene_at_rest(std::move(placed.mesh), density);
   scene.x = std::move(placed.start);
   scene.copy_of = std::move(placed.copy_of);
   scene.unsewn = std::move(placed.unsewn);
   scene.title = keys.text_or("title", "");
   scene.about = keys.text_or("about", "");
-
   if (const auto start = keys.table("start")) read_start(*start, scene);
-  reject_overflow(*cloth, scene);
-  if (const auto gravity = keys.table("gravity"))
-    scene.gravity = gravity->vector_or("acceleration", {0, -9.80665, 0});
+  reject_overflow(cloth, scene);
+  return scene;
+}
+
+void read_stretch_and_limits(const KeyTable& keys, Scene& scene) {
   if (const auto stretch = keys.table("stretch")) {
     const auto [material, directions] = read_stretch(*stretch, scene.mesh, nullptr, scene.notes);
     scene.stretch = material;
@@ -203,18 +196,38 @@ Scene scene_from(const CaseKeys& of, const SceneLimits& limits) {
   if (const auto membrane = keys.table("membrane"))
     scene.membrane = read_membrane(*membrane, nullptr);
   read_strain_limits(keys, scene);
-  if (const auto bending = keys.table("bending")) {
-    if (fabric) {
-      const std::string report = fabric_on_mesh(*fabric, scene.mesh).report;
-      scene.about += (scene.about.empty() ? "" : " ") + report;
-      scene.notes.push_back(report);
-    }
-    const auto [material, directions] =
-        read_bending(*bending, scene.mesh, nullptr, fabric, scene.notes);
-    scene.bending = material;
-    scene.bending_directions = directions;
-    scene.rest_angles = read_rest_angles(*bending, scene.mesh);
+}
+
+void read_bending_of(const KeyTable& bending, const std::optional<Fabric>& fabric, Scene& scene) {
+  if (fabric) {
+    const std::string report = fabric_on_mesh(*fabric, scene.mesh).report;
+    scene.about += (scene.about.empty() ? "" : " ") + report;
+    scene.notes.push_back(report);
   }
+  const auto [material, directions] =
+      read_bending(bending, scene.mesh, nullptr, fabric, scene.notes);
+  scene.bending = material;
+  scene.bending_directions = directions;
+  scene.rest_angles = read_rest_angles(bending, scene.mesh);
+}
+
+}  // namespace
+
+Scene scene_from(const CaseKeys& of, const SceneLimits& limits) {
+  const std::filesystem::path file(of.path);
+  const std::string folder = file.parent_path().string();
+  const KeyTable& keys = *of.keys;
+  const auto cloth = keys.table("cloth"), time = keys.table("time"),
+             self = keys.table("self_collision");
+  if (!cloth || !time)
+    throw InputError(keys.where() + ": a case needs the tables [cloth] and [time]");
+  PlacedMesh placed = read_cloth_mesh(*cloth, folder, limits);
+  const std::optional<Fabric> fabric = read_fabric(*cloth, folder);
+  Scene scene = read_cloth(keys, *cloth, fabric, placed);
+  if (const auto gravity = keys.table("gravity"))
+    scene.gravity = gravity->vector_or("acceleration", {0, -9.80665, 0});
+  read_stretch_and_limits(keys, scene);
+  if (const auto bending = keys.table("bending")) read_bending_of(*bending, fabric, scene);
   read_cloth_fabrics(keys, folder, placed.groups, scene);
   if (const auto air = keys.table("air")) scene.air = read_air(*air);
   note_pattern(scene);
@@ -224,11 +237,10 @@ Scene scene_from(const CaseKeys& of, const SceneLimits& limits) {
   read_time(*time, scene);
   read_objects(keys, {folder, scene.schedule.end, limits}, scene);
   note_scales(keys, placed.scale, scene);
-  if (const auto self = keys.table("self_collision"))
-    scene.self_collision = read_self_collision(*self, scene);
+  if (self) scene.self_collision = read_self_collision(*self, scene);
   read_sticky(keys, folder, scene);
   if (const auto solver = keys.table("solver")) read_solver(*solver, scene.solver);
-  if (const auto self = keys.table("self_collision")) {
+  if (self) {
     reject_touching_start(*self, scene);
     reject_tangled_start(*self, scene);
   }
