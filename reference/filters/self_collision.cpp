@@ -20,6 +20,21 @@ constexpr double least_spare = 0.12, most_spare = 0.3;
 constexpr long tests_of_a_pair = 4;  // of boxes, by a step that selects
 // s: the time in which a piercing edge moves one thickness relative to the pierced triangle
 constexpr double untangling_time = 0.01;
+// by which the side of a triangle may grow in a step, of the mean edge and of the cloth's size
+constexpr double most_edges = 10, most_sizes = 0.1;
+
+/// Where sides grow so much the step is far too long, and nearly all pairs would meet: finding them
+/// takes minutes and gigabytes.
+void reject_explosion(const ClothTree& cloth, const PerParticle3& x, const PerParticle3& way) {
+  const double most =
+      std::max(most_edges * cloth.mean_edge, most_sizes * bounds_of(x).sizes().norm());  // m
+  for (const Triangle& t : cloth.triangles)
+    for (const auto& [a, b] : {std::pair(t[0], t[1]), {t[1], t[2]}, {t[2], t[0]}})
+      if ((way.col(a) - way.col(b)).squaredNorm() > most * most)
+        throw DegenerateElement(
+            "divergence: two corners of a triangle part by more than ten mean edges in one step",
+            {a, b});
+}
 
 /// The motion of one step, and the corrections that keep it free of crossings.
 struct Step {
@@ -159,6 +174,7 @@ void SelfCollision::correct(const Span& span, const State& s, PerParticle3& v, W
   work.close_pairs += repel(close, s.x, settings, layers, h, inverse_mass, v, cloth.team);
   if (!(span.end > span.start)) return;
 
+  reject_explosion(cloth, s.x, h * v);
   Step step{*this, s, v, h, work, tangled};
   for (int round = 0; round < settings.rounds; ++round)
     if (step.resolve_all(round) == 0) return;

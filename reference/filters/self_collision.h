@@ -33,7 +33,8 @@ struct SelfCollision {
   /// where it must.
   void look_ahead(const State& s, const Work& work) const;
 
-  /// Throws DegenerateElement where prescribed particles force the cloth through itself.
+  /// Throws DegenerateElement where prescribed particles force the cloth through itself, and where
+  /// the corners of a triangle part by more than ten mean edges and a tenth of the cloth's size.
   void correct(const Span& span, const State& s, PerParticle3& v, Work& work) const;
 };
 
