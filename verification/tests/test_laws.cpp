@@ -150,6 +150,10 @@ TEST_CASE("subject: what a small scene, its first step or a free one does not sh
                 {"forces.of-two-states-at-one-time-differ"});
   require_found({"slender_hinges_are_lost"}, {"bending.hinges", "bending.every"},
                 {"bending.hinges-of-all-shapes-have-their-weights"});
+  require_found({"hinges_slacken_when_squeezed"}, {"bending.h", "bending.s"},
+                {"bending.squeezed-hinges-resist"});
+  require_found({"energy_forgets_rest_angles"}, {"forces"},
+                {"forces.of-a-sheet-of-other-rest-are-minus-the-energy-gradient"});
   require_found({"folds_are_not_damped"}, {"vibration", "damping.folded"},
                 {"damping.folded-hinges-are-damped"});
   require_law_fails("boxes_have_no_edge", "box.what-slides-off-falls");

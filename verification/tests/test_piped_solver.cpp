@@ -188,7 +188,8 @@ TEST_CASE("subject: false claims of precision and order are found") {
 
 TEST_CASE("subject: an order that damping lowers is found, by its own law") {
   const std::string order = "order.with-damping-is-as-claimed";
-  require_found({"damped_verlet"}, {""}, {order});
+  require_found({"damped_verlet"}, {""},
+                {order, "order.with-damping-of-rough-motion-is-as-claimed"});
   require_law_fails("damped_verlet_single", order);
   require_outcome({"damped", "damped_backward_euler", "damped_trapezoidal"}, order, Outcome::holds);
   require_outcome({"none"}, order, Outcome::not_applicable);
@@ -313,7 +314,8 @@ TEST_CASE("subject: the toy in C++ meets every law that it does not decline") {
         std::ranges::all_of(suite::split(laws[k].needs, " "),
                             [&](const std::string& need) { return offered.contains(need); }) &&
         !laws[k].name.starts_with("obstacles.") &&
-        !laws[k].name.starts_with("game-step.");  // its longest stable step is shorter
+        !laws[k].name.starts_with("game-step.") &&  // its longest stable step is shorter
+        laws[k].name != "repeat.stiff-scene-after-a-soft-one";
     CHECK(records[k].outcome == (is_met ? Outcome::holds : Outcome::not_applicable));
   }
 }

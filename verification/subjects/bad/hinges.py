@@ -69,6 +69,29 @@ class HingesSlackenWhenSharp(Hinges):
         return super().moment(angle) * (np.abs(angle) < np.pi / 2)
 
 
+class HingesSlackenWhenSqueezed(Hinges):
+    """No moment where the edge is shorter than 0.8 of its rest length."""
+
+    def alter(self, scene: Scene) -> None:
+        super().alter(scene)
+        ends = scene.rest[self.corners[:, 3]] - scene.rest[self.corners[:, 2]]
+        self.lengths = np.linalg.norm(ends, axis=1)
+
+    def moment(self, angle: np.ndarray) -> np.ndarray:
+        now = np.linalg.norm(self.x[self.corners[:, 3]] - self.x[self.corners[:, 2]], axis=1)
+        return super().moment(angle) * (now > 0.8 * self.lengths)
+
+
+class EnergyForgetsRestAngles(Hinges):
+    """The forces have them, the energy that is stated has not."""
+
+    level = "L2"
+
+    def energy(self) -> float:
+        angle, _ = self.turned()
+        return super().energy() + 0.5 * np.sum(self.moments * angle**2)
+
+
 class HingesKnowTheirFront(Hinges):
     """A tenth less moment to the back."""
 

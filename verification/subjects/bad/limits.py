@@ -249,6 +249,17 @@ class CountsPartsOnce(DividesSteps):
             self.step(dt / self.count)
 
 
+class BoundsPartsOnce(DividesSteps):
+    """Parts are as long as the springs of the first scene of the process allow."""
+
+    bound = 0.0
+
+    def alter(self, scene: Scene) -> None:
+        super().alter(scene)
+        self.bound = self.bound or 0.5 / np.sqrt(np.max(self.k) / np.min(self.mass))
+        self.substep = min(self.bound, 2e-3)
+
+
 class Tires(Toy):
     """After a thousand steps velocities decay by 1/s."""
 

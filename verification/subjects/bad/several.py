@@ -29,6 +29,29 @@ class LargeReachOut(OnObstacles):
         return normals, gap - (1e-3 * size if size > 2 else 0)
 
 
+class RimsSnag(OnObstacles):
+    """On a box, what moves in from within 3 mm of a rim meets the side there."""
+
+    def to_boxes(self, body: dict, p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        normals, gap = super().to_boxes(body, p)
+        out = self.before - body["centre"]
+        side = body["half_extents"] - np.abs(out)
+        inward = -self.v * np.sign(out)
+        for axis in (0, 1):
+            snags = (normals[:, 2] > 0.5) & (side[:, axis] < 0.003) & (inward[:, axis] > 0.01)
+            normals[snags] = np.sign(out[snags, axis])[:, None] * np.eye(3)[axis]
+            gap[snags] = -self.dt * inward[snags, axis]
+        return normals, gap
+
+
+class BoxesShrinkForThickCloth(OnObstacles):
+    capabilities = (*OnObstacles.capabilities, "self_collision")
+
+    def to_boxes(self, body: dict, p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        normals, gap = super().to_boxes(body, p)
+        return normals, gap + self.thickness
+
+
 class LoosePiecesFreeze(Layers):
     """Where a particle is held, pieces without one stay."""
 

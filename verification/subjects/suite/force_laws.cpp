@@ -29,6 +29,16 @@ PortableScene bent_sheet() {
   return scene;
 }
 
+/// It rests at other lengths and angles than it has.
+PortableScene sheet_of_other_rest() {
+  PortableScene scene = bent_sheet();
+  scene.name = "bent sheet of other rest lengths and angles";
+  scene.material.rest_length_scale = 0.9;
+  for (size_t k = 0; k < scene.mesh.hinges.size(); ++k)
+    scene.rest_angles.push_back(0.5 * std::sin(1.7 * double(k) + 0.2));
+  return scene;
+}
+
 /// The scale of bending forces: rigidity over the shortest edge, for every hinge, whose weight is
 /// about three; summed [N].
 double bending_scale(const PortableScene& scene) {
@@ -244,6 +254,10 @@ std::vector<Law> force_laws() {
       {"forces.of-a-sharply-bent-sheet-are-minus-the-energy-gradient",
        "Forces of hinges that are bent by up to 120 degrees are minus their energy's gradient.",
        "conservative forces", in_scene(are_the_energy_gradient, sharply_bent_sheet),
+       "L2 set_state bending"},
+      {"forces.of-a-sheet-of-other-rest-are-minus-the-energy-gradient",
+       "Forces of a sheet that rests at other lengths and angles are minus its energy's gradient.",
+       "conservative forces", in_scene(are_the_energy_gradient, sheet_of_other_rest),
        "L2 set_state bending"},
       {"forces.of-a-held-sheet-are-those-of-a-free-one",
        "Held particles change no force that is stated for others.", "locality of forces",

@@ -41,6 +41,28 @@ Finding second_scene_starts_afresh(Trial& trial) {
                            "nothing of an earlier scene may be left");
 }
 
+/// Ten times and a hundred times as stiff, in steps of 5 ms, which many solvers must divide.
+Finding stiff_scene_after_a_soft_one(Trial& trial) {
+  constexpr long count = 6;  // no more: what explodes must not exceed single precision
+  Table measured = table_of("Young's modulus [N/m] | numbers [1] | numbers that differ [1]");
+  for (const double stiffer : {10.0, 100.0}) {
+    PortableScene scene = moving_sheet();
+    scene.name = "stiff moving sheet";
+    scene.material.young *= stiffer, scene.dt = 0.005;
+    trial.restart();
+    const Snapshot first = trial.after(scene, count);
+    if (!(largest(first.x - scene.x) < largest(scene.x))) continue;  // it needs shorter steps
+    trial.restart();
+    PortableScene soft = moving_sheet();
+    soft.material.young *= 0.01;
+    trial.after(soft, count);
+    const Snapshot after = trial.after(scene, count);
+    measured.row(scene.material.young, 2 * first.x.size(), differing(trial, scene, first, after));
+  }
+  if (measured.rows() == 0) throw NotOffered{"steps of 5 ms for stiff sheets"};
+  return judge_worst(measured, 0, "nothing of an earlier scene may be left");
+}
+
 Finding step_depends_on_its_state_alone(Trial& trial) {
   Table measured("scene; numbers [1]; numbers that differ [1]");
   std::vector<PortableScene> scenes{moving_sheet()};
@@ -59,6 +81,15 @@ Finding step_depends_on_its_state_alone(Trial& trial) {
 /// The scene, whose `steps` steps are divided into so many of the same total time.
 PortableScene in_steps(PortableScene scene, long count) {
   scene.dt *= double(steps) / double(count);
+  return scene;
+}
+
+/// Neighbours move against each other, so that dampers take much from the first step on.
+PortableScene damped_rough_sheet() {
+  PortableScene scene = damped_moving_sheet();
+  scene.name = "damped sheet of neighbours that move apart";
+  for (Eigen::Index i = 0; i < scene.v.size(); ++i)
+    scene.v.data()[i] += 0.3 * std::sin(2.7 * double(i));
   return scene;
 }
 
@@ -301,6 +332,9 @@ std::vector<Law> repeat_laws() {
        "determinism", same_in_a_fresh_process},
       {"repeat.second-scene-starts-afresh", "A scene gives the same bits after another one.",
        "determinism", second_scene_starts_afresh},
+      {"repeat.stiff-scene-after-a-soft-one",
+       "A stiff scene gives the same bits after a soft one: its steps are divided for itself.",
+       "determinism", stiff_scene_after_a_soft_one, "", "Young's modulus | numbers that differ"},
       {"repeat.step-depends-on-its-state-alone", "A state that is set again gives the same step.",
        "determinism", step_depends_on_its_state_alone, "L1 set_state"},
       {"repeat.questions-change-nothing",
@@ -318,6 +352,10 @@ std::vector<Law> repeat_laws() {
       {"order.with-damping-is-as-claimed",
        "Halving the step reduces the error as claimed where edges are damped, too.", "Richardson",
        in_scene(order_is_as_claimed, damped_moving_sheet), "damping order", "observed | claimed"},
+      {"order.with-damping-of-rough-motion-is-as-claimed",
+       "Halving the step reduces the error as claimed where what neighbours do is damped.",
+       "Richardson", in_scene(order_is_as_claimed, damped_rough_sheet), "damping order",
+       "observed | claimed"},
       {"order.halved-steps-approach-a-limit",
        "Each halving of the step changes the motion less than the one before.", "Cauchy",
        halved_steps_approach_a_limit},

@@ -82,9 +82,10 @@ constexpr const char* why_on_the_surface =
     "Empirical: a depth of 1 mm cannot be seen; a tenth of an edge, 2 mm, is allowed for a "
     "thickness";
 
-Finding is_where_the_scene_says(Trial& trial, const ObstacleKind& kind) {
+Finding is_where_it_is_for(Trial& trial, const ObstacleKind& kind, double thickness) {
   Table measured = table_of_pressed();
-  const PortableScene sheet = limp_sheet(2, 0.02);
+  PortableScene sheet = limp_sheet(2, 0.02);
+  sheet.thickness = thickness;
   for (const Side& place : places_on(kind, sheet)) {
     PortableScene scene = sheet;
     scene.name = "sheet pressed on a " + kind.name + ", " + place.name;
@@ -92,6 +93,14 @@ Finding is_where_the_scene_says(Trial& trial, const ObstacleKind& kind) {
     press(trial, scene, place, measured);
   }
   return judge_worst(measured, 1, why_on_the_surface);
+}
+
+Finding is_where_the_scene_says(Trial& trial, const ObstacleKind& kind) {
+  return is_where_it_is_for(trial, kind, 0);
+}
+
+Finding is_there_for_thick_cloth(Trial& trial, const ObstacleKind& kind) {
+  return is_where_it_is_for(trial, kind, drawn("thickness on a " + kind.name, 0.006, 0.008));
 }
 
 /// A box of these half extents, both of its faces across this axis.
@@ -312,6 +321,11 @@ void add_laws(std::vector<Law>& all, const ObstacleKind& kind) {
   add("surface-is-where-the-scene-says",
       "A sheet that is pressed on " + a + ", on each of its sides, stays on its surface.",
       "impenetrability", is_where_the_scene_says, "side | deepest | highest", " still");
+  if (kind.group != "contact")
+    add("surface-is-there-for-thick-cloth",
+        "The thickness of cloth against itself leaves the surface of " + a + " where it is.",
+        "PROTOCOL.md", is_there_for_thick_cloth, "side | deepest | highest",
+        " self_collision still");
   if (kind.group != "contact")
     add("of-any-size-is-where-the-scene-says",
         "A sheet that is pressed on a thin, slender, stout or large " + kind.name +

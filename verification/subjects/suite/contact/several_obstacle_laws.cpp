@@ -242,8 +242,10 @@ void add_in_cell(PortableScene& scene, const std::vector<ObstacleKind>& kinds, i
   } else {
     const double heading = any("heading", 0, 2 * pi), length = any("length", 0.02, 0.035);
     const Vector3 axis(std::cos(heading), std::sin(heading), any("rise", -0.5, 0.5));
-    scene.capsules.push_back(
-        {place - length * axis, place + length * axis, any("radius", 0.012, 0.02), friction});
+    const Vector3 aside(-axis.y(), axis.x(), -axis.z());  // of an elbow, with its end at `place`
+    const double radius = any("radius", 0.012, 0.02);
+    scene.capsules.push_back({place - length * axis, place, radius, friction});
+    scene.capsules.push_back({place, place + length * aside, radius, friction});
   }
 }
 
@@ -313,6 +315,27 @@ Finding falls_beyond_the_edge(Trial& trial) {
                      "steps of first order and for what pulls the cloth");
 }
 
+/// Away from each rim of the top, without friction: its last row begins 2 mm inside.
+Finding slides_in_from_rims(Trial& trial) {
+  constexpr long steps = 40;
+  Table measured = table_of("way in | way [m] | free way [m] | difference [of it]");
+  for (const Vector3& in : {Vector3(1, 0, 0), Vector3(-1, 0, 0), Vector3(0, 1, 0)}) {
+    PortableScene scene = limp_sheet(2, 0.02);
+    scene.name = "sheet that slides in from the rim of a box";
+    const Vector3 half(0.12, 0.15, 0.05), top(0.3, -0.2, half.z());
+    scene.boxes = {{top - half.z() * Vector3::UnitZ(), half, 0}};
+    const double reach = half.cwiseProduct(in.cwiseAbs()).norm() - 0.022;  // m
+    lay(scene, {"", top - reach * in, Vector3::UnitZ(), in}, 0);
+    const double speed = drawn("speed from a rim", 0.4, 0.5),
+                 free = speed * double(steps) * scene.dt;  // m/s, m
+    scene.v.colwise() = speed * in;
+    const Vector3 way = (trial.after(scene, steps).x - scene.x).rowwise().mean();
+    measured.row(fmt::format("{:g}, {:g}", in.x(), in.y()), way.dot(in), free,
+                 (way - free * in).norm() / free);
+  }
+  return judge_worst(measured, 0.05, "the top of a box is flat up to its rim, and smooth here");
+}
+
 /// On the first side of each kind, steep enough to slide.
 Finding friction_above_one(Trial& trial) {
   Slides slides;
@@ -340,11 +363,15 @@ std::vector<Law> several_obstacle_laws() {
        "Coulomb; impenetrability", both_act_in_a_crease, "",
        "crease of | acceleration along it | by Coulomb's law | deepest"},
       {"obstacles.many-keep-cloth-out",
-       "Of 32 obstacles of any size and direction, some above others, each keeps cloth out.",
+       "Of 32 obstacles of any size and direction, elbows among them, some above others, each "
+       "keeps cloth out.",
        "impenetrability", many_keep_cloth_out, "", "steps | deepest"},
       {"box.what-slides-off-falls",
        "A sheet that slides over the edge of a box falls freely beyond it.", "gravity",
        falls_beyond_the_edge, "boxes", "way out | fall | least | most"},
+      {"box.rim-holds-nothing-back",
+       "A sheet slides freely from the rim of a smooth box towards its middle.", "inertia",
+       slides_in_from_rims, "boxes", "way in | way | free way"},
       {"obstacles.friction-above-one-is-coulomb-s",
        "Cloth slides where the slope is steeper than a friction above one.", "Coulomb",
        friction_above_one, "", slides_headline},

@@ -48,7 +48,22 @@ PortableMaterial material_for(Trial& trial, PortableScene scene) {
   return accepts(trial, bent) ? bent.material : material;
 }
 
-/// Free, held, and one on an obstacle of each kind; no layers, whose contacts have an order.
+/// The scene after a motion p -> turn p + shift that leaves boxes along the axes.
+PortableScene moved(PortableScene scene, const Eigen::Matrix3d& turn, const Vector3& shift) {
+  const auto to = [&](const Vector3& p) -> Vector3 { return turn * p + shift; };
+  scene.mesh.rest = (turn * scene.mesh.rest).colwise() + shift;
+  scene.x = (turn * scene.x).colwise() + shift;
+  scene.v = turn * scene.v, scene.gravity = turn * scene.gravity;
+  for (PortableBox& box : scene.boxes)
+    box.centre = to(box.centre), box.half_extents = (turn * box.half_extents).cwiseAbs();
+  for (PortableSphere& ball : scene.spheres) ball.centre = to(ball.centre);
+  for (PortableCapsule& capsule : scene.capsules)
+    capsule.a = to(capsule.a), capsule.b = to(capsule.b);
+  return scene;
+}
+
+/// Free, held, and two on obstacles of each kind that differ in place alone; no layers, whose
+/// contacts have an order.
 std::vector<PortableScene> pieces_for(Trial& trial) {
   const Declaration& declared = trial.declaration();
   std::vector<PortableScene> pieces{restless("free", 3, {-0.9, 0.2, 2})};
@@ -57,6 +72,8 @@ std::vector<PortableScene> pieces_for(Trial& trial) {
     pieces.back().held = {20, 3};
     for (const int i : pieces.back().held) pieces.back().v.col(i).setZero();
   }
+  pieces.push_back(restless("beside the free one, 8 mm away", 3, {-0.802, 0.2, 2}));
+  pieces.back().v.row(0).array() += 0.4;  // and leaves it
   pieces.push_back(restless("free too", 2, {-0.4, -1.1, 3}));
   const double thickness = declared.offers("self_collision") ? 0.004 : 0;
   int which = 1;
@@ -67,6 +84,8 @@ std::vector<PortableScene> pieces_for(Trial& trial) {
     lay(scene, kind.sides(which)[0], 0);
     scene.name = "on a " + kind.name;
     pieces.push_back(scene);
+    pieces.push_back(moved(scene, Eigen::Matrix3d::Identity(), {0.4, -9, 5}));
+    pieces.back().name += " like the one before";
     ++which;
   }
   const PortableMaterial material = material_for(trial, pieces[0]);
@@ -154,20 +173,6 @@ Finding scenes_leave_nothing(Trial& trial) {
   const PerParticle3 expected = trial.after(scene, count).x;
   trial.after(other, count);
   return judged(pieces, trial.after(scene, count).x, expected, "a scene is all that it is given");
-}
-
-/// The scene after a motion p -> turn p + shift that leaves boxes along the axes.
-PortableScene moved(PortableScene scene, const Eigen::Matrix3d& turn, const Vector3& shift) {
-  const auto to = [&](const Vector3& p) -> Vector3 { return turn * p + shift; };
-  scene.mesh.rest = (turn * scene.mesh.rest).colwise() + shift;
-  scene.x = (turn * scene.x).colwise() + shift;
-  scene.v = turn * scene.v, scene.gravity = turn * scene.gravity;
-  for (PortableBox& box : scene.boxes)
-    box.centre = to(box.centre), box.half_extents = (turn * box.half_extents).cwiseAbs();
-  for (PortableSphere& ball : scene.spheres) ball.centre = to(ball.centre);
-  for (PortableCapsule& capsule : scene.capsules)
-    capsule.a = to(capsule.a), capsule.b = to(capsule.b);
-  return scene;
 }
 
 /// x becomes y, y becomes z, z becomes x, once and twice.
