@@ -224,7 +224,7 @@ struct PrecisionAnswer {
   CaseTruth truth;
   std::vector<MethodCurve> curves;
   std::vector<PriceList> lists;
-  EndedRun furthest = {};  // where no method has a price
+  EndedRun furthest = {};  // of those that the budget ended
 };
 
 PrecisionAnswer precision_answer(const PrecisionPlan& plan, const Trials& trials);
@@ -238,9 +238,9 @@ std::vector<std::string> precision_sentences(const PrecisionAnswer& answer);
 /// How the truth is known, in a sentence.
 std::string truth_in_words(const PrecisionAnswer& answer);
 
-/// Where no method has a price because the budget ended the runs: which --until or --effort to try.
-/// "" elsewhere.
-std::string budget_in_words(const PrecisionAnswer& answer);
+/// Where no method has a price: the --errors that the truth allows or, if the budget ended the
+/// runs, which --until or --effort to try. "" elsewhere.
+std::string advice_in_words(const PrecisionAnswer& answer);
 
 /// Why methods appear that nobody requested; "" if none does.
 std::string for_truth_in_words(const PrecisionAnswer& answer);

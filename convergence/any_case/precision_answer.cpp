@@ -198,10 +198,7 @@ PrecisionAnswer precision_answer(const PrecisionPlan& plan, const Trials& trials
   answer.curves = method_curves(plan, trials, answer.truth);
   for (const double wanted : plan.wanted)
     answer.lists.push_back(price_list(plan, answer.truth, answer.curves, wanted));
-  const auto is_priced = [](const PriceList& list) {
-    return !std::isnan(list.prices.front().price.applications);
-  };
-  if (std::ranges::none_of(answer.lists, is_priced)) answer.furthest = furthest_of(trials.runs);
+  answer.furthest = furthest_of(trials.runs);
   return answer;
 }
 

@@ -139,6 +139,18 @@ Table run_table(const PrecisionAnswer& answer) {
   return {"runs", "Every run; no error where it came to no end", table};
 }
 
+bool has_price(const PrecisionAnswer& answer) {
+  return std::ranges::any_of(answer.lists, [](const PriceList& list) {
+    return !std::isnan(list.prices.front().price.applications);
+  });
+}
+
+/// To so many digits, up or down.
+double rounded(double number, int digits, double (*to)(double)) {
+  const double unit = std::pow(10, std::floor(std::log10(number)) + 1 - digits);
+  return to(number / unit) * unit;
+}
+
 }  // namespace
 
 std::vector<std::string> precision_sentences(const PrecisionAnswer& answer) {
@@ -158,16 +170,23 @@ std::string for_truth_in_words(const PrecisionAnswer& answer) {
       is_one ? "gets" : "get");
 }
 
-std::string budget_in_words(const PrecisionAnswer& answer) {
+std::string advice_in_words(const PrecisionAnswer& answer) {
   const EndedRun& run = answer.furthest;
+  const double least = least_error(answer.truth), largest = answer.plan.wanted.front();
+  if (has_price(answer)) return "";
+  if (least > largest && least < 1)
+    return fmt::format(
+        "the two best runs differ too much for such errors; for {:.2g} % and more try --errors "
+        "{:g}",
+        percent * least, rounded(least, 1, std::ceil));
   if (run.parts == 0) return "";
   const double more = levels_wanted_over_first / std::max(run.part, 1e-3);
   const double end = answer.plan.input_case.scene.schedule.end;
   return fmt::format(
       "the budget ended the runs: {} with {} steps a frame came furthest, to {:.2g} s of {:.3g} s; "
-      "for three halved steps try --until {:.1g}, or more than {:.2g} times the --effort, {} a "
+      "for three halved steps try --until {:g}, or more than {:.2g} times the --effort, {} a "
       "method",
-      run.method, run.parts, run.part * end, end, end / more, more,
+      run.method, run.parts, run.part * end, end, rounded(end / more, 2, std::floor), more,
       duration_text(run.seconds * more));
 }
 

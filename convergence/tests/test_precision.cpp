@@ -259,7 +259,7 @@ TEST_CASE("a method is not refined beyond sixteen times the cheapest or the budg
 
 TEST_CASE("where the budget ends every run, it says what would do") {
   const MadeUp made({}, {1e-2});
-  CHECK(budget_in_words(made.answer).empty());
+  CHECK(advice_in_words(made.answer).empty());
   LevelRun ended;
   ended.over_budget = made.plan.budget;
   ended.part = 0.1;
@@ -269,9 +269,15 @@ TEST_CASE("where the budget ends every run, it says what would do") {
   trials.runs["RK4"][8].part = 0.05;
   // 4/.1 of the work, 4/.1 of 30 s
   CHECK_THAT(
-      budget_in_words(precision_answer(made.plan, trials)),
+      advice_in_words(precision_answer(made.plan, trials)),
       Catch::StartsWith("the budget ended the runs: B with 4 steps a frame came furthest") &&
-          Catch::EndsWith("--until 0.02, or more than 40 times the --effort, 20 min a method"));
+          Catch::EndsWith("--until 0.017, or more than 40 times the --effort, 20 min a method"));
+}
+
+TEST_CASE("where two methods keep apart, the errors that they can tell are advised") {
+  const MadeUp apart({{"B", {0.3, 2, 1, 5, 0.004}}}, {1e-2});  // 0.4 % from RK4, at any step
+  CHECK_THAT(advice_in_words(apart.answer), Catch::EndsWith("for 4 % and more try --errors 0.04"));
+  CHECK(advice_in_words(MadeUp({{"B", {0.3, 2, 1, 5, 0.004}}}, {0.04}).answer).empty());
 }
 
 TEST_CASE("forward Euler's error in free fall is the step over the time") {

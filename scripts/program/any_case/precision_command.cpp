@@ -153,7 +153,7 @@ void print(const PrecisionAnswer& answer, const Trials& trials, const Options& o
     if (const std::string command = command_with(list.prices.front(), options); !command.empty())
       fmt::print("{:.3g} %: {}\n", 100 * list.wanted, command);
   fmt::print("{}\n", truth_in_words(answer));
-  if (const std::string more = budget_in_words(answer); !more.empty()) fmt::print("{}\n", more);
+  if (const std::string more = advice_in_words(answer); !more.empty()) fmt::print("{}\n", more);
   if (const std::string why = for_truth_in_words(answer); !why.empty()) fmt::print("{}\n", why);
   print_methods(answer);
   print_lasting(answer, trials);
@@ -237,7 +237,7 @@ json to_json(const MethodCurve& curve) {
 json to_json(const PrecisionAnswer& answer, const Options& options) {
   json told = {{"case", answer.plan.input_case.scene.name},
                {"sentences", precision_sentences(answer)},
-               {"beyond_budget", budget_in_words(answer)},
+               {"advice", advice_in_words(answer)},
                {"truth",
                 {{"first", to_json(answer.truth.first)},
                  {"second", to_json(answer.truth.second)},
