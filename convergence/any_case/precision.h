@@ -2,6 +2,7 @@
 // with steps that are halved; the truth is where two methods agree.
 #pragma once
 
+#include <cmath>
 #include <map>
 #include <string>
 #include <utility>
@@ -197,6 +198,8 @@ struct MethodPrice {
   double energy_gain = nan;
   std::string because = "";  // why there is none; or ""
 };
+
+inline bool is_priced(const MethodPrice& price) { return !std::isnan(price.price.applications); }
 
 /// The prices of one wanted error, the cheapest first, by work; those that have none last. None of
 /// them has one where the truth is not known to a tenth of the error.

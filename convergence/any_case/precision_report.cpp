@@ -140,9 +140,8 @@ Table run_table(const PrecisionAnswer& answer) {
 }
 
 bool has_price(const PrecisionAnswer& answer) {
-  return std::ranges::any_of(answer.lists, [](const PriceList& list) {
-    return !std::isnan(list.prices.front().price.applications);
-  });
+  return std::ranges::any_of(answer.lists,
+                             [](const PriceList& list) { return is_priced(list.prices.front()); });
 }
 
 /// To so many digits, up or down.

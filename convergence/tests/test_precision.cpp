@@ -101,8 +101,6 @@ struct MadeUp {
   std::string sentence() const { return precision_sentences(precision_answer(plan, trials))[0]; }
 };
 
-bool has_price(const MethodPrice& price) { return !std::isnan(price.price.applications); }
-
 }  // namespace
 
 TEST_CASE("prices are those of the methods' own laws of error") {
@@ -199,13 +197,13 @@ TEST_CASE("a longer run keeps its step and its largest energy") {
 TEST_CASE("a method that is never stable has no price and says why") {
   const MadeUp made({{"forward-euler", {1, 1, 1 << 30, 3}}}, {1e-2});
   CHECK(made.trials.runs.at("forward-euler").rbegin()->first <= 64);
-  CHECK_FALSE(has_price(made.price(0, "forward-euler")));
+  CHECK_FALSE(is_priced(made.price(0, "forward-euler")));
   CHECK(made.price(0, "forward-euler").because == "every run stops early: divergence");
   CHECK(made.sentence().ends_with("forward-euler does not reach it within the budget"));
   const int no_parts = 1 << 30;
   const MadeUp never({{"B", {0.3, 2, 1, 5, 0, no_parts}}, {"RK4", {0.9, 4, 1, 13, 0, no_parts}}},
                      {1e-2}, 1e5);
-  CHECK_FALSE(has_price(never.price(0, "B")));
+  CHECK_FALSE(is_priced(never.price(0, "B")));
   CHECK(never.price(0, "B").because.starts_with("no step that was tried is stable"));
 }
 
@@ -213,8 +211,8 @@ TEST_CASE("errors below ten times the distance of the two opinions have no price
   const MadeUp made({{"RK4", {0.9, 4, 1, 13, 4e-4}}}, {1e-2, 1e-3}, 1e6);
   CHECK(made.answer.truth.uncertainty == Approx(4e-4).epsilon(0.02));
   CHECK(least_error(made.answer.truth) == Approx(4e-3).epsilon(0.02));
-  CHECK(has_price(made.price(0, "B")));
-  CHECK_FALSE(has_price(made.price(1, "B")));
+  CHECK(is_priced(made.price(0, "B")));
+  CHECK_FALSE(is_priced(made.price(1, "B")));
   CHECK(made.price(1, "B").because == "the truth is not known to a tenth of this error");
 }
 
@@ -232,8 +230,8 @@ TEST_CASE("a method whose steps are too long to know the motion keeps nobody fro
   CHECK(made.answer.truth.first.method != "RK4");
   CHECK(made.answer.truth.second.method != "RK4");
   CHECK(made.answer.truth.second.parts > 0);
-  CHECK(has_price(made.price(0, "B")));
-  CHECK_FALSE(has_price(made.price(0, "RK4")));
+  CHECK(is_priced(made.price(0, "B")));
+  CHECK_FALSE(is_priced(made.price(0, "RK4")));
 }
 
 TEST_CASE("methods whose prices are closer than the steps tried are tied") {
@@ -304,7 +302,7 @@ TEST_CASE("a case in which nothing moves has no truth and no price") {
         x = made.plan.input_case.scene.x + 1e-17 / parts * PerParticle3::Ones(3, x.cols());
   made.answer = precision_answer(made.plan, made.trials);
   CHECK(std::isnan(made.answer.truth.uncertainty));
-  CHECK_FALSE(has_price(made.price(0, "B")));
+  CHECK_FALSE(is_priced(made.price(0, "B")));
   CHECK(truth_in_words(made.answer).starts_with("truth: unknown; nothing moves"));
 }
 

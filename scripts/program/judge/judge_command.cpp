@@ -1,4 +1,4 @@
-// foldproof judge, subject, serve: another solver on trial, its adapter, and the reference as one.
+// foldproof judge: another solver on trial.
 
 #include <chrono>
 #include <map>
@@ -21,8 +21,6 @@
 #include "scripts/program/judge/trial_progress.h"
 #include "verification/files/baseline_file.h"
 #include "verification/seeds.h"
-#include "verification/subjects/served/reference_server.h"
-#include "verification/subjects/suite/conformance.h"
 #include "verification/subjects/suite/laws.h"
 #include "verification/subjects/suite/portrait.h"
 
@@ -262,28 +260,6 @@ int judge_another_solver(const JudgeOptions& options) {
   return bundled == all_hold ? code : bundled;
 }
 
-int check_subject(const Options& options) {
-  const char* const words[] = {"kept", "declined", "BROKEN"};
-  bool is_broken = false;
-  for (const ConformanceRow& row : check_conformance(solver_command(options))) {
-    fmt::print("{:<9} {:<44} {}\n", words[int(row.conformity)], row.demand, row.note);
-    is_broken |= row.conformity == Conformity::broken;
-  }
-  fmt::print("{}\n", is_broken ? "the adapter does not keep to the protocol"
-                               : "the adapter keeps to the protocol");
-  return is_broken ? some_fail : all_hold;
-}
-
-struct ServeOptions : Options {
-  std::string integrator = "C", precision = "f8";
-  bool stands_still = false;
-};
-
-int serve(const ServeOptions& options) {
-  if (options.stands_still) return serve_still();
-  return serve_reference({options.integrator, options.precision == "f4"});
-}
-
 /// Frames instead of a solver.
 void add_judged_frames(CLI::App* judge, CLI::Option* solver, Options& options) {
   CLI::Option* frames = judge->add_option(
@@ -319,30 +295,6 @@ Exit codes:
   1    a law fails, is inconclusive or did not run; with --baseline: something got worse
   2    bad input)";
 
-constexpr const char* below_subject =
-    R"(Calls each operation of the declared level once, on a small sheet.
-
-Examples:
-  foldproof subject --check "/usr/bin/python3 verification/subjects/adapters/toy_solver.py"
-  (in a clone; needs the Debian package python3-numpy)
-
-Exit codes:
-  0    the adapter keeps to the protocol
-  1    the adapter breaks the protocol; the message names the first violation
-  2    bad input)";
-
-constexpr const char* below_serve =
-    R"(Started by `judge`, `subject` or another program that speaks verification/subjects/PROTOCOL.md: it
-reads from the descriptor FOLDPROOF_IN and writes to FOLDPROOF_OUT.
-
-Examples:
-  foldproof judge --solver "foldproof serve"
-  foldproof judge --solver "foldproof serve --integrator A --precision f4"
-
-Exit codes:
-  0    asked to stop
-  2    bad input, or no other program has started it)";
-
 void add_trial_options(CLI::App* judge, CLI::Option* solver, JudgeOptions& options) {
   add_value(judge, "--laws SET", options.law_set,
             "Ask the laws of a frozen set alone, such as 2026.1; says which of them changed since",
@@ -370,34 +322,6 @@ void add_trial_options(CLI::App* judge, CLI::Option* solver, JudgeOptions& optio
             whole_number(0, 1'000'000'000))
       ->needs(solver);
   add_resuming(judge, options);
-}
-
-void add_subject(CLI::App& app, Program& program) {
-  auto [subject, options] =
-      add_command(app, program,
-                  {"subject", "Test whether a solver's adapter keeps to the protocol of `judge`",
-                   below_subject},
-                  check_subject);
-  add_value(subject, "--check CMD", options.solver, "Command that starts the adapter",
-            some_text("a command"))
-      ->required();
-  add_solver_options(subject, options);
-}
-
-void add_serve(CLI::App& app, Program& program) {
-  auto [served, options] =
-      add_command(app, program,
-                  {"serve", "Answer the protocol of `judge` as the reference: `judge` starts this",
-                   below_serve},
-                  serve);
-  add_value(served, "--integrator NAME", options.integrator, "One of `foldproof list integrators`",
-            some_text("an integrator"))
-      ->capture_default_str();
-  add_value(served, "--precision TYPE", options.precision, "Number format of its answers: f8 or f4",
-            one_of({"f8", "f4"}))
-      ->capture_default_str();
-  add_switch(served, "--still", options.stands_still,
-             "Never move, and map each scene to its hash: what `list laws --freeze` keeps");
 }
 
 }  // namespace
@@ -432,8 +356,6 @@ void add_judge_command(CLI::App& app, Program& program) {
                    "Also write run.h5, verdicts.json, junit.xml and solver.json into this folder");
   judge->get_option("--bundle")->needs("--out");
   add_json(judge, options);
-  add_subject(app, program);
-  add_serve(app, program);
 }
 
 }  // namespace foldproof
