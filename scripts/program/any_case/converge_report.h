@@ -1,4 +1,4 @@
-// How answers of `foldproof converge` are told: tables for a reader, JSON for a program.
+// The answers of `foldproof converge` as tables for a reader and as JSON for a program.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -19,7 +19,7 @@ class ToySolver(Solver):
             raise Declined("bending")
         self.x, self.v, self.mass, self.held = scene.x, scene.v.copy(), scene.mass, scene.held
         self.edges, self.k, self.length = scene.edges, scene.edge_stiffness, scene.rest_lengths
-        self.v[self.held] = 0  # whatever the scene says
+        self.v[self.held] = 0  # even if the scene gives them a velocity
         self.gravity = np.array(scene.header["scene"]["gravity"])
         return {
             "stretch": "a spring per edge, of the edge's own stiffness [N/m]",

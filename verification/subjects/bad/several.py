@@ -1,4 +1,4 @@
-"""Several obstacles, pieces or questions where one goes well."""
+"""Solvers that are right with one obstacle, piece, call or scene, and wrong with several."""
 from __future__ import annotations
 
 import numpy as np

@@ -228,7 +228,7 @@ std::vector<Law> damping_laws() {
        in_scene(stated_forces_are_those_of_the_motion, rattled_sheet_with_damped_hinges),
        "L2 damping set_state bending"},
       {"damping.stated-velocities-of-held-particles-do-not-count",
-       "Held particles stand still for the dampers at them, whatever velocity the scene gives.",
+       "Dampers see held particles at rest, even if the scene gives them a velocity.",
        "protocol: array 'held'", velocities_of_held_do_not_count, "damping held"},
   };
 }

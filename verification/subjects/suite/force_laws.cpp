@@ -181,7 +181,7 @@ Finding held_particles_change_no_force(Trial& trial) {
                      "forces of the same positions; rounding of the springs at a particle");
 }
 
-/// What free particles gain by going back to their rest shape; what is between held ones alone may
+/// The energy of free particles on their way back to rest. Energy between held particles alone may
 /// be left out.
 Finding held_particles_change_no_energy(Trial& trial) {
   const PortableScene free = moving_sheet();

@@ -8,7 +8,7 @@ namespace {
 
 using namespace suite;
 
-/// Some centimetres, or some metres, a box, a ball and a capsule, with a point of the surface.
+/// A box, a ball or a capsule of a given size, with a point of its surface.
 struct Approached {
   std::string name, capability;
   Vector3 point, normal;
@@ -65,7 +65,7 @@ Finding is_free_until_it_meets(Trial& trial) {
 
 constexpr long count = 12;
 
-/// What a sheet does on an obstacle on which it slides, and to which it is thrown.
+/// How a sheet slides on an obstacle, and how it rebounds from it.
 struct Touch {
   double slid = 0, rebound = 0, deepest = 0;  // of what gravity alone would do, of the free way, m
 };

@@ -272,7 +272,7 @@ std::vector<Law> layer_laws() {
        "A sheet that has a thickness against itself lies on a plane.", "PROTOCOL.md",
        thickness_does_not_lift, "self_collision planes still", "highest particle"},
       {"self-collision.thickness-goes-with-its-scene",
-       "Layers of a scene without a thickness pass, whatever the scene before had.",
+       "Layers of a scene without a thickness pass, even if the scene before had one.",
        "protocol: 'thickness'", thickness_goes_with_its_scene, "self_collision",
        "way of one past the other | free way"},
       {"self-collision.aligned-layers-stop",

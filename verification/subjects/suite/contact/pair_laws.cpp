@@ -90,7 +90,7 @@ bool is_through(const PerParticle3& plane, const PerParticle3& x, double up) {
   return out.maxCoeff() < -0.001;
 }
 
-/// What meets stops, or is pushed away: from the front or from behind, in any order of the mesh.
+/// Pieces that meet stop or are pushed away, from the front or from behind, in any mesh order.
 Finding pairs_that_meet_stop(Trial& trial) {
   std::vector<Meeting> meetings{
       {"", 1, false, false, true, false},

@@ -86,7 +86,7 @@ Finding squeezed_kites_have_their_weight(Trial& trial) {
                      "per cent");
 }
 
-/// Dampers of hinges, whatever the angle, by the motion with them less that without.
+/// Hinge dampers at several angles: the motion with dampers, less the motion without.
 Finding folded_kites_are_damped(Trial& trial) {
   Table measured = table_of(
       "angle [degrees] | slower corner [of what is due] | faster one [of what is due] | difference "
