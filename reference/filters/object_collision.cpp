@@ -41,8 +41,13 @@ void ObjectCollision::correct(const Span& span, const State& s, PerParticle3& v,
     const Vector3 p = point.mean(s.x), before = point.mean(v);
     const Vector3 place = ahead ? Vector3(p + (span.end - span.start) * before) : p;
     if (last.around.out_of_reach(place, before, std::max(tau, span.step))) return;
-    const Vector3 after =
-        response.velocity(answers_at(last.around, point, place), {p, before, span, tau});
+    const std::span<ObjectPoint> answers = answers_at(last.around, point, place);
+    const auto elsewhere = [&](const Vector3& there) {
+      ++last.work.object_queries;
+      const std::span<ObjectPoint> other = answers_at(last.around, point, there);
+      return std::vector<ObjectPoint>(other.begin(), other.end());
+    };
+    const Vector3 after = response.velocity(answers, {p, before, span, tau, elsewhere});
     ++last.work.object_queries;
     if (after == before) return;
     if (moves) ++last.work.object_contacts;

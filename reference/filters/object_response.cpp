@@ -50,10 +50,52 @@ Vector3 velocity_into_corner(const ObjectPoint& a, const ObjectPoint& b, const V
                  (1 - c * c);
 }
 
+//    -- p ->          b's nearest side is hidden by a: a forecast against it would hold the point,
+//   -----.-----       which b never does on its way along a
+//     a  |  b
+/// Whether the point's way along the surface of `a`, with velocity v, nowhere enters `b`, though a
+/// forecast enters the plane through b's nearest surface. From that plane on the way is followed as
+/// far as b's distance reaches, and where it is on b's surface in small, then longer parts.
+bool leads_past(const ObjectPoint& a, const ObjectPoint& b, const MovingPoint& point) {
+  constexpr double shortest = 1e-4;  // of tau
+  constexpr double level = 1e-2;     // sine of the angle at which a way enters a surface
+  constexpr int most_places = 100;
+  const Vector3 v = forecast_velocity(a, point.v, point.tau) - b.velocity;
+  const double speed = v.norm(), approach = -v.dot(b.normal);  // m/s
+  if (!(approach > 0) || face_each_other(a, b)) return false;
+  double time = b.phi / approach, part = shortest * point.tau;
+  for (int k = 0; k < most_places; ++k) {
+    time += part;
+    if (time > point.tau) return true;
+    const ObjectPoint there = point.elsewhere(point.p + time * v)[size_t(b.part)];
+    if (there.phi < 0 && -v.dot(there.normal) > level * speed) return false;
+    part = there.phi > speed * part ? there.phi / speed : 2 * part;
+  }
+  return false;
+}
+
+/// The answers, less those of objects that are forecast to be entered and that the point's way
+/// along the surface of its nearest object leads past.
+std::span<ObjectPoint> without_hidden(std::span<ObjectPoint> answers, const MovingPoint& point) {
+  const auto may_be_hidden = [&](const ObjectPoint& b) {
+    return b.phi > 0 && forecast_distance(b, point.v, point.tau) < 0;
+  };
+  if (answers.size() < 2 || !point.elsewhere || std::ranges::none_of(answers, may_be_hidden))
+    return answers;
+  std::vector<ObjectPoint> left(answers.begin(), answers.end());  // `elsewhere` may overwrite them
+  const ObjectPoint nearest = nearest_of(left).first;
+  std::erase_if(left, [&](const ObjectPoint& b) {
+    return b.part != nearest.part && may_be_hidden(b) && leads_past(nearest, b, point);
+  });
+  std::ranges::copy(left, answers.begin());
+  return answers.first(left.size());
+}
+
 /// Treats each object once, deepest forecast first, so that it also treats an object that will be
 /// entered but is not the nearest. If the way out of one leads into another, the point is led to
 /// both surfaces; if the two face each other, it is held between them.
-Vector3 forecast(std::span<ObjectPoint> left, const MovingPoint& point) {
+Vector3 forecast(std::span<ObjectPoint> answers, const MovingPoint& point) {
+  std::span<ObjectPoint> left = without_hidden(answers, point);
   Vector3 v = point.v;
   std::optional<ObjectPoint> before;
   const auto deeper = [&](const ObjectPoint& a, const ObjectPoint& b) {

@@ -3,6 +3,7 @@
 // two cruder ones.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -17,6 +18,9 @@ struct MovingPoint {
   Vector3 p, v;  // m, m/s
   Span span;     // v moves p over this span
   double tau;    // the forecast time [s], > 0
+  // the objects' answers at another place [m], in the objects' order, which may overwrite those
+  // that a response was given; empty: not known
+  std::function<std::vector<ObjectPoint>(const Vector3&)> elsewhere = {};
 };
 
 /// Interface forecasting against one object:

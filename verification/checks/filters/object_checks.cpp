@@ -2,6 +2,7 @@
 #include "verification/specimens/check.h"
 #include "verification/specimens/contact_scenes.h"
 #include "verification/specimens/random.h"
+#include "verification/specimens/specimens.h"
 #include "verification/specimens/stepper.h"
 
 namespace foldproof {
@@ -164,6 +165,81 @@ Finding limit_finding(const Subject& subject) {
                      "its thickness in a step");
 }
 
+/// Particles on a plane, a step of weight and of velocity after another: where they are.
+PerParticle3 slid(const Subject& subject, const Scene& scene, State state, int steps) {
+  constexpr double h = 0.01;
+  for (int step = 0; step < steps; ++step) {
+    state.v.row(2).array() -= 9.81 * h;
+    state.v = corrected_by_objects(subject, scene, {0, h, h}, state);
+    state.x += h * state.v;
+  }
+  return state.x;
+}
+
+/// On a floor of boxes side by side, in all directions over sides and corners.
+Finding seams_finding(const Subject& subject) {
+  constexpr double height = 0.37;  // m: tops are there but for roundings
+  Scene scene = loose_particles(15);
+  for (int k = 0; k < 100; ++k) {
+    const double half = 0.02 + 0.0031 * (k % 7);
+    const Vector3 middle(0.1 * (k % 10), 0.1 * (k / 10), height - half);
+    scene.objects.push_back(
+        object_at("tile", Box{{0.05, 0.05, half}}, {Eigen::Quaterniond::Identity(), middle}));
+  }
+  Random random(43);
+  State state = resting_state(scene.x);
+  constexpr int steps = 12;
+  for (Eigen::Index i = 0; i < state.x.cols(); ++i) {
+    state.x.col(i) = Vector3(random.uniform(0.41, 0.44), random.uniform(0.41, 0.44), height);
+    state.v.col(i) = random.uniform(1, 3) * rotate(Vector3::UnitX(), {0, 0, random.uniform(0, 6)});
+  }
+  const PerParticle3 after = slid(subject, scene, state, steps);
+  Worst worst;
+  for (Eigen::Index i = 0; i < state.x.cols(); ++i)
+    worst.observe((Vector3(after.col(i) - state.x.col(i)) - steps * 0.01 * state.v.col(i)).norm());
+  return {{worst.value(), 100 * epsilon, 0, "m", "a rounding of places within 1 m in each step"},
+          Table{{"particles", "1"}}.with_row(double(state.x.cols()))};
+}
+
+/// Of a point on the plane z = 0 that came along x, from a round solid about the origin: what went
+/// around it is beside it since [m].
+double gap_to_round(const Vector3& p, double radius) {
+  return (p.x() > 0 ? std::abs(p.y()) : p.head<2>().norm()) - radius;
+}
+
+/// On a plane, towards a wall of 0.2 mm, a rod of 1 mm and a ball of 2 cm sunk to its equator.
+Finding standing_finding(const Subject& subject) {
+  Table measured{{"what stands on the plane", ""}, {"deepest or past it", "m"}};
+  Random random(47);
+  const double wall = 1e-4, rod = 1e-3, ball = 0.02;  // m
+  const auto last_gap = [&](const Solid& solid, const Vector3& towards, double aside,
+                            const std::function<double(const Vector3&)>& gap) {
+    Scene scene = loose_particles(10);
+    scene.objects.push_back(object_at("floor", HalfSpace{}, {}));
+    scene.objects.push_back(object_at("other", solid, {}));
+    State state = resting_state(scene.x);
+    for (Eigen::Index i = 0; i < state.x.cols(); ++i) {
+      state.x.col(i) = Vector3(random.uniform(-0.2, -0.05), random.uniform(-aside, aside), 0);
+      state.v.col(i) = random.uniform(1, 3) * towards;
+    }
+    Worst deepest;
+    for (const int steps : {5, 8, 20}) {
+      const PerParticle3 after = slid(subject, scene, state, steps);
+      for (Eigen::Index i = 0; i < after.cols(); ++i) deepest.observe(-gap(after.col(i)));
+    }
+    return deepest.value();
+  };
+  measured.row("wall", last_gap(Box{{wall, 3, 0.1}}, {1, 0, 0}, 0.1,
+                                [&](const Vector3& p) { return -wall - p.x(); }));
+  measured.row("wall, at a slant", last_gap(Box{{wall, 3, 0.1}}, {0.6, 0.8, 0}, 0.1,
+                                            [&](const Vector3& p) { return -wall - p.x(); }));
+  measured.row("rod", last_gap(Capsule{rod, 0.1}, {1, 0, 0}, 0.5 * rod,
+                               [&](const Vector3& p) { return gap_to_round(p, rod); }));
+  measured.row("ball", last_gap(Sphere{ball}, {1, 0, 0}, 1.2 * ball,
+                                [&](const Vector3& p) { return gap_to_round(p, ball); }));
+  return judge_worst(measured, 1000 * epsilon, "roundings of places within 1 m in twenty steps");
+}
+
 }  // namespace
 
 std::vector<Check> object_checks() {
@@ -182,6 +258,12 @@ std::vector<Check> object_checks() {
        "At 0.9 of half an object's thickness a step, nothing passes through an object that turns "
        "or is concave.",
        "BMF03 section 5.2", limit_finding},
+      {"contact.seams-of-objects-hold-nothing-back",
+       "A particle slides over a smooth floor of boxes side by side as if it were one.",
+       "BMF03 section 5.2; our own: hidden sides", seams_finding},
+      {"contact.what-stands-on-a-plane-is-not-passed",
+       "What slides on a plane is stopped by a thin wall, a rod and a ball that stand on it.",
+       "BMF03 section 5.2", standing_finding},
   };
 }
 
