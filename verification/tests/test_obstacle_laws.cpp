@@ -70,12 +70,16 @@ TEST_CASE("subject: one of several obstacles, pieces or questions is not taken f
                 {"obstacles.listed-twice-is-one"});
   require_found({"large_reach_out"}, {"obstacles.cloth", "obstacles.f"},
                 {"obstacles.cloth-is-free-until-it-meets-one"});
-  require_found({"rims_snag"}, {"box.rim", "box.surface"}, {"box.rim-holds-nothing-back"});
+  require_found({"rims_snag"}, {"box.rim", "box.surface", "box.seams"},
+                {"box.rim-holds-nothing-back", "box.seams-of-a-floor-hold-nothing-back"});
   require_found({"boxes_shrink_for_thick_cloth"}, {"box.surface"},
                 {"box.surface-is-there-for-thick-cloth"});
   require_found({"loose_pieces_freeze"}, {"mixed", "held"}, {"mixed.pieces-move-as-they-do-alone"});
   require_found({"calls_begin_without_friction"}, {"mixed"}, {"mixed.calls-may-be-divided"});
   require_law_fails("held_stay_held", "mixed.scenes-leave-nothing");
+  require_found({"held_are_pushed"}, {"held"}, {"held.particles-stay-for-seconds"});
+  require_found({"tables_of_eight_edges"}, {"size.h"},
+                {"size.hub-of-many-edges-moves-alike-to-each"});
   require_found({"rough_on_top_alone"}, {"mixed"}, {"mixed.turned-scene-moves-alike"});
   require_found({"holds_in_order_alone"}, {"mixed"}, {"mixed.lists-have-no-order"});
   require_found({"sixty_four_contacts"}, {"size.sheet-slides"},

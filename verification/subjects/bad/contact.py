@@ -37,6 +37,7 @@ class OnPlanes(Toy):
         """Where the gap at the step's end is negative, along the normals (N, 3)."""
         v = self.v.astype("f8")
         push = self.push(gap)
+        push[self.held] = 0
         v += push[:, None] * normals
         tangential = v - np.sum(v * normals, axis=1)[:, None] * normals
         speed = np.linalg.norm(tangential, axis=1)

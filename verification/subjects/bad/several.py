@@ -4,6 +4,7 @@ from __future__ import annotations
 import numpy as np
 from foldproof_solver import Scene
 from obstacles import Layers, OnObstacles
+from toy import Toy
 from toy_solver import ToySolver
 
 
@@ -86,6 +87,32 @@ class HeldStayHeld(OnObstacles):
             self.kept = np.array([], int)
         self.many = len(self.x)
         self.held = self.kept = np.union1d(self.kept, self.held).astype(int)
+
+
+class HeldArePushed(OnObstacles):
+    """Obstacles push held particles out, too."""
+
+    def touch(self, normals: np.ndarray, gap: np.ndarray, friction: float) -> None:
+        held, self.held = self.held, self.held[:0]
+        super().touch(normals, gap, friction)
+        self.held = held
+
+
+class TablesOfEightEdges(Toy):
+    """A particle has at most eight edges; others pull at their far end alone."""
+
+    def forces(self) -> np.ndarray:
+        f, of = super().forces(), self.edges.ravel()
+        order = np.argsort(of, kind="stable")
+        first = np.searchsorted(of[order], of[order])
+        too_many = order[np.arange(len(of)) - first >= 8]
+        edge, end = too_many // 2, too_many % 2
+        i, j = self.edges[edge, end], self.edges[edge, 1 - end]
+        apart = self.x[j] - self.x[i]
+        length = np.linalg.norm(apart, axis=1)
+        pull = self.k[edge] * (length - self.length[edge]) / length
+        np.add.at(f, i, -pull[:, None] * apart)
+        return f
 
 
 class HitTrianglesAreHeld(Layers):

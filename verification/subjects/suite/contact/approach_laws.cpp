@@ -1,4 +1,4 @@
-// Obstacles that cloth comes near to: of any size, and listed twice.
+// Obstacles that cloth comes near to: of any size, listed twice, and side by side.
 
 #include "verification/subjects/suite/contact/obstacle_scenes.h"
 
@@ -111,6 +111,42 @@ Finding twice_is_once(Trial& trial) {
                      "a tenth of the way, and a millimetre, which cannot be seen");
 }
 
+/// A floor of 6 x 6 boxes side by side, or one box of its size, with its top at z = 0.
+void add_floor(PortableScene& scene, const Vector3& middle, int boxes, double friction) {
+  const double side = 0.3 / boxes;  // m, half of a box
+  for (int k = 0; k < boxes * boxes; ++k)
+    scene.boxes.push_back({middle + Vector3(side * (2 * (k % boxes) + 1) - 0.3,
+                                            side * (2 * (k / boxes) + 1) - 0.3, -0.07),
+                           {side, side, 0.07},
+                           friction});
+}
+
+Finding slides_over_seams(Trial& trial) {
+  if (trial.declaration().contact_offset > 0)
+    throw NotOffered{"boxes that touch: smaller by its contact_offset they leave grooves"};
+  constexpr long steps = 90;
+  Table measured = table_of(
+      "way along | mu [1] | way over one box [m] | way over its parts [m] | difference [of it]");
+  for (const Vector3& along : {Vector3(1, 0, 0), Vector3(0, -1, 0), Vector3(-0.6, 0.8, 0)})
+    for (const double mu : {0.0, drawn("friction of boxes side by side", 0.15, 0.2)}) {
+      const auto way_over = [&](const std::string& name, int boxes) {
+        PortableScene scene = limp_sheet(2, 0.02);
+        scene.name = name;
+        const Vector3 middle(0.3, -0.2, 0);
+        add_floor(scene, middle, boxes, mu);
+        lay(scene, {"", middle - 0.11 * along, Vector3::UnitZ(), along}, 0);
+        scene.v.colwise() = drawn("speed over seams", 1.2, 1.4) * along;
+        return Vector3((trial.after(scene, steps).x - scene.x).rowwise().mean());
+      };
+      const Vector3 whole = way_over("sheet that slides on a box", 1),
+                    parts = way_over("sheet that slides on boxes side by side", 6);
+      measured.row(fmt::format("{:g}, {:g}", along.x(), along.y()), mu, whole.norm(),
+                   parts.dot(along), (parts - whole).norm() / whole.norm());
+    }
+  return judge_worst(measured, 0.05,
+                     "the sides that boxes share are inside the solid that they make together");
+}
+
 }  // namespace
 
 std::vector<Law> approach_laws() {
@@ -122,6 +158,9 @@ std::vector<Law> approach_laws() {
        "An obstacle that is listed twice has its friction once, and throws nothing back.",
        "Coulomb; impenetrability", twice_is_once, "",
        "obstacle | slides by | slides by, listed twice | rebounds by, listed twice"},
+      {"box.seams-of-a-floor-hold-nothing-back",
+       "A sheet slides over a floor of boxes side by side as over one box of its size.", "Coulomb",
+       slides_over_seams, "boxes", "way along | mu | way over one box | way over its parts"},
   };
 }
 

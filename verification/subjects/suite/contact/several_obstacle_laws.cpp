@@ -120,10 +120,10 @@ std::vector<Crease> creases() {
   const Eigen::Matrix3d turn =
       Eigen::AngleAxisd(0.9, Vector3(0.5, 0.6, -0.4).normalized()).toRotationMatrix();
   const Vector3 a = turn.col(0), b = turn.col(1), z = Vector3::UnitZ(), x = Vector3::UnitX();
-  const auto planes = [](const Vector3& one, const Vector3& two) {
+  const auto planes = [](const Vector3& one, const Vector3& two, double apart = 0) {
     return [=](PortableScene& scene, double first, double second) {
-      scene.planes = {{crease_point + 0.2 * one.cross(two), one, first},
-                      {crease_point - 0.3 * one.cross(two), two, second}};
+      scene.planes = {{crease_point + 0.4 * apart * one.cross(two), one, first},
+                      {crease_point - 0.6 * apart * one.cross(two), two, second}};
     };
   };
   const auto boxes = [=](PortableScene& scene, double first, double second) {
@@ -147,7 +147,7 @@ std::vector<Crease> creases() {
   };
   const Vector3 wide = inclined(drawn("a wide crease", 130, 150)),
                 narrow = inclined(drawn("a narrow crease", 55, 70));
-  return {{"two planes", {"planes"}, a, b, planes(a, b)},
+  return {{"two planes", {"planes"}, a, b, planes(a, b, 0.5)},
           {"a floor and a wall of boxes", {"boxes"}, z, x, boxes},
           {"a ball half in a plane", {"planes", "spheres"}, b, a, ball_on_plane},
           {"a capsule half in a box", {"boxes", "capsules"}, z, x, capsule_on_box},

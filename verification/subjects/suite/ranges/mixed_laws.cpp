@@ -73,7 +73,8 @@ std::vector<PortableScene> pieces_for(Trial& trial) {
     for (const int i : pieces.back().held) pieces.back().v.col(i).setZero();
   }
   pieces.push_back(restless("beside the free one, 8 mm away", 3, {-0.802, 0.2, 2}));
-  pieces.back().v.row(0).array() += 0.4;  // and leaves it
+  pieces.back().v.row(0).array() += 0.4;          // and leaves it
+  pieces.back().mesh.rest = pieces[0].mesh.rest;  // two pieces that were cut in one place
   pieces.push_back(restless("free too", 2, {-0.4, -1.1, 3}));
   const double thickness = declared.offers("self_collision") ? 0.004 : 0;
   int which = 1;

@@ -1,4 +1,5 @@
-// The number of particles: a sheet moves as it does in a scene with many others, far apart.
+// The number of particles, and of edges at one: a sheet moves as it does in a scene with many
+// others, far apart, and the hub of a fan alike to each of its spokes.
 
 #include "verification/subjects/suite/contact/obstacle_scenes.h"
 
@@ -118,6 +119,48 @@ Finding many_slide_as_one(Trial& trial) {
   return judge_worst(measured, 0.03, "sheets that do not touch, each on the same ground");
 }
 
+/// A fan of so many triangles about particle 0, which starts a tenth off its place.
+PortableScene fan(int spokes, double heading) {
+  constexpr double radius = 0.1, omega = 12;  // m, 1/s
+  PerParticle3 rest = PerParticle3::Zero(3, spokes + 1);
+  std::vector<Triangle> triangles;
+  for (int k = 0; k < spokes; ++k) {
+    const double angle = 2 * pi * k / spokes;
+    rest.col(k + 1) = radius * Vector3(std::cos(angle), std::sin(angle), 0);
+    triangles.push_back({0, k + 1, (k + 1) % spokes + 1});
+  }
+  PortableScene scene = resting("fan", make_triangle_mesh(rest, triangles), {.young = 1});
+  scene.material.young = omega * omega * scene.mass[0] / (pi * std::sin(2 * pi / spokes));
+  scene.x.col(0) = 0.1 * radius * Vector3(std::cos(heading), std::sin(heading), 0);
+  scene.dt = 0.002;
+  return scene;
+}
+
+/// Half a spoke's angle aside from each of them: all are alike, by symmetry.
+Finding hub_moves_alike(Trial& trial) {
+  constexpr long count = 12;
+  Table measured = table_of(
+      "edges of the hub [1] | least way of the hub [m] | largest [m] | difference [of the largest] "
+      "| momentum [of the hub's] | over what is allowed [1]");
+  for (const double spokes : {9., std::round(drawn("spokes of a fan", 11, 15)), 24.}) {
+    double least = std::numeric_limits<double>::infinity(), most = 0, momentum = 0;
+    for (int k = 0; k < int(spokes); ++k) {
+      const PortableScene scene = fan(int(spokes), 2 * pi * (k + 0.5) / spokes);
+      const PerParticle3 moved = trial.after(scene, count).x - scene.x;
+      const double way = -moved.col(0).dot(scene.x.col(0).normalized());
+      least = std::min(least, way), most = std::max(most, way);
+      const Vector3 sum = moved * scene.mass.matrix();
+      update_worst(momentum, sum.norm() / (scene.mass[0] * Vector3(moved.col(0)).norm()));
+    }
+    const double difference = (most - least) / most;
+    measured.row(spokes, least, most, difference, momentum,
+                 std::max(difference / 0.03, momentum / 0.03));
+  }
+  return judge_worst(measured, 1,
+                     "the symmetry of a fan; sweeps over edges have an order, and forces of "
+                     "constraints that do not converge differ by some per cent");
+}
+
 }  // namespace
 
 std::vector<Law> size_laws() {
@@ -144,6 +187,11 @@ std::vector<Law> size_laws() {
       {"size.sheet-slides-alike-among-many",
        "A sheet slides on an obstacle as it does among many others.", "locality of contact",
        many_slide_as_one, "touches", "particles | way | largest difference from one sheet"},
+      {"size.hub-of-many-edges-moves-alike-to-each",
+       "The hub of a fan, however many its edges, is pulled back alike from each way between two "
+       "of them, and the fan keeps its momentum.",
+       "symmetry; Newton's third law", hub_moves_alike, "",
+       "edges of the hub | least way of the hub | largest | momentum"},
       {"size.energies-of-many-add-up",
        "The energy of many sheets is that of one, times their number.", "locality of forces",
        energies_add_up, "L2 set_state", "sheets | energy | of one"},
