@@ -19,6 +19,7 @@ FAULTS = Path(__file__).resolve().parents[2] / "verification" / "faults"
 SCORES = FAULTS / "scores.json"
 EXPLAINED = FAULTS / "equivalent_mutants.txt"
 EXPLAINED_ASKED = FAULTS / "explained_mutants.json"
+PLANTED = FAULTS.parent / "subjects" / "planted_sets.json"
 
 Row = dict[str, Any]
 Key = tuple[str, str, str]  # file, line, and what the line becomes
@@ -178,6 +179,15 @@ def load_mutation_page(
         parts_of(read.samples), read.open, len(read_explained_edits(explained)), len(answers),
         sum(row["outcome"] == "killed" for row in answers)
     )
+
+
+def load_planted_sets(path: Path = PLANTED) -> list[Score]:
+    """Sets of slips in a solver that holds every law, each judged before anything was mended for
+    it; the newest last."""
+    return [
+        Score(row["set"], row["noticed"], row["missed"], noticed_since=0, equivalent=0)
+        for row in read_json(path, list) or []
+    ]
 
 
 def parts_of(samples: list[Sample]) -> list[Part]:

@@ -10,7 +10,7 @@ from math import isfinite
 from pathlib import Path
 from typing import Any
 
-from data.mutation_scores import MutationPage, load_mutation_page
+from data.mutation_scores import MutationPage, Score, load_mutation_page, load_planted_sets
 from data.records import record
 from data.results import Finding
 from data.unreadable import read_json
@@ -158,6 +158,7 @@ class Trust:
     machines: Machines | None
     mutation: Mutation | None
     mutants: MutationPage | None  # random slips, from the shipped scores
+    planted: list[Score]  # slips in solvers, from the shipped scores
     kinds: Kinds
 
 
@@ -203,7 +204,7 @@ def read_trust(source: Source) -> Trust:
     return Trust(
         beside("coverage", _coverage), beside("variants", _variants), beside("machines", _machines),
         beside("mutation", _mutation), load_mutation_page() if source.shipped else None,
-        kinds_of(source.run.findings)
+        load_planted_sets() if source.shipped else [], kinds_of(source.run.findings)
     )
 
 

@@ -8,7 +8,7 @@ from unittest import mock
 
 import h5py
 
-from data.mutation_scores import load_mutation_page
+from data.mutation_scores import Score, load_mutation_page
 from tests.made_up_run import HOSTILE, put, put_run
 from tests.report_test import ReportTest
 
@@ -79,6 +79,16 @@ class Beside(ReportTest):
             '<td class="num">0</td><td class="num">100.0 %</td>', "a.cpp:7",
             "1 edits have a reason", "2 such edits, drawn at random from",
             "1 was noticed, and no longer has a reason"
+        )
+
+    def test_sets_of_planted_slips_have_scores_with_intervals(self) -> None:
+        sets = [Score(HOSTILE, 9, 1, 0, 0), Score("b", 0, 0, 0, 0)]
+        with mock.patch("pages.trust.load_planted_sets", lambda: sets):
+            section = self.section("planted")
+        cells = ("9", "1", "90.0 %", "60 to 98 %")
+        self.assert_shown(
+            section, "".join(f'<td class="num">{cell}</td>' for cell in cells),
+            "repeat none of the sets before"
         )
 
     def test_a_law_is_repeated_by_its_whole_trial(self) -> None:
