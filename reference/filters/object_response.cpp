@@ -1,6 +1,7 @@
 #include "reference/filters/object_response.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -50,52 +51,34 @@ Vector3 velocity_into_corner(const ObjectPoint& a, const ObjectPoint& b, const V
                  (1 - c * c);
 }
 
-//    -- p ->          b's nearest side is hidden by a: a forecast against it would hold the point,
-//   -----.-----       which b never does on its way along a
-//     a  |  b
-/// Whether the point's way along the surface of `a`, with velocity v, nowhere enters `b`, though a
-/// forecast enters the plane through b's nearest surface. From that plane on the way is followed as
-/// far as b's distance reaches, and where it is on b's surface in small, then longer parts.
-bool leads_past(const ObjectPoint& a, const ObjectPoint& b, const MovingPoint& point) {
+/// Whether a point with velocity v [m/s] enters `b` nowhere on its way, though a forecast enters
+/// the plane through b's nearest surface. From that plane on the way is followed as far as b's
+/// distance reaches, and where it is on b's surface in small, then longer parts.
+bool leads_past(const ObjectPoint& b, const Vector3& v, const MovingPoint& point) {
   constexpr double shortest = 1e-4;  // of tau
-  constexpr double level = 1e-2;     // sine of the angle at which a way enters a surface
+  constexpr double level = 1e-6;     // of the way in tau: a depth that still is the surface
+  constexpr double steady = 1e-2;    // of the speed: a change of b's velocity that does not matter
   constexpr int most_places = 100;
-  const Vector3 v = forecast_velocity(a, point.v, point.tau) - b.velocity;
-  const double speed = v.norm(), approach = -v.dot(b.normal);  // m/s
-  if (!(approach > 0) || face_each_other(a, b)) return false;
-  double time = b.phi / approach, part = shortest * point.tau;
-  for (int k = 0; k < most_places; ++k) {
-    time += part;
-    if (time > point.tau) return true;
-    const ObjectPoint there = point.elsewhere(point.p + time * v)[size_t(b.part)];
-    if (there.phi < 0 && -v.dot(there.normal) > level * speed) return false;
-    part = there.phi > speed * part ? there.phi / speed : 2 * part;
+  const Vector3 relative = v - b.velocity;
+  const double speed = relative.norm(), approach = -relative.dot(b.normal);  // m/s
+  if (!(approach > 0) || !std::isfinite(speed)) return false;
+  double small = shortest * point.tau, time = b.phi / approach + small;
+  for (int k = 0; k < most_places && time <= point.tau; ++k) {
+    const ObjectPoint there = point.elsewhere(point.p + time * relative)[size_t(b.part)];
+    if (there.phi < -level * speed * point.tau) return false;
+    // it turns: from there its surface is elsewhere at the end
+    if ((there.velocity - b.velocity).norm() > steady * speed) return false;
+    const bool is_clear = there.phi > speed * shortest * point.tau;
+    small = is_clear ? shortest * point.tau : 2 * small;
+    time += is_clear ? there.phi / speed : small;
   }
-  return false;
-}
-
-/// The answers, less those of objects that are forecast to be entered and that the point's way
-/// along the surface of its nearest object leads past.
-std::span<ObjectPoint> without_hidden(std::span<ObjectPoint> answers, const MovingPoint& point) {
-  const auto may_be_hidden = [&](const ObjectPoint& b) {
-    return b.phi > 0 && forecast_distance(b, point.v, point.tau) < 0;
-  };
-  if (answers.size() < 2 || !point.elsewhere || std::ranges::none_of(answers, may_be_hidden))
-    return answers;
-  std::vector<ObjectPoint> left(answers.begin(), answers.end());  // `elsewhere` may overwrite them
-  const ObjectPoint nearest = nearest_of(left).first;
-  std::erase_if(left, [&](const ObjectPoint& b) {
-    return b.part != nearest.part && may_be_hidden(b) && leads_past(nearest, b, point);
-  });
-  std::ranges::copy(left, answers.begin());
-  return answers.first(left.size());
+  return time > point.tau;
 }
 
 /// Treats each object once, deepest forecast first, so that it also treats an object that will be
 /// entered but is not the nearest. If the way out of one leads into another, the point is led to
 /// both surfaces; if the two face each other, it is held between them.
-Vector3 forecast(std::span<ObjectPoint> answers, const MovingPoint& point) {
-  std::span<ObjectPoint> left = without_hidden(answers, point);
+Vector3 forecast_each(std::span<ObjectPoint> left, const MovingPoint& point) {
   Vector3 v = point.v;
   std::optional<ObjectPoint> before;
   const auto deeper = [&](const ObjectPoint& a, const ObjectPoint& b) {
@@ -114,6 +97,34 @@ Vector3 forecast(std::span<ObjectPoint> answers, const MovingPoint& point) {
     left = left.first(left.size() - 1);
   }
   return v;
+}
+
+//    -- p ->          b's nearest side is hidden by a. A forecast against that side would stop the
+//   -----.-----       point, though its way along a never enters b.
+//     a  |  b
+/// Objects that the way along the surface of the nearest one leads past are left out, if the way
+/// that the others leave leads past them, too.
+Vector3 forecast(std::span<ObjectPoint> answers, const MovingPoint& point) {
+  const auto is_entered = [&](const ObjectPoint& b) {
+    return b.phi > 0 && forecast_distance(b, point.v, point.tau) < 0;
+  };
+  if (answers.size() < 2 || !point.elsewhere || std::ranges::none_of(answers, is_entered))
+    return forecast_each(answers, point);
+  // `elsewhere` may overwrite the answers
+  std::vector<ObjectPoint> all(answers.begin(), answers.end()), hidden;
+  const ObjectPoint nearest = nearest_of(all).first;
+  const Vector3 along = forecast_velocity(nearest, point.v, point.tau);
+  std::vector<ObjectPoint> left;
+  for (const ObjectPoint& b : all) {
+    const bool is_hidden = b.part != nearest.part && is_entered(b) &&
+                           !face_each_other(nearest, b) && leads_past(b, along, point);
+    (is_hidden ? hidden : left).push_back(b);
+  }
+  const Vector3 v = forecast_each(left, point);
+  const bool enters = std::ranges::any_of(hidden, [&](const ObjectPoint& b) {
+    return forecast_distance(b, v, point.tau) < 0 && !leads_past(b, v, point);
+  });
+  return enters ? forecast_each(all, point) : v;
 }
 
 Vector3 forecast_deepest(std::span<ObjectPoint> answers, const MovingPoint& point) {

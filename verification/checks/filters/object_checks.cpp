@@ -207,16 +207,20 @@ double gap_to_round(const Vector3& p, double radius) {
   return (p.x() > 0 ? std::abs(p.y()) : p.head<2>().norm()) - radius;
 }
 
-/// On a plane, towards a wall of 0.2 mm, a rod of 1 mm and a ball of 2 cm sunk to its equator.
+/// On a plane, towards a wall of 0.2 mm, a corner of two walls, a rod of 1 mm and a ball of 2 cm
+/// sunk to its equator.
 Finding standing_finding(const Subject& subject) {
   Table measured{{"what stands on the plane", ""}, {"deepest or past it", "m"}};
   Random random(47);
-  const double wall = 1e-4, rod = 1e-3, ball = 0.02;  // m
-  const auto last_gap = [&](const Solid& solid, const Vector3& towards, double aside,
-                            const std::function<double(const Vector3&)>& gap) {
+  const double wall = 1e-4, rod = 1e-3, ball = 0.02, thick = 0.05;  // m
+  const auto at = [](double x, double y) {
+    return Pose{Eigen::Quaterniond::Identity(), {x, y, 0}};
+  };
+  const auto last_gap = [&](const std::vector<SceneObject>& objects, const Vector3& towards,
+                            double aside, const std::function<double(const Vector3&)>& gap) {
     Scene scene = loose_particles(10);
+    scene.objects = objects;
     scene.objects.push_back(object_at("floor", HalfSpace{}, {}));
-    scene.objects.push_back(object_at("other", solid, {}));
     State state = resting_state(scene.x);
     for (Eigen::Index i = 0; i < state.x.cols(); ++i) {
       state.x.col(i) = Vector3(random.uniform(-0.2, -0.05), random.uniform(-aside, aside), 0);
@@ -229,13 +233,18 @@ Finding standing_finding(const Subject& subject) {
     }
     return deepest.value();
   };
-  measured.row("wall", last_gap(Box{{wall, 3, 0.1}}, {1, 0, 0}, 0.1,
-                                [&](const Vector3& p) { return -wall - p.x(); }));
-  measured.row("wall, at a slant", last_gap(Box{{wall, 3, 0.1}}, {0.6, 0.8, 0}, 0.1,
-                                            [&](const Vector3& p) { return -wall - p.x(); }));
-  measured.row("rod", last_gap(Capsule{rod, 0.1}, {1, 0, 0}, 0.5 * rod,
+  const auto from_wall = [&](const Vector3& p) { return -wall - p.x(); };
+  const SceneObject thin = object_at("wall", Box{{wall, 3, 0.1}}, {});
+  measured.row("wall", last_gap({thin}, {1, 0, 0}, 0.1, from_wall));
+  measured.row("wall, at a slant", last_gap({thin}, {0.6, 0.8, 0}, 0.1, from_wall));
+  measured.row("two walls that overlap",
+               last_gap({object_at("first", Box{{thick, 0.5, 0.1}}, at(thick, -0.437)),
+                         object_at("second", Box{{1, thick, 0.1}}, at(0, 0.06 + thick))},
+                        {0.7, 0.7, 0}, 0.05,
+                        [](const Vector3& p) { return std::min(-p.x(), 0.06 - p.y()); }));
+  measured.row("rod", last_gap({object_at("rod", Capsule{rod, 0.1}, {})}, {1, 0, 0}, 1.1 * rod,
                                [&](const Vector3& p) { return gap_to_round(p, rod); }));
-  measured.row("ball", last_gap(Sphere{ball}, {1, 0, 0}, 1.2 * ball,
+  measured.row("ball", last_gap({object_at("ball", Sphere{ball}, {})}, {1, 0, 0}, 1.2 * ball,
                                 [&](const Vector3& p) { return gap_to_round(p, ball); }));
   return judge_worst(measured, 1000 * epsilon, "roundings of places within 1 m in twenty steps");
 }
@@ -262,7 +271,7 @@ std::vector<Check> object_checks() {
        "A particle slides over a smooth floor of boxes side by side as if it were one.",
        "BMF03 section 5.2; our own: hidden sides", seams_finding},
       {"contact.what-stands-on-a-plane-is-not-passed",
-       "What slides on a plane is stopped by a thin wall, a rod and a ball that stand on it.",
+       "What slides on a plane is stopped by thin walls, corners, rods and balls that stand on it.",
        "BMF03 section 5.2", standing_finding},
   };
 }
