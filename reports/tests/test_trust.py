@@ -88,7 +88,7 @@ class Beside(ReportTest):
         cells = ("9", "1", "90.0 %", "60 to 98 %")
         self.assert_shown(
             section, "".join(f'<td class="num">{cell}</td>' for cell in cells),
-            "repeat none of the sets before"
+            "and repeated none"
         )
 
     def test_a_law_is_repeated_by_its_whole_trial(self) -> None:

@@ -77,7 +77,7 @@ TEST_CASE("subject: one of several obstacles, pieces or questions is not taken f
   require_found({"loose_pieces_freeze"}, {"mixed", "held"}, {"mixed.pieces-move-as-they-do-alone"});
   require_found({"calls_begin_without_friction"}, {"mixed"}, {"mixed.calls-may-be-divided"});
   require_law_fails("held_stay_held", "mixed.scenes-leave-nothing");
-  require_found({"held_are_pushed"}, {"held"}, {"held.particles-stay-for-seconds"});
+  require_found({"held_are_pushed"}, {"held"}, {"held.particles-stay-inside-boxes"});
   require_found({"tables_of_eight_edges"}, {"size.h"},
                 {"size.hub-of-many-edges-moves-alike-to-each"});
   require_found({"rough_on_top_alone"}, {"mixed"}, {"mixed.turned-scene-moves-alike"});

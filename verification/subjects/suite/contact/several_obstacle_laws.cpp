@@ -116,16 +116,19 @@ struct Crease {
 
 const Vector3 crease_point{0.4, -0.3, 0.7};  // m
 
+/// Of two planes with these normals, stated by points that are so far apart along the crease [m].
+Crease crease_of_planes(const std::string& name, const Vector3& one, const Vector3& two,
+                        double apart) {
+  return {name, {"planes"}, one, two, [=](PortableScene& scene, double first, double second) {
+            scene.planes = {{crease_point + 0.4 * apart * one.cross(two), one, first},
+                            {crease_point - 0.6 * apart * one.cross(two), two, second}};
+          }};
+}
+
 std::vector<Crease> creases() {
   const Eigen::Matrix3d turn =
       Eigen::AngleAxisd(0.9, Vector3(0.5, 0.6, -0.4).normalized()).toRotationMatrix();
   const Vector3 a = turn.col(0), b = turn.col(1), z = Vector3::UnitZ(), x = Vector3::UnitX();
-  const auto planes = [](const Vector3& one, const Vector3& two, double apart = 0) {
-    return [=](PortableScene& scene, double first, double second) {
-      scene.planes = {{crease_point + 0.4 * apart * one.cross(two), one, first},
-                      {crease_point - 0.6 * apart * one.cross(two), two, second}};
-    };
-  };
   const auto boxes = [=](PortableScene& scene, double first, double second) {
     scene.boxes = {{crease_point - 0.3 * z, {2, 1.8, 0.3}, first},
                    {crease_point - 0.4 * x, {0.4, 2, 1}, second}};
@@ -147,12 +150,12 @@ std::vector<Crease> creases() {
   };
   const Vector3 wide = inclined(drawn("a wide crease", 130, 150)),
                 narrow = inclined(drawn("a narrow crease", 55, 70));
-  return {{"two planes", {"planes"}, a, b, planes(a, b, 0.5)},
+  return {crease_of_planes("two planes", a, b, 0.5),
           {"a floor and a wall of boxes", {"boxes"}, z, x, boxes},
           {"a ball half in a plane", {"planes", "spheres"}, b, a, ball_on_plane},
           {"a capsule half in a box", {"boxes", "capsules"}, z, x, capsule_on_box},
-          {"two planes, wide", {"planes"}, a, wide, planes(a, wide)},
-          {"two planes, narrow", {"planes"}, a, narrow, planes(a, narrow)}};
+          crease_of_planes("two planes, wide", a, wide, 0.5),
+          crease_of_planes("two planes, narrow", a, narrow, 0.5)};
 }
 
 /// Two columns of cells of 3 cm, one on each side of the crease, that slide along it at 1 m/s. Its
@@ -176,6 +179,10 @@ PortableScene sheet_in_a_crease(const Crease& crease, const Vector3& pressed_alo
                             pressed_along[1] * crease.second);
   return scene;
 }
+
+constexpr const char* crease_columns =
+    "crease of | mu of the first [1] | of the second [1] | acceleration along it [g] | by "
+    "Coulomb's law [g] | deepest [m] | largest part of what is allowed [1]";
 
 struct Grips {
   double first, second;  // mu [1]
@@ -204,9 +211,7 @@ void measure_in_crease(Trial& trial, const Crease& crease, const Grips& mu, Tabl
 /// Where obstacles meet at a right angle each is pressed on by its part of the weight, whatever the
 /// other does: so frictions are told apart there alone.
 Finding both_act_in_a_crease(Trial& trial) {
-  Table rows = table_of(
-      "crease of | mu of the first [1] | of the second [1] | acceleration along it [g] | by "
-      "Coulomb's law [g] | deepest [m] | largest part of what is allowed [1]");
+  Table rows = table_of(crease_columns);
   const double little = drawn("little friction in a crease", 0.1, 0.16),
                much = drawn("much friction in a crease", 0.5, 0.6);
   for (const Crease& crease : creases()) {
@@ -223,6 +228,14 @@ Finding both_act_in_a_crease(Trial& trial) {
   return judge_worst(rows, 1,
                      "the acceleration to 0.05 g, an eighth of the friction: the sheet's waves "
                      "across the crease, and the ball's curvature; a depth of 1 mm cannot be seen");
+}
+
+Finding planes_with_one_point_are_two(Trial& trial) {
+  Table rows = table_of(crease_columns);
+  const Vector3 one(0.48, -0.6, 0.64), two(-0.6, 0.64, 0.48);
+  measure_in_crease(trial, crease_of_planes("two planes with one point", one, two, 0), {0, 0},
+                    rows);
+  return judge_worst(rows, 1, "as of planes that are stated by other points");
 }
 
 /// Obstacles that fit into the cell around this place: of the solver's kinds, of any size and way.
@@ -361,6 +374,11 @@ std::vector<Law> several_obstacle_laws() {
        "Cloth that slides in a crease, where two obstacles meet, enters neither and has the "
        "friction of both.",
        "Coulomb; impenetrability", both_act_in_a_crease, "",
+       "crease of | acceleration along it | by Coulomb's law | deepest"},
+      {"obstacles.planes-with-one-point-are-two",
+       "Cloth that slides in the crease of two planes that are stated by the same point enters "
+       "neither.",
+       "impenetrability", planes_with_one_point_are_two, "planes",
        "crease of | acceleration along it | by Coulomb's law | deepest"},
       {"obstacles.many-keep-cloth-out",
        "Of 32 obstacles of any size and direction, elbows among them, some above others, each "

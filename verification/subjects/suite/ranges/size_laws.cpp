@@ -1,5 +1,5 @@
 // The number of particles, and of edges at one: a sheet moves as it does in a scene with many
-// others, far apart, and the hub of a fan alike to each of its spokes.
+// others, far apart, and the hub of a fan alike from each way between two spokes.
 
 #include "verification/subjects/suite/contact/obstacle_scenes.h"
 
