@@ -105,21 +105,18 @@ Vector3 forecast_each(std::span<ObjectPoint> left, const MovingPoint& point) {
 /// Objects that the way along the surface of the nearest one leads past are left out, if the way
 /// that the others leave leads past them, too.
 Vector3 forecast(std::span<ObjectPoint> answers, const MovingPoint& point) {
-  const auto is_entered = [&](const ObjectPoint& b) {
-    return b.phi > 0 && forecast_distance(b, point.v, point.tau) < 0;
+  if (answers.size() < 2 || !point.elsewhere) return forecast_each(answers, point);
+  const ObjectPoint nearest = nearest_of(answers).first;
+  const auto may_be_hidden = [&](const ObjectPoint& b) {
+    return b.part != nearest.part && b.phi > 0 && forecast_distance(b, point.v, point.tau) < 0 &&
+           !face_each_other(nearest, b);
   };
-  if (answers.size() < 2 || !point.elsewhere || std::ranges::none_of(answers, is_entered))
-    return forecast_each(answers, point);
+  if (std::ranges::none_of(answers, may_be_hidden)) return forecast_each(answers, point);
   // `elsewhere` may overwrite the answers
-  std::vector<ObjectPoint> all(answers.begin(), answers.end()), hidden;
-  const ObjectPoint nearest = nearest_of(all).first;
+  std::vector<ObjectPoint> all(answers.begin(), answers.end()), hidden, left;
   const Vector3 along = forecast_velocity(nearest, point.v, point.tau);
-  std::vector<ObjectPoint> left;
-  for (const ObjectPoint& b : all) {
-    const bool is_hidden = b.part != nearest.part && is_entered(b) &&
-                           !face_each_other(nearest, b) && leads_past(b, along, point);
-    (is_hidden ? hidden : left).push_back(b);
-  }
+  for (const ObjectPoint& b : all)
+    (may_be_hidden(b) && leads_past(b, along, point) ? hidden : left).push_back(b);
   const Vector3 v = forecast_each(left, point);
   const bool enters = std::ranges::any_of(hidden, [&](const ObjectPoint& b) {
     return forecast_distance(b, v, point.tau) < 0 && !leads_past(b, v, point);
