@@ -1,5 +1,6 @@
 #include "convergence/any_case/portable_case.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -20,7 +21,6 @@ constexpr double stated_every = 1e-3;  // s
 
 void require_portable(const Scene& scene) {
   if (!scene.sticky.empty()) refuse("what cloth sticks to");
-  if (scene.membrane) refuse("a membrane; remove [membrane], or give [stretch] in its place");
   if (!scene.mesh.pattern.empty()) refuse("a flat pattern; remove pattern");
   if (!scene.stretch_directions.is_uniform() || !scene.bending_directions.is_uniform())
     refuse("directions; remove warp, weft and bias");
@@ -148,17 +148,41 @@ PortableMaterial material_of(const Scene& scene, const ClothFabric& fabric) {
     material.bending_rigidity = fabric.bending.stiffness / 4;
     material.bending_damping = fabric.bending.damping;
   }
+  if (scene.membrane) {
+    const MembraneMaterial& m = fabric.membrane;
+    material.membrane = {m.warp, m.weft, m.shear, m.poisson, m.damping};
+  }
+  if (!std::isnan(fabric.friction)) material.friction = fabric.friction;
   return material;
+}
+
+/// Of each triangle, as it lies in the rest shape.
+std::vector<Vector3> warps_of(const Scene& scene) {
+  const std::vector<FlatTriangle> flat = flat_corners(scene.mesh, "[membrane]");
+  const std::vector<ClothFabric> fabrics = fabrics_of(scene);
+  std::vector<Vector3> warps;
+  for (size_t t = 0; t < flat.size(); ++t) {
+    const Triangle& corners = scene.mesh.triangles[t];
+    Eigen::Matrix2d from;
+    from << flat[t][1] - flat[t][0], flat[t][2] - flat[t][0];
+    Eigen::Matrix<double, 3, 2> to;
+    for (int k = 0; k < 2; ++k)
+      to.col(k) = scene.mesh.rest.col(corners[size_t(k + 1)]) - scene.mesh.rest.col(corners[0]);
+    const size_t of = scene.fabrics.empty() ? 0 : size_t(scene.fabrics.of_triangle[t]);
+    const double angle = fabrics[of].membrane.direction;
+    warps.push_back(to * from.inverse() * Eigen::Vector2d(std::cos(angle), std::sin(angle)));
+  }
+  return warps;
 }
 
 void add_materials(const Scene& scene, PortableScene& portable) {
   const std::vector<ClothFabric> fabrics = fabrics_of(scene);
   portable.material = material_of(scene, fabrics.front());
+  if (scene.membrane) portable.warp = warps_of(scene);
   if (scene.fabrics.empty()) return;
   for (const ClothFabric& fabric : fabrics) {
     if (!fabric.stretch_directions.is_uniform() || !fabric.bending_directions.is_uniform())
       refuse("directions of fabric '" + fabric.name + "'");
-    if (!std::isnan(fabric.friction)) refuse("a friction of fabric '" + fabric.name + "'");
     if (scene.self_collision && (fabric.thickness != fabrics.front().thickness ||
                                  fabric.layer_friction != fabrics.front().layer_friction))
       refuse("layers of fabric '" + fabric.name + "' that differ from the others'");

@@ -10,8 +10,8 @@ namespace foldproof {
 /// fabrics, held particles and objects, which may move, layers, strain limits, air. Motions are
 /// stated every millisecond and where they start or stop. `dt` is left to the caller. The
 /// reference's own method (bending law, weighting, time integrator) stays out. Throws InputError
-/// naming a part that the protocol cannot say: sticking, a torus, an open mesh, a membrane,
-/// directions, a flat pattern.
+/// naming a part that the protocol cannot say: sticking, a torus, an open mesh,
+/// directions of springs, a flat pattern.
 PortableScene portable_case(const Scene& scene);
 
 }  // namespace foldproof

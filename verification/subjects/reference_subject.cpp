@@ -1,9 +1,11 @@
 #include "verification/subjects/reference_subject.h"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "reference/dynamics/integrator.h"
+#include "reference/dynamics/mixed.h"
 #include "reference/forces/force.h"
 
 namespace foldproof {
@@ -13,13 +15,29 @@ namespace {
 struct PreparedReferenceScene : PreparedScene {
   System system;
   const Integrator& integrator;
+  PerParticle3 unmodified;  // velocities that the objects are given [m/s], 3 x N
+  PerParticle3 impulses;    // of the objects since they were taken [N s], 3 x N
+  double lasting = 1;       // change of the velocity that a change in this step leads to
 
   explicit PreparedReferenceScene(const Scene& scene)
       : system(build_system(scene)), integrator(integrator_named(scene.integrator)) {}
+
+  /// A and C go on from the velocity before the modification that moves the cloth.
+  bool forgets_move() const {
+    return integrator.family == Family::mixed && integrator.step != central_newmark;
+  }
 };
 
 const PreparedReferenceScene& own(const PreparedScene& prepared) {
   return static_cast<const PreparedReferenceScene&>(prepared);
+}
+
+/// Backward differences change the velocity in the steps after, too: with r the ratio of the step
+/// to the one before, a change grows to (1 + 2 r)/(1 + r) of itself.
+double lasting_change(const Integrator& integrator, std::span<const State> past, double dt) {
+  if (integrator.history < 2 || past.size() < 2) return 1;
+  const double r = dt / (past.back().time - past[past.size() - 2].time);
+  return (1 + 2 * r) / (1 + r);
 }
 
 /// v as the filters of this kind make it.
@@ -55,6 +73,31 @@ void set_masses(PreparedScene& prepared, const PerParticle& masses) {
   }
 }
 
+void record_contact(PreparedScene& prepared) {
+  auto& scene = static_cast<PreparedReferenceScene&>(prepared);
+  scene.impulses = PerParticle3::Zero(3, scene.system.mass.size());
+  std::vector<Filter>& filters = scene.system.filters;
+  const auto objects = std::ranges::find_if(filters, [](const Filter& filter) {
+    return std::holds_alternative<ObjectCollision>(filter);
+  });
+  if (objects == filters.end()) return;
+  const auto place = objects - filters.begin();
+  const CustomFilter before{
+      [&scene](const Span&, const State&, const PerParticle3& v) { scene.unmodified = v; }};
+  const CustomFilter after{[&scene](const Span& span, const State&, const PerParticle3& v) {
+    if (scene.forgets_move() && span.end > span.start) return;
+    scene.impulses +=
+        scene.lasting * (v - scene.unmodified) * scene.system.mass.matrix().asDiagonal();
+  }};
+  filters.insert(filters.begin() + place + 1, after);
+  filters.insert(filters.begin() + place, before);
+}
+
+PerParticle3 take_contact_impulses(PreparedScene& prepared) {
+  PerParticle3& impulses = static_cast<PreparedReferenceScene&>(prepared).impulses;
+  return std::exchange(impulses, PerParticle3::Zero(3, impulses.cols()));
+}
+
 std::vector<PrescribedParticle>& prescribed_of(PreparedScene& prepared) {
   return static_cast<PreparedReferenceScene&>(prepared).system.prescribed;
 }
@@ -84,7 +127,8 @@ Subject reference_subject() {
   subject.limit_strain = filter_velocity<StrainLimiter>;
   subject.avoid_itself = filter_velocity<SelfCollision>;
   subject.step = [](PreparedScene& prepared, std::span<const State> past, double dt, Work& work) {
-    const PreparedReferenceScene& reference = own(prepared);
+    auto& reference = static_cast<PreparedReferenceScene&>(prepared);
+    reference.lasting = lasting_change(reference.integrator, past, dt);
     if (!sticks(reference.system))
       return reference.integrator.step(reference.system, past, dt, work);
     std::vector<State> begun(past.begin(), past.end());

@@ -18,4 +18,11 @@ void set_masses(PreparedScene& prepared, const PerParticle& masses);
 /// The prescribed particles of such a scene, whose motion may be changed between steps.
 std::vector<PrescribedParticle>& prescribed_of(PreparedScene& prepared);
 
+/// Has such a scene record, from now on, what its objects do to the particles.
+void record_contact(PreparedScene& prepared);
+
+/// The impulses of the objects on the particles since the last call [N s], 3 x N: what they add to
+/// the momenta at the ends of steps. Needs record_contact.
+PerParticle3 take_contact_impulses(PreparedScene& prepared);
+
 }  // namespace foldproof

@@ -39,6 +39,40 @@ TEST_CASE("subject: wrong materials, limits, layers and air are found") {
   require_found({"layers_stick"}, groups, {"layers.rub-as-coulomb-says"});
 }
 
+TEST_CASE("subject: forces of contact that are read wrongly are found") {
+  const std::string balance = "contact-forces.balance-the-momentum",
+                    each = "contact-forces.carry-each-particle",
+                    coulomb = "contact-forces.keep-to-coulomb-s-law",
+                    apart = "contact-forces.vanish-apart";
+  const std::vector<std::string> read{"contact-forces"};
+  require_found({"reads_contact"}, read, {});
+  require_found({"reads_nothing"}, read, {balance, each, coulomb, apart});
+  require_found({"reads_impulses"}, read, {balance, each, coulomb, apart});
+  require_found({"reads_the_last_step"}, read, {balance});
+  require_found({"reads_forces_on_obstacles"}, read, {balance, each, coulomb});
+  require_found({"reads_normal_forces"}, read, {balance, coulomb});
+  require_found({"reads_the_mean"}, read, {each});
+  require_found({"reads_a_penalty"}, read, {balance, each, coulomb});
+  require_found({"reads_for_ever"}, read, {balance, each, coulomb, apart});
+}
+
+TEST_CASE("subject: materials that rub wrongly are found") {
+  const std::string own = "materials.rub-by-their-own-coefficient";
+  require_found({"rubs_by_material"}, {own}, {});
+  for (const char* wrong :
+       {"rubs_by_planes_alone", "rubs_by_the_mean", "rubs_by_the_first", "rubs_by_material_alone"})
+    require_found({wrong}, {own}, {own});
+}
+
+TEST_CASE("subject: cloth that is woven wrongly is found") {
+  const std::string pulls = "membrane.pulls-as-warp-and-weft-say";
+  require_found({"woven"}, {pulls}, {});
+  for (const char* wrong :
+       {"woven_across", "woven_along_x", "woven_without_narrowing", "woven_alike",
+        "woven_of_half_the_shear", "woven_undamped", "woven_in_its_first_plane"})
+    require_found({wrong}, {pulls}, {pulls});
+}
+
 TEST_CASE("subject: a solver of protocol 1 is served, and gets no capability of protocol 2") {
   const auto read = [](int protocol, const char* capability) {
     return read_declaration({{"protocol", protocol},

@@ -84,6 +84,8 @@ struct Solver {
   virtual void set_state_before(Numbers, Numbers, double) {}
   virtual Numbers forces() { throw Declined("forces"); }
   virtual Numbers damping() { throw Declined("damping forces"); }
+  /// Of the obstacles, the mean over the last `advance`.
+  virtual Numbers contact_forces() { throw Declined("contact forces"); }
   virtual double energy() { throw Declined("energy"); }
   /// Work since the last answer, counted in units of your own; null: not counted.
   virtual Json work() { return nullptr; }
@@ -253,6 +255,8 @@ inline void ask(Solver& solver, const Scene& message, const std::string& operati
     answer.add("f", solver.forces(), solver.declared.precision, {particles, 3});
   } else if (operation == "damping") {
     answer.add("f", solver.damping(), solver.declared.precision, {particles, 3});
+  } else if (operation == "contact_forces") {
+    answer.add("f", solver.contact_forces(), solver.declared.precision, {particles, 3});
   } else if (operation == "energy") {
     answer.header["energy"] = solver.energy();
   } else {

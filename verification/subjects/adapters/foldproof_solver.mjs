@@ -28,6 +28,8 @@ export class Solver {
   set_state(x, v) { this.x = x; this.v = v; }
   forces() { throw new Declined('forces'); }
   damping() { throw new Declined('damping forces'); }
+  /// Of the obstacles, the mean over the last advance.
+  contact_forces() { throw new Declined('contact forces'); }
   energy() { throw new Declined('energy'); }
   /// To be called after each step of a long advance, with the part that is done, 0 to 1: says at
   /// most once a second that the solver is at work, so that it is not taken to hang.
@@ -149,7 +151,8 @@ function answer(solver, header, arrays) {
   if (op === 'advance' || op === 'get_state') return state(solver);
   if (arrays.x) solver.set_state(arrays.x, arrays.v, header.time ?? 0);
   if (op === 'step') { solver.advance(dt, 1); return state(solver); }
-  if (op === 'forces' || op === 'damping') return [{}, { f: vectors(solver, solver[op]()) }];
+  if (['forces', 'damping', 'contact_forces'].includes(op))
+    return [{}, { f: vectors(solver, solver[op]()) }];
   if (op === 'energy') return [{ energy: solver.energy() }];
   throw new Declined(`operation '${op}'`);
 }

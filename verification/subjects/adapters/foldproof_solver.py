@@ -120,6 +120,10 @@ class Solver:
     def damping(self) -> np.ndarray:
         raise Declined("damping forces")
 
+    def contact_forces(self) -> np.ndarray:
+        """Of the obstacles, the mean over the last `advance`."""
+        raise Declined("contact forces")
+
     def energy(self) -> float:
         raise Declined("energy")
 
@@ -205,7 +209,7 @@ def answer(
     if operation == "step":
         solver.advance(header["dt"], 1)
         return {}, state_of(solver)
-    if operation in ("forces", "damping"):
+    if operation in ("forces", "damping", "contact_forces"):
         return {}, {"f": np.asarray(getattr(solver, operation)(), TYPES[solver.precision])}
     if operation == "energy":
         return {"energy": float(solver.energy())}, {}

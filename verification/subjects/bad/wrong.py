@@ -31,9 +31,11 @@ import limits  # noqa: E402, F401
 import moving  # noqa: E402, F401
 import obstacles  # noqa: E402
 import processes  # noqa: E402
+import read_contact  # noqa: E402, F401
 import scaled  # noqa: E402
 import several  # noqa: E402, F401
 import stated  # noqa: E402
+import woven  # noqa: E402, F401
 from foldproof_solver import Scene, serve  # noqa: E402
 from materials import Bends  # noqa: E402
 from schemes import Single  # noqa: E402

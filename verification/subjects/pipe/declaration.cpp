@@ -72,7 +72,9 @@ constexpr const char* known_capabilities[] = {"set_state",      "held",
                                               "bodies",         "deforming_bodies",
                                               "moving_held",    "moving_obstacles",
                                               "materials",      "layer_friction",
-                                              "strain_limits",  "air"};
+                                              "strain_limits",  "air",
+                                              "contact_forces", "material_friction",
+                                              "membrane"};
 constexpr size_t of_protocol_1 = 10;
 
 /// A misspelt one would be believed, and its laws never asked.

@@ -244,6 +244,10 @@ PerParticle3 PipedSolver::damping(const Snapshot& state, double time) {
   return impl_->ask_forces(impl_->about("damping", state, time));
 }
 
+PerParticle3 PipedSolver::contact_forces() {
+  return impl_->ask_forces(impl_->request_of("contact_forces"));
+}
+
 double PipedSolver::energy(const Snapshot& state, double time) {
   const Answer answer = impl_->ask(impl_->about("energy", state, time), {});
   return number_of(answer.header, "energy", nan);

@@ -63,6 +63,9 @@ class PipedSolver {
   PerParticle3 damping(const Snapshot& state, double time);  // [N], 3 x N
   double energy(const Snapshot& state, double time);         // potential [J]
 
+  /// Mean forces of the obstacles on the particles during the last advance or step [N], 3 x N.
+  PerParticle3 contact_forces();
+
   /// The states after these numbers of steps of scene.dt, ascending.
   std::vector<Snapshot> run(const PortableScene& scene, const std::vector<long>& frames);
 

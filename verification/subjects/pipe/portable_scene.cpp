@@ -51,6 +51,7 @@ PortableElements elements_of(const PortableScene& scene) {
 
 std::vector<std::string> needed_by(const PortableScene& scene) {
   const auto is_damped = [](const PortableMaterial& m) { return m.stretch_damping > 0; };
+  const auto rubs = [](const PortableMaterial& m) { return m.friction.has_value(); };
   const std::pair<const char*, bool> parts[] = {
       {"held", !scene.held.empty()},
       {"masses", scene.own_masses},
@@ -68,7 +69,9 @@ std::vector<std::string> needed_by(const PortableScene& scene) {
       {"moving_obstacles", any_moves(scene)},
       {"strain_limits", scene.strain_limits.has_value()},
       {"air", scene.air.has_value()},
-      {"materials", !scene.materials.empty()}};
+      {"materials", !scene.materials.empty()},
+      {"membrane", !scene.warp.empty()},
+      {"material_friction", std::ranges::any_of(scene.materials, rubs)}};
   std::vector<std::string> needed;
   for (const auto& [capability, is_there] : parts)
     if (is_there) needed.emplace_back(capability);

@@ -12,6 +12,14 @@
 
 namespace foldproof {
 
+/// Stretch and shear of triangles that are stiffer along the warp, as in
+/// reference/beyond/membrane.h; for capability "membrane".
+struct PortableMembrane {
+  double warp, weft, shear;  // E1, E2, G [N/m]
+  double poisson;            // nu12 [1]
+  double damping = 0;        // stress of a strain rate over stress of a strain [s]
+};
+
 /// The constants of the sheet, from which an adapter takes what its engine needs.
 struct PortableMaterial {
   double density = 0.2;          // area density [kg/m^2]
@@ -20,6 +28,9 @@ struct PortableMaterial {
   double stretch_damping = 0;    // of the springs: force per rate of strain [N s/m]
   double bending_damping = 0;    // [N s]
   double rest_length_scale = 1;  // rest lengths over those of the rest shape [1]
+  // mu against obstacles in place of theirs, for capability "material_friction"; none: theirs [1]
+  std::optional<double> friction = {};
+  std::optional<PortableMembrane> membrane = {};  // beside the springs, if any
 };
 
 /// An obstacle moves from where it is described to R X + T of its poses; without keys it stands
@@ -111,8 +122,9 @@ struct PortableScene {
   // several instead of `material`, which is the first; of each triangle its place in the list
   std::vector<PortableMaterial> materials = {};
   std::vector<int> material_of_triangle = {};
-  bool own_masses = false;     // masses are other than the density's
-  std::string extension = {};  // JSON for solvers that know it; "" for none
+  std::vector<Vector3> warp = {};  // M, of length 1, in the rest triangle; with a membrane
+  bool own_masses = false;         // masses are other than the density's
+  std::string extension = {};      // JSON for solvers that know it; "" for none
 };
 
 /// The elements' own numbers, by the materials of their triangles. Where two meet, an edge has

@@ -32,12 +32,20 @@ auto span_of(const Values& v) {
 }
 
 json material_json(const PortableMaterial& m) {
-  return {{"density", m.density},
-          {"young", m.young},
-          {"bending_rigidity", m.bending_rigidity},
-          {"stretch_damping", m.stretch_damping},
-          {"bending_damping", m.bending_damping},
-          {"rest_length_scale", m.rest_length_scale}};
+  json all = {{"density", m.density},
+              {"young", m.young},
+              {"bending_rigidity", m.bending_rigidity},
+              {"stretch_damping", m.stretch_damping},
+              {"bending_damping", m.bending_damping},
+              {"rest_length_scale", m.rest_length_scale}};
+  if (m.friction) all["friction"] = *m.friction;
+  if (const auto& membrane = m.membrane)
+    all["membrane"] = {{"warp", membrane->warp},
+                       {"weft", membrane->weft},
+                       {"shear", membrane->shear},
+                       {"poisson", membrane->poisson},
+                       {"damping", membrane->damping}};
+  return all;
 }
 
 /// The obstacles of a kind in the message, and their motions as arrays: of the k-th that moves,
@@ -131,6 +139,11 @@ void add_more(const PortableScene& scene, Request& request) {
                         {"normal_drag", air->normal_drag},
                         {"tangential_drag", air->tangential_drag}};
   if (!scene.materials.empty()) add_materials(scene, request);
+  if (!scene.warp.empty()) {
+    PerParticle3 warp(3, Eigen::Index(scene.warp.size()));
+    for (size_t t = 0; t < scene.warp.size(); ++t) warp.col(Eigen::Index(t)) = scene.warp[t];
+    request.add("warp", warp);
+  }
   if (!scene.moving_held.times.empty())
     add_frames("held", "_x", scene.moving_held.times, scene.moving_held.x, request);
 }

@@ -1,5 +1,6 @@
 #include "verification/subjects/served/reference_server.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <memory>
 #include <utility>
@@ -27,13 +28,27 @@ Json counted(const Work& work) {
   return counts;
 }
 
-const std::vector<std::string> every_capability = {
-    "set_state",        "held",        "masses",
-    "history",          "planes",      "boxes",
-    "spheres",          "capsules",    "bodies",
-    "deforming_bodies", "damping",     "self_collision",
-    "layer_friction",   "moving_held", "materials",
-    "strain_limits",    "air",         "moving_obstacles"};
+const std::vector<std::string> every_capability = {"set_state",
+                                                   "held",
+                                                   "masses",
+                                                   "history",
+                                                   "planes",
+                                                   "boxes",
+                                                   "spheres",
+                                                   "capsules",
+                                                   "bodies",
+                                                   "deforming_bodies",
+                                                   "damping",
+                                                   "self_collision",
+                                                   "layer_friction",
+                                                   "moving_held",
+                                                   "materials",
+                                                   "strain_limits",
+                                                   "air",
+                                                   "moving_obstacles",
+                                                   "contact_forces",
+                                                   "material_friction",
+                                                   "membrane"};
 
 /// The reference keeps the states that its integrator looks back on; a state that is
 /// set forgets them.
@@ -45,6 +60,7 @@ struct ReferenceSolver : foldproof_solver::Solver {
   MeshSequence path;  // of the held particles
   int history = 1;
   Work counts;
+  Numbers contact;  // mean forces of the obstacles in the last advance [N]
 
   explicit ReferenceSolver(const ServedReference& s) : served(s) {
     const Integrator& integrator = integrator_named(served.integrator);
@@ -62,12 +78,14 @@ struct ReferenceSolver : foldproof_solver::Solver {
     const bool is_own = constants.contains("extension");
     if (!is_own) scene.integrator = served.integrator;
     prepared = subject.prepare(scene);
+    record_contact(*prepared);
     path = is_own ? MeshSequence{} : held_path(message);
     if (constants.at("own_masses")) give_masses(message.numbers.at("mass"));
     history = integrator_named(scene.integrator).history;
     State start{0, scene.x, scene.v};
     if (!is_own && path.times.empty()) start = start_state(scene);
     set_state(as_rows(start.x), as_rows(start.v), 0);
+    contact.assign(x.size(), 0);
     return {{"stretch", "a spring per edge, of stiffness Y A_e/L0^2 [N/m]"},
             {"bending", "ke = 4 B [J]: exact on equilateral meshes"},
             {"damping", "kd_s [N s/m] and kd [N s] of the paper"},
@@ -107,8 +125,11 @@ struct ReferenceSolver : foldproof_solver::Solver {
     }
     time = past.back().time;
     x = as_rows(past.back().x), v = as_rows(past.back().v);
+    const PerParticle3 impulses = take_contact_impulses(*prepared);
+    contact = as_rows(impulses / (dt * double(std::max(steps, 1L))));
   }
 
+  Numbers contact_forces() override { return contact; }
   Json work() override { return counted(std::exchange(counts, Work{})); }
   Numbers forces() override { return as_rows(subject.elastic_forces(*prepared, past.back())); }
   Numbers damping() override {
@@ -152,6 +173,7 @@ struct StillSolver : foldproof_solver::Solver {
   Numbers forces() override { return Numbers(x.size()); }
   Numbers damping() override { return Numbers(x.size()); }
   double energy() override { return 0; }
+  Numbers contact_forces() override { return Numbers(x.size()); }
 };
 
 void require_pipe() {

@@ -232,12 +232,19 @@ BendingMaterial portable_bending(const Json& m) {
   return {4 * m.at("bending_rigidity").get<double>(), m.at("bending_damping")};
 }
 
+MembraneMaterial portable_membrane(const Json& m) {
+  const Json& of = m.at("membrane");
+  return {of.at("warp"), of.at("weft"), of.at("shear"), of.at("poisson"), of.at("damping")};
+}
+
 void read_materials(const Message& message, const Json& materials, Scene& scene) {
   for (const Json& m : materials) {
     ClothFabric fabric;
     fabric.density = m.at("density");
     fabric.stretch = portable_stretch(m);
     fabric.bending = portable_bending(m);
+    fabric.friction = m.value("friction", fabric.friction);
+    if (m.contains("membrane")) fabric.membrane = portable_membrane(m);
     scene.fabrics.fabrics.push_back(std::move(fabric));
   }
   scene.fabrics.of_triangle = message.integers.at("material_of_triangle");
@@ -263,7 +270,12 @@ void read_material(const Message& message, Scene& scene) {
   };
   scene.density = m.at("density");
   scene.gravity = vector_of(constants.at("gravity"));
-  scene.stretch = portable_stretch(m);
+  const auto has_springs = [](const Json& one) {
+    return one.at("young") > 0 || one.at("stretch_damping") > 0;
+  };
+  if (m.contains("membrane")) scene.membrane = portable_membrane(m);
+  if (!scene.membrane || std::any_of(materials.begin(), materials.end(), has_springs))
+    scene.stretch = portable_stretch(m);
   if (std::any_of(materials.begin(), materials.end(), bends)) scene.bending = portable_bending(m);
   if (constants.contains("materials")) read_materials(message, materials, scene);
   if (constants.contains("air")) {
@@ -277,9 +289,24 @@ void read_material(const Message& message, Scene& scene) {
     scene.prescribed.push_back({i, Vector3(scene.x.col(i)), Motion{}});
 }
 
+/// Where warps are given, each triangle is cut from a pattern whose first axis is its warp.
 TriangleMesh mesh_of(const Message& message) {
-  return make_triangle_mesh(as_columns(message.numbers.at("rest")),
-                            triangles_of(message.integers.at("triangles")));
+  TriangleMesh mesh = make_triangle_mesh(as_columns(message.numbers.at("rest")),
+                                         triangles_of(message.integers.at("triangles")));
+  const auto warps = message.numbers.find("warp");
+  if (warps == message.numbers.end()) return mesh;
+  const PerParticle3 warp = as_columns(warps->second);
+  for (size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto [i, j, k] = mesh.triangles[t];
+    const Vector3 one = mesh.rest.col(j) - mesh.rest.col(i),
+                  other = mesh.rest.col(k) - mesh.rest.col(i);
+    const Vector3 along = warp.col(Eigen::Index(t)), across = one.cross(other).cross(along);
+    const auto flat = [&, unit = across.normalized().eval()](const Vector3& d) {
+      return Eigen::Vector2d(d.dot(along), d.dot(unit));
+    };
+    mesh.pattern.push_back({Eigen::Vector2d::Zero(), flat(one), flat(other)});
+  }
+  return mesh;
 }
 
 }  // namespace

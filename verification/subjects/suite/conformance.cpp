@@ -82,6 +82,16 @@ void put_materials(PortableScene& s) {
   s.materials = {s.material, s.material};
   s.material_of_triangle.resize(s.mesh.triangles.size(), 1);
 }
+void rub_by_material(PortableScene& s) {
+  put_plane(s), put_materials(s);
+  s.materials[1].friction = 0.5;
+}
+void weave(PortableScene& s) {
+  s.material.membrane = {5, 4, 1, 0.2};
+  s.material.young = 0;
+  for (const Triangle& t : s.mesh.triangles)
+    s.warp.push_back((s.mesh.rest.col(t[1]) - s.mesh.rest.col(t[0])).normalized());
+}
 void limit_strain(PortableScene& s) { s.strain_limits = {0.1, 0.1}; }
 void put_air(PortableScene& s) { s.air = {1.2, Vector3(1, 0, 0), 1.17, 0.02}; }
 void rub_layers(PortableScene& s) { s.thickness = 0.01, s.layer_friction = 0.3; }
@@ -101,6 +111,15 @@ std::string tune(PipedSolver& solver) {
   }
   solver.tune({});
   return names;
+}
+
+std::string read_contact(PipedSolver& solver) {
+  PortableScene scene = suite::small_sheet();
+  put_plane(scene);
+  solver.prepare(scene);
+  solver.advance(scene.dt, 1);
+  solver.contact_forces();
+  return "";
 }
 
 std::string ask_declined(PipedSolver& solver) {
@@ -135,9 +154,12 @@ std::vector<Demand> all_demands() {
       meets("a sheet on a moving plane is moved", "moving_obstacles", put_moving),
       meets("a sheet with a led corner is moved", "moving_held", lead_corner),
       meets("a sheet of two materials is moved", "materials", put_materials),
+      meets("a sheet of a material with friction is moved", "material_friction", rub_by_material),
+      meets("a woven sheet is moved", "membrane", weave),
       meets("a sheet with strain limits is moved", "strain_limits", limit_strain),
       meets("a sheet in air is moved", "air", put_air),
       meets("a sheet with friction of layers is moved", "layer_friction", rub_layers),
+      {"contact forces are returned", 1, "contact_forces", read_contact},
       {"scenes set the tunables", 1, "", tune},
       {"stop is answered, and nothing else is sent", 0, "",
        [](PipedSolver& s) { return s.stop(), std::string(); }},
