@@ -128,7 +128,8 @@ Subject reference_subject() {
   subject.avoid_itself = filter_velocity<SelfCollision>;
   subject.step = [](PreparedScene& prepared, std::span<const State> past, double dt, Work& work) {
     auto& reference = static_cast<PreparedReferenceScene&>(prepared);
-    reference.lasting = lasting_change(reference.integrator, past, dt);
+    if (reference.impulses.size() > 0)
+      reference.lasting = lasting_change(reference.integrator, past, dt);
     if (!sticks(reference.system))
       return reference.integrator.step(reference.system, past, dt, work);
     std::vector<State> begun(past.begin(), past.end());

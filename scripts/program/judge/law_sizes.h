@@ -99,7 +99,7 @@ constexpr LawSize law_sizes[] = {
     {"contact.stops-without-rebound", 3, 51, 10, 510},
     {"contact.stuck-sheet-does-not-creep", 2, 2300, 10, 2.3e+04},
     {"contact.surface-is-where-the-scene-says", 1, 40, 10, 400},
-    {"cost.growth-is-below-quadratic", 6, 1419, 16705, 3.741e+05},
+    {"cost.growth-is-below-quadratic", 6, 2203, 16705, 1.346e+06},
     {"damping.edges-damp-in-proportion-to-their-stiffness", 5, 50, 52, 2600},
     {"damping.edges-of-held-particles-damp-as-the-others", 5, 50, 52, 2600},
     {"damping.folded-hinges-are-damped", 8, 32, 4, 128},
