@@ -52,7 +52,8 @@ TEST_CASE("subject: forces of contact that are read wrongly are found") {
   require_found({"reads_forces_on_obstacles"}, read, {balance, each, coulomb});
   require_found({"reads_normal_forces"}, read, {balance, coulomb});
   require_found({"reads_the_mean"}, read, {each});
-  require_found({"reads_a_penalty"}, read, {balance, each, coulomb});
+  require_found({"reads_a_penalty"}, read, {balance, each, coulomb, apart});
+  require_found({"reads_the_scene_before"}, read, {apart});
   require_found({"reads_for_ever"}, read, {balance, each, coulomb, apart});
 }
 
@@ -60,17 +61,22 @@ TEST_CASE("subject: materials that rub wrongly are found") {
   const std::string own = "materials.rub-by-their-own-coefficient";
   require_found({"rubs_by_material"}, {own}, {});
   for (const char* wrong :
-       {"rubs_by_planes_alone", "rubs_by_the_mean", "rubs_by_the_first", "rubs_by_material_alone"})
+       {"rubs_by_obstacles_alone", "rubs_by_the_mean", "rubs_by_the_first",
+        "rubs_by_material_alone", "rubs_by_material_on_planes_alone", "rubs_unless_zero"})
     require_found({wrong}, {own}, {own});
 }
 
 TEST_CASE("subject: cloth that is woven wrongly is found") {
   const std::string pulls = "membrane.pulls-as-warp-and-weft-say";
-  require_found({"woven"}, {pulls}, {});
+  require_found({"woven"}, {"membrane"}, {});
   for (const char* wrong :
        {"woven_across", "woven_along_x", "woven_without_narrowing", "woven_alike",
-        "woven_of_half_the_shear", "woven_undamped", "woven_in_its_first_plane"})
+        "woven_of_half_the_shear", "woven_undamped", "woven_in_its_first_plane",
+        "woven_as_the_first_triangle", "woven_of_one_poisson_ratio"})
     require_found({wrong}, {pulls}, {pulls});
+  require_found({"woven_without_springs"}, {"membrane"}, {"membrane.acts-beside-springs"});
+  require_found({"woven_of_the_first_material"}, {"membrane"},
+                {"membrane.each-material-has-its-own"});
 }
 
 TEST_CASE("subject: a solver of protocol 1 is served, and gets no capability of protocol 2") {

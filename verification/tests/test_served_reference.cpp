@@ -96,6 +96,17 @@ TEST_CASE("serves the reference", "[.]") {  // started by the others
   serve_reference({std::getenv("SERVED"), std::getenv("PRECISION") == std::string("f4")});
 }
 
+TEST_CASE("served reference: forces of contact balance the momentum in every integrator") {
+  for (const Integrator& integrator : integrators()) {
+    INFO(integrator.name);
+    const auto is_balance = [](const std::string& law) {
+      return law == "contact-forces.balance-the-momentum";
+    };
+    const auto records = served_records(serve(std::string(integrator.name)), is_balance);
+    CHECK(records.at(0).outcome == Outcome::holds);
+  }
+}
+
 TEST_CASE("served reference: every integrator gives the same bits over the pipe") {
   const Subject here = reference_subject(), there = piped_reference(serve());
   for (const Integrator& integrator : integrators()) {

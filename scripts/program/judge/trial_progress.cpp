@@ -162,21 +162,12 @@ void TrialProgress::dump(const Law& law, const PortableScene& scene, long steps,
 
 void TrialProgress::end_dump() {
   if (dumped_.number == 0) return;
-  const PortableScene& scene = dumped_.scene;
   Request request;
-  add_scene(scene, {}, request);
-  const std::vector<double> mass(scene.mass.begin(), scene.mass.end());
-  const nlohmann::json answer = {
+  add_scene(dumped_.scene, {}, request);
+  nlohmann::json file = lists_of(request);
+  file["scene"] = request.header["scene"];
+  file["answer"] = {
       {"steps", dumped_.steps}, {"x", rows_of(dumped_.now.x)}, {"v", rows_of(dumped_.now.v)}};
-  const nlohmann::json file = {{"scene", request.header["scene"]},
-                               {"triangles", scene.mesh.triangles},
-                               {"rest", rows_of(scene.mesh.rest)},
-                               {"x", rows_of(scene.x)},
-                               {"v", rows_of(scene.v)},
-                               {"mass", mass},
-                               {"held", scene.held},
-                               {"rest_angles", scene.rest_angles},
-                               {"answer", answer}};
   const std::string folder = options_.dump + "/" + dumped_.law;
   std::filesystem::create_directories(folder);
   write_text(fmt::format("{}/{:03}.json", folder, dumped_.number), file.dump() + "\n");

@@ -2,15 +2,21 @@
 from __future__ import annotations
 
 import numpy as np
-from contact import OnPlanes
 from foldproof_solver import Scene
-from moving import Follows
+from moving import Follows, FollowsBoxes
 
 
 class ReadsContact(Follows):
     """The impulses of all planes over the time of an `advance`."""
 
     capabilities = (*Follows.capabilities, "contact_forces")
+
+    def alter(self, scene: Scene) -> None:
+        super().alter(scene)
+        self.forget()
+
+    def forget(self) -> None:
+        self.impulses, self.seconds = [np.zeros_like(self.x)], 1.0
 
     def advance(self, dt: float, steps: int) -> None:
         self.impulses, self.seconds = [np.zeros_like(self.x)], dt * steps
@@ -82,44 +88,69 @@ class ReadsForEver(ReadsContact):
         return np.tile(ReadsForEver.sums, (len(self.x), 1))
 
 
-class RubsByMaterial(Follows):
-    """A material's own coefficient in place of the plane's."""
+class ReadsTheSceneBefore(ReadsContact):
+    """Until the first step what was read in another scene of as many particles stays."""
 
-    capabilities = (*Follows.capabilities, "material_friction")
+    def forget(self) -> None:
+        if len(getattr(self, "impulses", [[]])[0]) != len(self.x):
+            super().forget()
+
+
+class RubsByMaterial(FollowsBoxes):
+    """A material's own coefficient in place of the obstacle's."""
+
+    capabilities = (*FollowsBoxes.capabilities, "material_friction")
 
     def alter(self, scene: Scene) -> None:
         super().alter(scene)
         self.own = np.full(len(self.x), np.nan)
-        for k, material in enumerate(scene.header["scene"].get("materials", [])):
+        materials = scene.header["scene"].get("materials", [])
+        self.first = materials[0].get("friction", np.nan) if materials else np.nan
+        for k, material in enumerate(materials):
             of = scene.triangles[scene.material_of_triangle == k]
             self.own[of] = material.get("friction", np.nan)
 
     def respond(self, plane: dict) -> None:
-        OnPlanes.respond(self, {**plane, "friction": self.both(plane["friction"])})
+        super().respond({**plane, "friction": self.both(plane["friction"])})
 
-    def both(self, of_plane: float) -> np.ndarray:
-        return np.where(np.isnan(self.own), of_plane, self.own)
+    def leave(self, box: dict) -> None:
+        super().leave({**box, "friction": self.both(box["friction"])})
+
+    def both(self, of_obstacle: float) -> np.ndarray:
+        return np.where(np.isnan(self.own), of_obstacle, self.own)
 
 
-class RubsByPlanesAlone(RubsByMaterial):
-    def both(self, of_plane: float) -> np.ndarray:
-        return np.full_like(self.own, of_plane)
+class RubsByMaterialOnPlanesAlone(RubsByMaterial):
+    def leave(self, box: dict) -> None:
+        FollowsBoxes.leave(self, box)
+
+
+class RubsUnlessZero(RubsByMaterial):
+    """A coefficient of 0 is taken to be none."""
+
+    def both(self, of_obstacle: float) -> np.ndarray:
+        return np.where(self.own > 0, super().both(of_obstacle), of_obstacle)
+
+
+class RubsByObstaclesAlone(RubsByMaterial):
+    def both(self, of_obstacle: float) -> np.ndarray:
+        return np.full_like(self.own, of_obstacle)
 
 
 class RubsByTheMean(RubsByMaterial):
-    def both(self, of_plane: float) -> np.ndarray:
-        return (super().both(of_plane) + of_plane) / 2
+    def both(self, of_obstacle: float) -> np.ndarray:
+        return (super().both(of_obstacle) + of_obstacle) / 2
 
 
 class RubsByTheFirst(RubsByMaterial):
-    """Of the first material, whatever the triangle."""
+    """All triangles have the first material's coefficient."""
 
-    def both(self, of_plane: float) -> np.ndarray:
-        return np.full_like(self.own, super().both(of_plane)[0])
+    def both(self, of_obstacle: float) -> np.ndarray:
+        return np.full_like(self.own, self.first)
 
 
 class RubsByMaterialAlone(RubsByMaterial):
     """A material without a coefficient does not rub."""
 
-    def both(self, of_plane: float) -> np.ndarray:
+    def both(self, of_obstacle: float) -> np.ndarray:
         return np.nan_to_num(self.own)

@@ -63,25 +63,24 @@ std::vector<std::string> texts_of(const json& header, const char* key) {
   return texts;
 }
 
-/// Those of protocol 1 come first.
-constexpr const char* known_capabilities[] = {"set_state",      "held",
-                                              "masses",         "damping",
-                                              "planes",         "boxes",
-                                              "spheres",        "capsules",
-                                              "self_collision", "history",
-                                              "bodies",         "deforming_bodies",
-                                              "moving_held",    "moving_obstacles",
-                                              "materials",      "layer_friction",
-                                              "strain_limits",  "air",
-                                              "contact_forces", "material_friction",
-                                              "membrane"};
+constexpr const char* all_capabilities[] = {"set_state",      "held",
+                                            "masses",         "damping",
+                                            "planes",         "boxes",
+                                            "spheres",        "capsules",
+                                            "self_collision", "history",
+                                            "bodies",         "deforming_bodies",
+                                            "moving_held",    "moving_obstacles",
+                                            "materials",      "layer_friction",
+                                            "strain_limits",  "air",
+                                            "contact_forces", "material_friction",
+                                            "membrane"};
 constexpr size_t of_protocol_1 = 10;
 
 /// A misspelt one would be believed, and its laws never asked.
 std::vector<std::string> capabilities_of(const json& header, int protocol) {
   const std::vector<std::string> declared = texts_of(header, "capabilities");
-  const std::span known(known_capabilities,
-                        protocol == 1 ? of_protocol_1 : std::size(known_capabilities));
+  const std::span known =
+      protocol == 1 ? known_capabilities().first(of_protocol_1) : known_capabilities();
   for (const std::string& one : declared)
     if (std::ranges::find(known, one) == known.end())
       throw SolverFailure(
@@ -169,8 +168,10 @@ Declaration read_declaration(const json& header) {
   return declared;
 }
 
+std::span<const char* const> known_capabilities() { return all_capabilities; }
+
 bool Declaration::offers(const std::string& capability) const {
-  if (std::ranges::find(known_capabilities, capability) == std::end(known_capabilities))
+  if (std::ranges::find(known_capabilities(), capability) == known_capabilities().end())
     throw std::logic_error("a law needs '" + capability + "', which is no capability");
   return std::ranges::find(capabilities, capability) != capabilities.end();
 }

@@ -1,6 +1,7 @@
 // A solver's description of itself, and what else the header of an answer may say.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,9 @@ struct Declaration {
   bool offers(const std::string& capability) const;
   double rounding() const;  // the distance from 1 to the next number of its precision
 };
+
+/// The names of all capabilities; those of protocol 1 come first.
+std::span<const char* const> known_capabilities();
 
 /// Of the answer to `start`. Throws SolverFailure "header" for what no protocol has.
 Declaration read_declaration(const nlohmann::json& header);

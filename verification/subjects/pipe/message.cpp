@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 namespace foldproof {
 
@@ -27,6 +28,19 @@ long count_of(const WantedArray& array) {
   long count = 1;
   for (const long extent : array.shape) count *= extent;
   return count;
+}
+
+/// Numbers from `at` on, which moves behind them, in lists of this shape.
+template <class Number>
+nlohmann::json nested(const char*& at, std::span<const long> shape) {
+  if (shape.empty()) {
+    Number value;
+    std::memcpy(&value, std::exchange(at, at + sizeof value), sizeof value);
+    return value;
+  }
+  nlohmann::json list = nlohmann::json::array();
+  for (long k = 0; k < shape[0]; ++k) list.push_back(nested<Number>(at, shape.subspan(1)));
+  return list;
 }
 
 /// "particle 5, x coordinate, of array 'x'"; of several frames: which one, too.
@@ -80,6 +94,17 @@ void require_array(const nlohmann::json& entry, const WantedArray& wanted,
 }
 
 }  // namespace
+
+nlohmann::json lists_of(const Request& request) {
+  nlohmann::json lists = nlohmann::json::object();
+  const char* at = request.bytes.data();
+  for (const nlohmann::json& entry : request.header.at("arrays")) {
+    const std::vector<long> shape = entry.at("shape");
+    lists[entry.at("name").get<std::string>()] =
+        entry.at("type") == "i4" ? nested<int>(at, shape) : nested<double>(at, shape);
+  }
+  return lists;
+}
 
 void Request::add(const char* name, const PerParticle3& values) {
   append(*this, name, "f8", {long(values.cols()), 3},

@@ -24,6 +24,9 @@ struct Request {
   void add(const char* name, std::span<const double> values, std::vector<long> shape);  // f8
 };
 
+/// The arrays of a request by name, as nested lists.
+nlohmann::json lists_of(const Request& request);
+
 /// An array that an answer must hold, in the solver's precision.
 struct WantedArray {
   std::string name;

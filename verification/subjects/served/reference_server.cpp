@@ -9,6 +9,7 @@
 #include "reference/dynamics/integrator.h"
 #include "verification/subjects/reference_subject.h"
 #include "verification/files/content_key.h"
+#include "verification/subjects/pipe/declaration.h"
 #include "verification/subjects/served/scene_message.h"
 
 namespace foldproof {
@@ -28,28 +29,6 @@ Json counted(const Work& work) {
   return counts;
 }
 
-const std::vector<std::string> every_capability = {"set_state",
-                                                   "held",
-                                                   "masses",
-                                                   "history",
-                                                   "planes",
-                                                   "boxes",
-                                                   "spheres",
-                                                   "capsules",
-                                                   "bodies",
-                                                   "deforming_bodies",
-                                                   "damping",
-                                                   "self_collision",
-                                                   "layer_friction",
-                                                   "moving_held",
-                                                   "materials",
-                                                   "strain_limits",
-                                                   "air",
-                                                   "moving_obstacles",
-                                                   "contact_forces",
-                                                   "material_friction",
-                                                   "membrane"};
-
 /// The reference keeps the states that its integrator looks back on; a state that is
 /// set forgets them.
 struct ReferenceSolver : foldproof_solver::Solver {
@@ -67,7 +46,7 @@ struct ReferenceSolver : foldproof_solver::Solver {
     declared.name = subject.name, declared.version = subject.version;
     declared.level = "L2", declared.precision = served.is_single ? "f4" : "f8";
     declared.scheme = integrator.title, declared.order = integrator.order;
-    declared.capabilities = every_capability;
+    declared.capabilities.assign(known_capabilities().begin(), known_capabilities().end());
     declared.solve_tolerance =
         integrator.family == Family::fully_explicit ? 0 : SolverSettings{}.tolerance;
   }
@@ -163,7 +142,7 @@ struct StillSolver : foldproof_solver::Solver {
   StillSolver() {
     declared.name = "still", declared.version = "1", declared.level = "L2";
     declared.precision = "f8", declared.scheme = "none", declared.order = 2;
-    declared.capabilities = every_capability;
+    declared.capabilities.assign(known_capabilities().begin(), known_capabilities().end());
   }
   foldproof_solver::Mapping prepare(const foldproof_solver::Scene& message) override {
     set_state(message.numbers.at("x"), message.numbers.at("v"), 0);

@@ -15,7 +15,6 @@ using namespace suite;
 //  .-.-.-.-.-.-.-.-o-.-.-.-.-.-.-.-.    -> y     A strip hangs over its middle row, which is held.
 //                                                By symmetry each half is clamped level there.
 constexpr StripShape coarse{3, 16, 0.04}, fine{3, 32, 0.02};  // m
-constexpr double weight = 9.81;                               // m/s^2
 // rho g L^3/B of the scenes [1]: the tip hangs 0.70 L low, and from 0.0001 L to 0.94 L
 constexpr double gammas[] = {10, 0.001, 0.01, 0.1, 1, 100};
 constexpr double most_rounding = 0.005;  // of the weight's moment [1]

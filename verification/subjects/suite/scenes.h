@@ -12,6 +12,8 @@
 
 namespace foldproof::suite {
 
+constexpr double weight = 9.81;  // of the earth [m/s^2]
+
 /// A number in this interval: the same for the same words and the same seed (`--seed`; official
 /// results use 0), so that no solver can be tuned to a scene's values.
 double drawn(std::string_view what, double least, double most);

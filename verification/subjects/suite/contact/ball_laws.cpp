@@ -9,9 +9,8 @@ namespace {
 
 using namespace suite;
 
-constexpr double weight = 9.81;  // m/s^2
-constexpr double radius = 0.3;   // m
-constexpr double gap = 0.2;      // m, that the sheet falls before it meets the ball
+constexpr double radius = 0.3;  // m
+constexpr double gap = 0.2;     // m, that the sheet falls before it meets the ball
 
 /// A level sheet of 8 x 8 cells, its middle above the ball's.
 PortableScene sheet_over_a_ball() {

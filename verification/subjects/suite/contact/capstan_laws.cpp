@@ -10,7 +10,6 @@ namespace {
 
 using namespace suite;
 
-constexpr double weight = 9.81;          // m/s^2
 constexpr double radius = 0.2;           // m, of the capsule
 constexpr double edge = 0.04;            // m, of each of the strip's cells: it is one cell wide
 constexpr int cells = 24;                // 16 of them on the capsule

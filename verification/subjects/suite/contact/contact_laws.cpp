@@ -10,7 +10,6 @@ namespace {
 using namespace suite;
 
 constexpr long steps = 50;
-constexpr double weight = 9.81;  // m/s^2
 constexpr double degree = pi / 180;
 
 Finding rests_on_the_plane(Trial& trial) {

@@ -8,8 +8,6 @@ namespace {
 
 using namespace suite;
 
-constexpr double weight = 9.81;  // m/s^2
-
 /// A sheet at rest, and an obstacle that it meets after a fall.
 struct Drop {
   PortableScene scene;

@@ -9,8 +9,6 @@
 
 namespace foldproof::suite {
 
-constexpr double weight = 9.81;  // m/s^2
-
 /// How far from an obstacle cloth may rest, into it and off it [m]; every law of this page that
 /// judges a distance takes it from here.
 struct Allowance {

@@ -75,4 +75,9 @@ PortableMotion straight(const Vector3& velocity, double end) {
   return {{{0, {}}, {end, {Eigen::Quaterniond::Identity(), end * velocity}}}};
 }
 
+PortableMotion Carrier::standing() const {
+  if (capability != std::string("deforming_bodies")) return {};
+  return straight(Vector3::Zero(), 1);
+}
+
 }  // namespace foldproof::suite

@@ -7,18 +7,21 @@
 
 namespace foldproof::suite {
 
-constexpr double weight = 9.81;  // m/s^2
-
 /// An obstacle whose top is at z = 0 under the sheet.
 struct Carrier {
   const char* capability;
   void (*put)(PortableScene&, double friction, const PortableMotion&);
+
+  /// The motion of one that stands still; frames of what deforms need times.
+  PortableMotion standing() const;
 };
 
 const std::array<Carrier, 6>& carriers();
 
+/// The sheet lies on z = 0 about the origin; gravity is that of the earth.
 PortableScene sheet_on_top(const char* name);
 
+/// At constant velocity until a time [m/s], [s].
 PortableMotion straight(const Vector3& velocity, double end);
 
 /// Throws NotOffered if the solver has none of them.
